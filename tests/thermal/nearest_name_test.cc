@@ -1,0 +1,46 @@
+#include "thermal/nearest_name.h"
+
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace thermotwin::thermal {
+namespace {
+
+TEST(EditDistance, CountsInsertDeleteReplaceAndSwap) {
+  EXPECT_EQ(edit_distance("bearing", "bearing"), 0);
+  EXPECT_EQ(edit_distance("bearing", "bearings"), 1);
+  EXPECT_EQ(edit_distance("bearing", "bering"), 1);
+  EXPECT_EQ(edit_distance("bearing", "beering"), 1);
+  EXPECT_EQ(edit_distance("bearing", "baering"), 1);
+  EXPECT_EQ(edit_distance("Bearing", "bearing"), 0);
+  EXPECT_EQ(edit_distance("", "abc"), 3);
+}
+
+TEST(EditDistance, IsSymmetric) { EXPECT_EQ(edit_distance("ambient", "ambit"), edit_distance("ambit", "ambient")); }
+
+TEST(NearestName, PrefersEqualLengthAmongEquallyFar) {
+  std::vector<std::string> const known = {"mm", "min"};
+  EXPECT_EQ(nearest_name("mim", known), "min");
+}
+
+TEST(NearestName, OfNothingIsEmpty) { EXPECT_EQ(nearest_name("x", {}), ""); }
+
+TEST(DidYouMean, NamesTheCloseOne) {
+  std::vector<std::string> const known = {"conductance", "capacity"};
+  EXPECT_EQ(did_you_mean("conductence", known), "did you mean 'conductance'?");
+}
+
+TEST(DidYouMean, ListsNearestFirstWhenNoneIsClose) {
+  std::vector<std::string> const known = {"conductance", "mass"};
+  EXPECT_EQ(did_you_mean("xmxxs", known), "known: 'mass', 'conductance'");
+}
+
+TEST(DidYouMean, CutsALongList) {
+  std::vector<std::string> const known(11, "conductance");
+  EXPECT_TRUE(did_you_mean("zzzz", known).ends_with(", …"));
+}
+
+TEST(DidYouMean, SaysThatNothingIsKnown) { EXPECT_EQ(did_you_mean("x", {}), "none is known"); }
+
+}  // namespace
+}  // namespace thermotwin::thermal

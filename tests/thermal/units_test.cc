@@ -1,0 +1,198 @@
+#include "thermal/units.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "thermal/error.h"
+
+namespace thermotwin::thermal {
+namespace {
+
+struct Reading {
+  char const* text;
+  double si;
+  Dimension dimension;
+};
+
+class ReadsQuantity : public testing::TestWithParam<Reading> {};
+
+TEST_P(ReadsQuantity, InSI) {
+  Quantity const quantity = parse_quantity(GetParam().text);
+  EXPECT_DOUBLE_EQ(quantity.value, GetParam().si);
+  EXPECT_EQ(quantity.dimension, GetParam().dimension);
+  EXPECT_FALSE(quantity.absolute_temperature);
+}
+
+constexpr double pi = std::numbers::pi;
+
+INSTANTIATE_TEST_SUITE_P(
+    Units, ReadsQuantity,
+    testing::Values(
+        Reading{"600 mm", 0.6, dimension::length}, Reading{"-3 um", -3e-6, dimension::length},
+        Reading{"3 µm", 3e-6, dimension::length}, Reading{"+5 cm", 0.05, dimension::length},
+        Reading{"600mm", 0.6, dimension::length}, Reading{"8000 mm/min", 8.0 / 60.0, dimension::speed},
+        Reading{"0.2 K", 0.2, dimension::temperature_difference}, Reading{"9 W/K", 9.0, dimension::conductance},
+        Reading{"8 W/(m2 K)", 8.0, dimension::film_coefficient},
+        Reading{"8 W/(m²·K)", 8.0, dimension::film_coefficient}, Reading{"8 W/m^2/K", 8.0, dimension::film_coefficient},
+        Reading{"8 W*m^-2*K^-1", 8.0, dimension::film_coefficient},
+        Reading{"6000 rpm", 200.0 * pi, dimension::angular_speed}, Reading{"50 Hz", 50.0, dimension::angular_speed},
+        Reading{"90 deg", pi / 2.0, dimension::angle}, Reading{"1e-4 1/K", 1e-4, dimension::expansion},
+        Reading{"11.8 um/(m K)", 11.8e-6, dimension::expansion}, Reading{"12 ppm/K", 12e-6, dimension::expansion},
+        Reading{"25 %", 0.25, dimension::dimensionless}, Reading{"0.8", 0.8, dimension::dimensionless},
+        Reading{"1.2 kN/um", 1.2e9, dimension::stiffness}, Reading{"0.45 N m", 0.45, dimension::torque},
+        Reading{"8 L/min", 8e-3 / 60.0, dimension::volume_flow}, Reading{"10 mm2/s", 1e-5, dimension::viscosity},
+        Reading{"32 cSt", 32e-6, dimension::viscosity}, Reading{"3 K/day", 3.0 / 86400.0, dimension::temperature_rate},
+        Reading{"15 min", 900.0, dimension::time}, Reading{"1.5 K/m", 1.5, dimension::temperature_gradient},
+        Reading{"460 J/(kg K)", 460.0, dimension::specific_heat}, Reading{"7850 kg/m3", 7850.0, dimension::density},
+        Reading{"1 (m/s)^2", 1.0, dimension::latent_heat}, Reading{"0.8 ohm", 0.8, dimension::resistance},
+        Reading{"0.8 Ω", 0.8, dimension::resistance}, Reading{"1.6 N m/A", 1.6, dimension::torque_constant},
+        Reading{"2 bar", 2e5, dimension::pressure}, Reading{"210 GPa", 2.1e11, dimension::stress}));
+
+TEST(ParseQuantity, IsTheDoubleNearestToTheDecimal) {
+  EXPECT_EQ(parse_quantity("250 um").value, 250e-6);
+  EXPECT_EQ(parse_quantity("0.7 mm").value, 0.7e-3);
+  EXPECT_EQ(parse_quantity("36.5 mm").value, 36.5e-3);
+}
+
+TEST(ParseQuantity, MarksDegreesCelsiusAsAPointOnTheScale) {
+  for (char const* text : {"22 degC", "22 °C", " 22degC "}) {
+    Quantity const quantity = parse_quantity(text);
+    EXPECT_DOUBLE_EQ(quantity.value, 295.15);
+    EXPECT_TRUE(quantity.absolute_temperature);
+    EXPECT_EQ(quantity.dimension, dimension::temperature_difference);
+  }
+}
+
+struct Refusal {
+  char const* text;
+  char const* message;
+};
+
+class RefusesQuantity : public testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusesQuantity, WithReason) {
+  try {
+    parse_quantity(GetParam().text);
+    FAIL() << "accepted " << GetParam().text;
+  } catch (InputError const& error) {
+    EXPECT_STREQ(error.what(), GetParam().message);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Units, RefusesQuantity,
+    testing::Values(Refusal{"8000 mm/mim", "'8000 mm/mim': unknown unit 'mim'; did you mean 'min'?"},
+                    Refusal{"1 degc", "'1 degc': unknown unit 'degc'; did you mean 'degC'?"},
+                    Refusal{"8 W/m2 K", "'8 W/m2 K': put what is below the line in parentheses, as in \"8 W/(m2 K)\""},
+                    Refusal{"5 W/degC", "'5 W/degC': degC is a point on the scale; in a compound unit write K"},
+                    Refusal{"8 W/(m2 K", "'8 W/(m2 K': a ')' is missing"}, Refusal{"8 W)", "'8 W)': unexpected ')'"},
+                    Refusal{"8 m/", "'8 m/': the unit ends too early"},
+                    Refusal{"8 m^x", "'8 m^x': an integer is due after '^'"},
+                    Refusal{"8 m9", "'8 m9': an exponent is 1 to 6 or -6 to -1"},
+                    Refusal{"8 m?", "'8 m?': unexpected '?'"}, Refusal{"nan mm", "'nan mm': a finite number is due"},
+                    Refusal{"inf", "'inf': a finite number is due"},
+                    Refusal{"1e999 m", "'1e999 m': beyond what a double holds"},
+                    Refusal{"", "'': a number with a unit is due, for example \"600 mm\""},
+                    Refusal{"mm", "'mm': a number with a unit is due, for example \"600 mm\""}));
+
+std::string refusal(std::string const& text, Dimension expected) {
+  try {
+    parse_value(text, expected);
+  } catch (InputError const& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ParseValue, ReturnsSI) { EXPECT_DOUBLE_EQ(parse_value("9 W/K", dimension::conductance), 9.0); }
+
+TEST(ParseValue, AsksForTheUnitOfABareNumber) {
+  EXPECT_EQ(refusal("600", dimension::length), "600 has no unit; write for example \"600 mm\"");
+}
+
+TEST(ParseValue, NamesBothDimensions) {
+  EXPECT_EQ(refusal("5 W", dimension::conductance), "'5 W' is a power; a conductance is due, for example \"9 W/K\"");
+  EXPECT_EQ(refusal("5 kg m3", dimension::length),
+            "'5 kg m3' is a quantity in m^3 kg; a length is due, for example \"600 mm\"");
+}
+
+TEST(ParseValue, RefusesAPointOnTheScaleForADifference) {
+  EXPECT_EQ(refusal("5 degC", dimension::temperature_difference),
+            "'5 degC' is a point on the temperature scale; a difference is due, for example \"0.2 K\"");
+}
+
+TEST(ParseTemperature, TakesCelsiusAndKelvin) {
+  EXPECT_DOUBLE_EQ(parse_temperature("22 degC"), 295.15);
+  EXPECT_DOUBLE_EQ(parse_temperature("295.15 K"), 295.15);
+}
+
+TEST(ParseTemperature, RefusesWhatIsNone) {
+  EXPECT_THROW(parse_temperature("22"), InputError);
+  EXPECT_THROW(parse_temperature("22 W"), InputError);
+  EXPECT_THROW(parse_temperature("-274 degC"), InputError);
+  EXPECT_NO_THROW(parse_temperature("-273.15 degC"));
+}
+
+TEST(Conversion, GoesBothWays) {
+  EXPECT_DOUBLE_EQ(to_unit(6e-4, "um"), 600.0);
+  EXPECT_DOUBLE_EQ(to_unit(293.15, "degC"), 20.0);
+  EXPECT_DOUBLE_EQ(to_unit(200.0 * pi, "rpm"), 6000.0);
+  EXPECT_DOUBLE_EQ(from_unit(20.0, "degC"), 293.15);
+  EXPECT_DOUBLE_EQ(from_unit(to_unit(0.37, "mm/min"), "mm/min"), 0.37);
+}
+
+TEST(UnitOf, IsWhatMessagesName) {
+  EXPECT_EQ(unit_of(dimension::conductance), "W/K");
+  EXPECT_EQ(unit_of(dimension::angular_speed), "rad/s");
+  EXPECT_EQ(unit_of(Dimension{2, 0, 1, 0, 0}), "m^2 s");
+}
+
+TEST(UnitOf, ParsesBackToItsDimension) {
+  std::vector<Dimension> const known = {
+      dimension::length,       dimension::area,          dimension::volume,        dimension::mass,
+      dimension::time,         dimension::angular_speed, dimension::speed,         dimension::density,
+      dimension::force,        dimension::torque,        dimension::power,         dimension::stiffness,
+      dimension::pressure,     dimension::viscosity,     dimension::volume_flow,   dimension::mass_flow,
+      dimension::expansion,    dimension::conductance,   dimension::conductivity,  dimension::film_coefficient,
+      dimension::heat_flux,    dimension::heat_density,  dimension::heat_capacity, dimension::specific_heat,
+      dimension::latent_heat,  dimension::current,       dimension::voltage,       dimension::resistance,
+      dimension::acceleration, dimension::curvature,     Dimension{2, 0, 1, 0, 0}, dimension::torque_constant};
+  for (Dimension const& d : known) {
+    EXPECT_EQ(dimension_of(unit_of(d)), d) << unit_of(d);
+    EXPECT_EQ(parse_quantity(example_of(d)).dimension, d) << example_of(d);
+    EXPECT_EQ(parse_quantity("1 " + unit_of(d)).value, 1.0) << unit_of(d);
+  }
+}
+
+TEST(FormatQuantity, ReadsWell) {
+  EXPECT_EQ(format_quantity(0.6, dimension::length), "600 mm");
+  EXPECT_EQ(format_quantity(3e-6, dimension::length), "3 um");
+  EXPECT_EQ(format_quantity(8.0 / 60.0, dimension::speed), "8000 mm/min");
+  EXPECT_EQ(format_quantity(parse_quantity("4500 rpm").value, dimension::angular_speed), "4500 rpm");
+  EXPECT_EQ(format_quantity(14400.0, dimension::time), "4 h");
+  EXPECT_EQ(format_quantity(0.8, dimension::dimensionless), "0.8");
+  EXPECT_EQ(format_quantity(1.2e9, dimension::stiffness), "1.2 kN/um");
+  EXPECT_EQ(format_quantity(0.0, dimension::length), "0 mm");
+  EXPECT_EQ(format_temperature(295.15), "22 degC");
+}
+
+TEST(FormatQuantity, ParsesBackToTheSameDouble) {
+  std::vector<Dimension> const all = {dimension::length,      dimension::angular_speed,    dimension::speed,
+                                      dimension::volume_flow, dimension::temperature_rate, dimension::expansion,
+                                      dimension::pressure,    dimension::dimensionless,    Dimension{2, 0, 1, 0, 0}};
+  for (Dimension const& d : all) {
+    double value = 1e-9;
+    for (int i = 0; i < 200; ++i, value *= -1.37) {
+      EXPECT_EQ(parse_value(format_quantity(value, d), d), value) << format_quantity(value, d);
+    }
+  }
+  for (double kelvin = 250.0; kelvin < 350.0; kelvin += 0.137) {
+    EXPECT_EQ(parse_temperature(format_temperature(kelvin)), kelvin) << format_temperature(kelvin);
+  }
+}
+
+}  // namespace
+}  // namespace thermotwin::thermal

@@ -1,0 +1,65 @@
+#include "thermal/nearest_name.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+namespace thermotwin::thermal {
+namespace {
+
+constexpr std::size_t listed_at_most = 10;
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+std::pair<int, int> remoteness(std::string_view name, std::string const& other) {
+  return {edit_distance(name, other), std::abs(static_cast<int>(name.size()) - static_cast<int>(other.size()))};
+}
+
+std::vector<std::string> nearest_first(std::string_view name, std::span<std::string const> known) {
+  std::vector<std::string> names(known.begin(), known.end());
+  std::stable_sort(names.begin(), names.end(), [&](std::string const& a, std::string const& b) {
+    return remoteness(name, a) < remoteness(name, b);
+  });
+  return names;
+}
+
+}  // namespace
+
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<int>> edits(a.size() + 1, std::vector<int>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) edits[i][0] = static_cast<int>(i);
+  for (std::size_t j = 0; j <= b.size(); ++j) edits[0][j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      int const replace = edits[i - 1][j - 1] + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1);
+      edits[i][j] = std::min({edits[i - 1][j] + 1, edits[i][j - 1] + 1, replace});
+      bool const swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      if (swapped) edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
+    }
+  }
+  return edits[a.size()][b.size()];
+}
+
+std::string nearest_name(std::string_view name, std::span<std::string const> known) {
+  auto const nearest = std::min_element(known.begin(), known.end(), [&](std::string const& a, std::string const& b) {
+    return remoteness(name, a) < remoteness(name, b);
+  });
+  return nearest == known.end() ? std::string() : *nearest;
+}
+
+std::string did_you_mean(std::string_view name, std::span<std::string const> known) {
+  if (known.empty()) return "none is known";
+  std::string const nearest = nearest_name(name, known);
+  int const close = std::max(1, static_cast<int>(name.size()) / 3);
+  if (edit_distance(name, nearest) <= close) return "did you mean '" + nearest + "'?";
+  std::string sentence = "known: ";
+  std::vector<std::string> const names = nearest_first(name, known);
+  for (std::size_t i = 0; i < std::min(names.size(), listed_at_most); ++i) {
+    sentence += (i == 0 ? "'" : ", '") + names[i] + "'";
+  }
+  return names.size() > listed_at_most ? sentence + ", …" : sentence;
+}
+
+}  // namespace thermotwin::thermal

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace thermotwin::thermal {
+
+/// Number of edits that turn one name into another: insert, delete, replace, or swap two neighbours; case is ignored.
+/// (Optimal string alignment; Damerau 1964.)
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The known name with the fewest edits; among equals the one whose length is nearest, then the first. Empty if none is
+/// known.
+std::string nearest_name(std::string_view name, std::span<std::string const> known);
+
+/// The end of an error message about an unknown name: "did you mean 'min'?" when one is close, else "known: 'a', 'b',
+/// …" (the nearest ten, nearest first), else "none is known".
+std::string did_you_mean(std::string_view name, std::span<std::string const> known);
+
+}  // namespace thermotwin::thermal
