@@ -1,0 +1,253 @@
+#include "thermal/evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "thermal/error.h"
+
+namespace thermotwin::thermal {
+namespace {
+
+constexpr double T20 = 293.15;
+
+template <class Values>
+std::vector<double> divided_difference(Values const& plus, Values const& minus, double step) {
+  std::vector<double> d(plus.size());
+  for (std::size_t i = 0; i < d.size(); ++i) d[i] = (plus[i] - minus[i]) / (2.0 * step);
+  return d;
+}
+
+}  // namespace
+
+NetworkDerivative difference(Network const& plus, Network const& minus, double step) {
+  auto const same = [](bool condition) {
+    if (!condition) throw InputError("the parameter changes the structure of the network, not only its numbers");
+  };
+  same(plus.nodes() == minus.nodes() && plus.groups().size() == minus.groups().size() &&
+       plus.boundaries().size() == minus.boundaries().size() && plus.averages().size() == minus.averages().size());
+  NetworkDerivative d;
+  d.capacity = divided_difference(plus.capacity(), minus.capacity(), step);
+  d.capacity_slope = divided_difference(plus.capacity_slope(), minus.capacity_slope(), step);
+  for (std::size_t g = 0; g < plus.groups().size(); ++g) {
+    auto const& a = plus.groups()[g];
+    auto const& b = minus.groups()[g];
+    same(a.law == b.law && a.ports == b.ports);
+    d.coefficients.push_back(divided_difference(a.coefficients, b.coefficients, step));
+    auto& rates = d.coefficients.back();
+    if (std::all_of(rates.begin(), rates.end(), [](double r) { return r == 0.0; })) rates.clear();
+  }
+  for (std::size_t i = 0; i < plus.boundaries().size(); ++i) {
+    auto const& a = plus.boundaries()[i];
+    auto const& b = minus.boundaries()[i];
+    same(a.terms.size() == b.terms.size());
+    d.boundary_offset.push_back((a.offset - b.offset) / (2.0 * step));
+    auto& weights = d.boundary_weights.emplace_back();
+    for (std::size_t k = 0; k < a.terms.size(); ++k)
+      weights.push_back((a.terms[k].weight - b.terms[k].weight) / (2.0 * step));
+  }
+  for (std::size_t i = 0; i < plus.averages().size(); ++i) {
+    same(plus.averages()[i].nodes == minus.averages()[i].nodes);
+    d.average_weights.push_back(divided_difference(plus.averages()[i].weights, minus.averages()[i].weights, step));
+  }
+  return d;
+}
+
+Evaluation::Evaluation(Network const& network)
+    : network_(&network),
+      temperature_(std::size_t(network.temperatures())),
+      heat_(temperature_.size()),
+      temperature_rate_(temperature_.size()),
+      heat_rate_(temperature_.size()) {
+  for (auto const& average : network.averages()) weights_.push_back(average.weights);
+}
+
+/// Exact overlap of the window with the cells; a window that hangs over the end is cut there.
+void Evaluation::weigh_moving_averages(double const* input) {
+  auto const& averages = network_->averages();
+  for (std::size_t a = 0; a < averages.size(); ++a) {
+    auto const& average = averages[a];
+    if (average.position_channel < 0) continue;
+    double const low = input[average.position_channel] - 0.5 * average.window, high = low + average.window;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < average.nodes.size(); ++i) {
+      double const overlap = std::min(average.edges[i + 1], high) - std::max(average.edges[i], low);
+      sum += weights_[a][i] = std::max(overlap, 0.0);
+    }
+    if (!(sum > 0.0)) throw InputError("the moving part '" + average.name + "' has left its track");
+    for (double& w : weights_[a]) w /= sum;
+  }
+}
+
+std::span<double const> Evaluation::temperatures(double const* state, double const* input) {
+  auto const& net = *network_;
+  int const n = net.nodes();
+  for (int i = 0; i < n; ++i) temperature_[std::size_t(i)] = net.temperature_of_state(i, state[i]);
+  double* next = temperature_.data() + n;
+  for (auto const& boundary : net.boundaries()) {
+    *next = boundary.offset;
+    for (auto const& term : boundary.terms) *next += term.weight * input[term.channel];
+    ++next;
+  }
+  weigh_moving_averages(input);
+  for (std::size_t a = 0; a < net.averages().size(); ++a, ++next) {
+    *next = 0.0;
+    auto const& nodes = net.averages()[a].nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) *next += weights_[a][i] * temperature_[std::size_t(nodes[i])];
+  }
+  return temperature_;
+}
+
+void Evaluation::share_averages(std::vector<double>& heat) const {
+  auto const& averages = network_->averages();
+  double const* into = heat.data() + network_->nodes() + network_->boundaries().size();
+  for (std::size_t a = 0; a < averages.size(); ++a)
+    for (std::size_t i = 0; i < averages[a].nodes.size(); ++i)
+      heat[std::size_t(averages[a].nodes[i])] += weights_[a][i] * into[a];
+}
+
+void Evaluation::rate(double const* state, double const* input, double* state_rate) {
+  temperatures(state, input);
+  std::fill(heat_.begin(), heat_.end(), 0.0);
+  for (auto const& group : network_->groups())
+    group.law->add_heat_flows(group.batch(), temperature_.data(), input, heat_.data());
+  share_averages(heat_);
+  auto const& capacity = network_->capacity();
+  for (std::size_t i = 0; i < capacity.size(); ++i) state_rate[i] = heat_[i] / capacity[i];
+}
+
+void Evaluation::jacobian(double const* state, double const* input, Eigen::SparseMatrix<double>& matrix) {
+  temperatures(state, input);
+  auto const& net = *network_;
+  double* values = matrix.valuePtr();
+  std::fill(values, values + matrix.nonZeros(), 0.0);
+  for (std::size_t g = 0; g < net.groups().size(); ++g) {
+    auto const& group = net.groups()[g];
+    int const p = group.law->ports();
+    blocks_.resize(std::size_t(group.count()) * std::size_t(p * p));
+    group.law->jacobian_blocks(group.batch(), temperature_.data(), input, blocks_.data());
+    for (auto const& s : net.scatter_[g]) {
+      double value = blocks_[std::size_t(s.source)];
+      if (s.row_average >= 0) value *= weights_[std::size_t(s.row_average)][std::size_t(s.row_entry)];
+      if (s.column_average >= 0) value *= weights_[std::size_t(s.column_average)][std::size_t(s.column_entry)];
+      values[s.slot] += value;
+    }
+  }
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    double const slope = net.capacity_slope()[std::size_t(column)];
+    double const dT_dy = 1.0 / (1.0 + slope * (temperature_[std::size_t(column)] - T20));
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
+      it.valueRef() *= dT_dy / net.capacity()[std::size_t(it.row())];
+  }
+}
+
+std::span<double const> Evaluation::temperature_derivatives(double const* state, double const* state_derivative,
+                                                            NetworkDerivative const& derivative, double const* input) {
+  temperatures(state, input);
+  auto const& net = *network_;
+  int const n = net.nodes();
+  for (int i = 0; i < n; ++i) {
+    auto const k = std::size_t(i);
+    double const rise = temperature_[k] - T20;
+    // y − T20 = rise + ½ s rise²  ⇒  dy = (1 + s rise) dT + ½ rise² ds
+    temperature_rate_[k] = (state_derivative[i] - 0.5 * rise * rise * derivative.capacity_slope[k]) /
+                           (1.0 + net.capacity_slope()[k] * rise);
+  }
+  double* next = temperature_rate_.data() + n;
+  for (std::size_t b = 0; b < net.boundaries().size(); ++b, ++next) {
+    *next = derivative.boundary_offset[b];
+    for (std::size_t k = 0; k < net.boundaries()[b].terms.size(); ++k)
+      *next += derivative.boundary_weights[b][k] * input[net.boundaries()[b].terms[k].channel];
+  }
+  for (std::size_t a = 0; a < net.averages().size(); ++a, ++next) {
+    *next = 0.0;
+    auto const& nodes = net.averages()[a].nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      *next += weights_[a][i] * temperature_rate_[std::size_t(nodes[i])] +
+               derivative.average_weights[a][i] * temperature_[std::size_t(nodes[i])];
+  }
+  return temperature_rate_;
+}
+
+void Evaluation::rate_derivative(double const* state, double const* state_derivative,
+                                 NetworkDerivative const& derivative, double const* input, double* result) {
+  temperature_derivatives(state, state_derivative, derivative, input);
+  auto const& net = *network_;
+  std::fill(heat_.begin(), heat_.end(), 0.0);
+  std::fill(heat_rate_.begin(), heat_rate_.end(), 0.0);
+  for (std::size_t g = 0; g < net.groups().size(); ++g) {
+    auto const& group = net.groups()[g];
+    flows_.assign(group.coefficients.size(), 0.0);
+    double const* rates = derivative.coefficients[g].empty() ? flows_.data() : derivative.coefficients[g].data();
+    group.law->add_heat_flows(group.batch(), temperature_.data(), input, heat_.data());
+    group.law->add_directional(group.batch(), temperature_.data(), temperature_rate_.data(), rates, input,
+                               heat_rate_.data());
+  }
+  int const first_average = net.nodes() + int(net.boundaries().size());
+  for (std::size_t a = 0; a < net.averages().size(); ++a)
+    for (std::size_t i = 0; i < net.averages()[a].nodes.size(); ++i)
+      heat_rate_[std::size_t(net.averages()[a].nodes[i])] +=
+          derivative.average_weights[a][i] * heat_[std::size_t(first_average) + a];
+  share_averages(heat_);
+  share_averages(heat_rate_);
+  for (std::size_t i = 0; i < net.capacity().size(); ++i) {
+    double const c = net.capacity()[i];
+    result[i] = heat_rate_[i] / c - heat_[i] * derivative.capacity[i] / (c * c);
+  }
+}
+
+Energy Evaluation::power(double const* state, double const* input) {
+  temperatures(state, input);
+  auto const& net = *network_;
+  std::fill(heat_.begin(), heat_.end(), 0.0);
+  Energy energy;
+  for (auto const& group : net.groups()) {
+    if (group.law->conservative()) {
+      group.law->add_heat_flows(group.batch(), temperature_.data(), input, heat_.data());
+      continue;
+    }
+    int const p = group.law->ports();
+    flows_.resize(std::size_t(group.count() * p));
+    group.law->heat_flows(group.batch(), temperature_.data(), input, flows_.data());
+    for (int e = 0; e < group.count(); ++e) {
+      double made = 0.0;
+      for (int k = 0; k < p; ++k) {
+        int const port = group.ports[std::size_t(e * p + k)];
+        bool const signal = port < net.nodes() && net.signals()[std::size_t(port)];
+        if (!signal) made += flows_[std::size_t(e * p + k)];
+        heat_[std::size_t(port)] += flows_[std::size_t(e * p + k)];
+      }
+      (made >= 0.0 ? energy.supplied : energy.withdrawn) += std::abs(made);
+    }
+  }
+  for (std::size_t b = 0; b < net.boundaries().size(); ++b) energy.lost += heat_[std::size_t(net.nodes()) + b];
+  return energy;
+}
+
+void Evaluation::heat_of_parts(double const* state, double const* input, std::span<double> watts) {
+  temperatures(state, input);
+  auto const& net = *network_;
+  int const n = net.nodes(), first_average = n + int(net.boundaries().size());
+  std::fill(watts.begin(), watts.end(), 0.0);
+  for (auto const& group : net.groups()) {
+    int const p = group.law->ports();
+    flows_.resize(std::size_t(group.count() * p));
+    group.law->heat_flows(group.batch(), temperature_.data(), input, flows_.data());
+    for (int e = 0; e < group.count(); ++e)
+      for (int k = 0; k < p; ++k) {
+        int const port = group.ports[std::size_t(e * p + k)];
+        bool const body = port >= first_average || (port < n && !net.signals()[std::size_t(port)]);
+        if (body) watts[std::size_t(group.parts[std::size_t(e)])] += flows_[std::size_t(e * p + k)];
+      }
+  }
+}
+
+void Evaluation::source_of_nodes(double const* state, double const* input, std::span<double> watts) {
+  temperatures(state, input);
+  std::fill(heat_.begin(), heat_.end(), 0.0);
+  for (auto const& group : network_->groups())
+    if (!group.law->conservative()) group.law->add_heat_flows(group.batch(), temperature_.data(), input, heat_.data());
+  share_averages(heat_);
+  std::copy_n(heat_.begin(), watts.size(), watts.begin());
+}
+
+}  // namespace thermotwin::thermal

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <span>
+#include <vector>
+
+#include "thermal/network.h"
+
+namespace thermotwin::thermal {
+
+/// How a network changes with one named parameter θ: the difference of two networks of the same structure, built with
+/// θ + h and θ − h, divided by 2h. Any number of a machine file is such a parameter; no law knows of it.
+struct NetworkDerivative {
+  std::string name;
+  double scale = 1.0;  ///< typical size of θ, for the error control of the sensitivities
+  std::vector<double> capacity, capacity_slope;
+  std::vector<std::vector<double>> coefficients;  ///< per group; empty where nothing changes
+  std::vector<double> boundary_offset;
+  std::vector<std::vector<double>> boundary_weights;
+  std::vector<std::vector<double>> average_weights;
+  std::vector<double> initial_temperature;  ///< per node; empty: does not change
+};
+
+/// InputError if the two networks do not have the same structure.
+[[nodiscard]] NetworkDerivative difference(Network const& plus, Network const& minus, double step);
+
+/// Energy that has crossed the network's border.
+struct Energy {
+  double supplied = 0.0;   ///< by parts that make heat, ≥ 0 [J or W]
+  double withdrawn = 0.0;  ///< by parts that take heat (evaporation, chiller), ≥ 0
+  double lost = 0.0;       ///< into boundaries (room air, coolant leaving), either sign
+};
+
+/// Evaluates one network; holds the scratch memory, so one per thread.
+class Evaluation {
+ public:
+  explicit Evaluation(Network const& network);
+
+  [[nodiscard]] Network const& network() const { return *network_; }
+
+  /// [nodes | boundaries | averages] from the state and the operating point.
+  std::span<double const> temperatures(double const* state, double const* input);
+
+  /// dy/dt [K/s].
+  void rate(double const* state, double const* input, double* state_rate);
+
+  /// ∂(dy/dt)/∂y with the pattern of network().jacobian_pattern().
+  void jacobian(double const* state, double const* input, Eigen::SparseMatrix<double>& matrix);
+
+  /// d(dy/dt)/dθ = (∂f/∂y) dy/dθ + ∂f/∂θ.
+  void rate_derivative(double const* state, double const* state_derivative, NetworkDerivative const& derivative,
+                       double const* input, double* result);
+  /// dT/dθ of every entry of the temperature vector.
+  std::span<double const> temperature_derivatives(double const* state, double const* state_derivative,
+                                                  NetworkDerivative const& derivative, double const* input);
+
+  /// Powers at this instant.
+  Energy power(double const* state, double const* input);
+
+  /// Heat that each part gives to the bodies [W]: sources positive, losses negative, joints between bodies zero.
+  void heat_of_parts(double const* state, double const* input, std::span<double> watts);
+  /// Heat that sources put into each node [W], for the fields.
+  void source_of_nodes(double const* state, double const* input, std::span<double> watts);
+
+ private:
+  void weigh_moving_averages(double const* input);
+  void share_averages(std::vector<double>& heat) const;
+
+  Network const* network_;
+  std::vector<double> temperature_, heat_, temperature_rate_, heat_rate_, flows_, blocks_;
+  std::vector<std::vector<double>> weights_;  ///< of the averages, at the present operating point
+};
+
+}  // namespace thermotwin::thermal

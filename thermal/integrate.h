@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "thermal/evaluation.h"
+#include "thermal/network.h"
+#include "thermal/operating_point.h"
+
+namespace thermotwin::thermal {
+
+/// How the Newton systems (I − γJ)x = b are solved; `automatic` chooses by size and structure (see choose_solver).
+enum class LinearSolver { automatic, dense, sparse_direct, preconditioned_krylov };
+
+[[nodiscard]] std::string_view name_of(LinearSolver solver);
+
+/// The choice that `automatic` makes, as measured by tests/benchmarks/linear_solver.cc.
+[[nodiscard]] LinearSolver choose_solver(Network const& network);
+
+struct IntegrationOptions {
+  double relative_tolerance = 1e-6;
+  double absolute_tolerance = 1e-6;  ///< [K]
+  double maximum_step = 0.0;         ///< [s]; 0: no limit
+  LinearSolver solver = LinearSolver::automatic;
+  /// Parameters whose forward sensitivities are integrated with the run.
+  std::vector<NetworkDerivative> parameters;
+};
+
+/// What the observer sees at each output time; the spans are valid during the call.
+struct Sample {
+  double time = 0.0;                     ///< [s]
+  std::span<double const> state;         ///< enthalpy temperatures of the nodes
+  std::span<double const> temperatures;  ///< [nodes | boundaries | averages] [K]
+  std::span<double const> input;         ///< operating point, relay states included
+  Energy energy;                         ///< since the start [J]
+  /// dT/dθ_k of the nodes, one vector per parameter.
+  std::vector<std::vector<double>> const* sensitivities = nullptr;
+};
+using Observer = std::function<void(Sample const&)>;
+
+/// What the run did.
+struct IntegrationSummary {
+  LinearSolver solver = LinearSolver::automatic;
+  long steps = 0, rate_evaluations = 0, jacobian_evaluations = 0, nonlinear_iterations = 0, error_test_failures = 0;
+  int restarts = 0;        ///< at jumps of the input
+  int relay_switches = 0;  ///< found by root finding
+  Energy energy;           ///< over the whole run [J]
+  double stored = 0.0;     ///< [J]
+  double wall_time = 0.0;  ///< [s]
+
+  /// |stored + lost + withdrawn − supplied| over the heat that moved (supplied + |lost| if nothing was supplied).
+  [[nodiscard]] double energy_imbalance() const;
+};
+
+/// Integrates C dy/dt = heat with CVODES (BDF, Newton, analytic Jacobian): stops at every jump of the course, finds
+/// the switching of relays as roots, and carries the energy balance as quadratures. Calls `observe` at every output
+/// time (increasing; the first is the start). SUNDIALS: Hindmarsh et al., ACM TOMS 31 (2005) 363.
+///
+/// Throws InputError when the course lacks a channel that the network needs; IntegrationError, which names the worst
+/// nodes and the inputs at that time, when the integrator gives up. What `observe` throws comes out unchanged.
+IntegrationSummary integrate(Network const& network, Course const& course, std::span<double const> initial_temperatures,
+                             std::span<double const> output_times, IntegrationOptions const& options,
+                             Observer const& observe);
+
+/// Steady temperatures [K] of all nodes at a constant operating point: Newton's method with line search, and pseudo
+/// transient continuation where it fails. IntegrationError when neither settles.
+[[nodiscard]] std::vector<double> steady_state(Network const& network, std::span<double const> input,
+                                               std::span<double const> guess);
+
+}  // namespace thermotwin::thermal

@@ -1,0 +1,199 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "thermal/law.h"
+
+namespace thermotwin::thermal {
+
+/// A port of an element: a node, a boundary whose temperature is given, or a weighted average of nodes.
+struct Port {
+  enum class Kind { node, boundary, average } kind = Kind::node;
+  int index = 0;
+};
+
+/// Nodes that belong together: one lump or all cells of a finite-difference body.
+struct NodeRange {
+  std::string name;
+  int first = 0;
+  int count = 0;
+};
+
+/// A boundary's temperature is a combination of input channels: T_b = offset + Σ weight · u[channel], for example the
+/// room air at a height: u[ambient.temperature] + (z − z_ref) u[ambient.gradient].
+struct Boundary {
+  struct Term {
+    int channel = 0;
+    double weight = 1.0;
+  };
+  std::string name;
+  double offset = 0.0;
+  std::vector<Term> terms;
+};
+
+/// T̄ = Σ wᵢ Tᵢ with Σ wᵢ = 1; heat into the average is shared among the nodes by the same weights.
+///
+/// If `position_channel` ≥ 0 the average moves: `weights` are recomputed as the exact overlap of a window of length
+/// `window` centred at u[position_channel] with the cells [edges[i], edges[i+1]] (physics.md 2.10).
+struct Average {
+  std::string name;
+  std::vector<int> nodes;
+  std::vector<double> weights;
+  int position_channel = -1;
+  double window = 0.0;
+  std::vector<double> edges;
+};
+
+/// All elements that follow one law.
+struct ElementGroup {
+  std::shared_ptr<Law const> law;
+  std::vector<int> ports;
+  std::vector<double> coefficients;
+  std::vector<int> inputs;
+  std::vector<int> parts;  ///< index of the part (of the machine file) that each element belongs to
+
+  [[nodiscard]] int count() const { return int(parts.size()); }
+  [[nodiscard]] ElementBatch batch() const { return {count(), ports, coefficients, inputs}; }
+};
+
+/// A switch with hysteresis: 1 above `high`, 0 below `low`, where both are measured from the reference port; a channel
+/// of the operating point carries its state. `minimum_off_time` keeps a compressor from restarting at once.
+struct Relay {
+  std::string name;
+  int measured = 0;   ///< index in the temperature vector
+  int reference = 0;  ///< index in the temperature vector
+  double high = 0.0;  ///< [K]
+  double low = 0.0;   ///< [K]
+  double minimum_off_time = 0.0;
+  int enable_channel = -1;  ///< the relay works while this channel is above ½; always, if negative
+  int state_channel = 0;
+};
+
+/// An immutable thermal network: C_i dT_i/dt = Σ heat flows into node i (physics.md 0.1).
+///
+/// The temperature vector is [nodes | boundaries | averages]; the operating point is [external channels | relay
+/// states]. Built by NetworkBuilder and never changed; threads share it, each with its own Evaluation.
+///
+/// The state is the *enthalpy temperature* y: with c = c₂₀(1 + s (T − T₂₀)), y − T₂₀ = (T − T₂₀) + ½ s (T − T₂₀)², so
+/// that C dy/dt = heat and stored energy Σ C y is linear in the state: the energy balance of a run then closes to the
+/// solver's round-off even where the specific heat depends on temperature. For constant c, y = T.
+class Network {
+ public:
+  [[nodiscard]] int nodes() const { return int(capacity_.size()); }
+  [[nodiscard]] int temperatures() const { return nodes() + int(boundaries_.size()) + int(averages_.size()); }
+  [[nodiscard]] int channels() const { return int(channels_.size()); }
+  [[nodiscard]] int external_channels() const { return external_channels_; }
+
+  /// Names of the operating point's channels: first those that a course must give, then the relays' states.
+  [[nodiscard]] std::vector<std::string> const& channel_names() const { return channels_; }
+  [[nodiscard]] std::vector<NodeRange> const& ranges() const { return ranges_; }
+  [[nodiscard]] std::vector<Boundary> const& boundaries() const { return boundaries_; }
+  [[nodiscard]] std::vector<Average> const& averages() const { return averages_; }
+  [[nodiscard]] std::vector<ElementGroup> const& groups() const { return groups_; }
+  [[nodiscard]] std::vector<Relay> const& relays() const { return relays_; }
+  [[nodiscard]] std::vector<std::string> const& parts() const { return parts_; }
+  [[nodiscard]] std::vector<double> const& capacity() const { return capacity_; }  ///< at 20 °C [J/K]
+  [[nodiscard]] std::vector<double> const& capacity_slope() const { return capacity_slope_; }
+  [[nodiscard]] std::vector<char> const& signals() const { return signal_; }  ///< 1: a controller's state, not a body
+
+  /// "shaft[3]" for the fourth node of a range, "head" for a lump.
+  [[nodiscard]] std::string node_name(int node) const;
+  /// Index of the first node of a body; InputError with the nearest name if there is none.
+  [[nodiscard]] NodeRange const& range(std::string const& name) const;
+  /// Index in the temperature vector.
+  [[nodiscard]] int index_of(Port port) const;
+
+  [[nodiscard]] double temperature_of_state(int node, double y) const;
+  [[nodiscard]] double state_of_temperature(int node, double temperature) const;
+
+  /// Nonzero pattern of ∂(dy/dt)/∂y, by node.
+  [[nodiscard]] Eigen::SparseMatrix<double> const& jacobian_pattern() const { return pattern_; }
+
+ private:
+  friend class NetworkBuilder;
+  friend class Evaluation;
+  Network() = default;
+  void build_pattern();
+
+  std::vector<double> capacity_, capacity_slope_;
+  std::vector<char> signal_;
+  std::vector<NodeRange> ranges_;
+  std::vector<Boundary> boundaries_;
+  std::vector<Average> averages_;
+  std::vector<ElementGroup> groups_;
+  std::vector<Relay> relays_;
+  std::vector<std::string> channels_, parts_;
+  int external_channels_ = 0;
+  Eigen::SparseMatrix<double> pattern_;
+  /// One addend of the Jacobian: values[slot] += block[source] · w, with w the product of the averages' weights.
+  struct Scatter {
+    int slot, source;
+    int row_average, row_entry, column_average, column_entry;  ///< −1 where the port is a node
+  };
+  std::vector<std::vector<Scatter>> scatter_;  ///< per group
+};
+
+/// Collects bodies and elements, checks them by name, and makes the network. Short-lived; `build` empties it.
+class NetworkBuilder {
+ public:
+  /// Adds nodes with heat capacities [J/K] at 20 °C and their relative slope [1/K]; returns the first node's port.
+  Port add_body(std::string const& name, std::vector<double> const& capacities, double capacity_slope = 0.0);
+  /// A controller's state: ds/dt = "heat flow" of the laws that write to it, no body, not in the energy balance.
+  Port add_signal(std::string const& name);
+  Port add_boundary(Boundary boundary);
+  Port add_average(Average average);
+
+  /// Index of an input channel, created when first named.
+  int channel(std::string const& name);
+  /// A relay's state is a channel of its own, named `<name>.state`; returns its index.
+  int add_relay(std::string const& name, Port measured, Port reference, double high, double low,
+                double minimum_off_time = 0.0, int enable_channel = -1);
+
+  /// Index of the part that elements belong to; heat is reported by part.
+  int part(std::string const& name);
+
+  template <class Formula>
+  void add(int part, std::vector<Port> const& ports, std::vector<double> const& coefficients,
+           std::vector<int> const& channels = {}) {
+    add(law_of<Formula>(), part, ports, coefficients, channels);
+  }
+  void add(std::shared_ptr<Law const> law, int part, std::vector<Port> const& ports,
+           std::vector<double> const& coefficients, std::vector<int> const& channels);
+
+  /// Adds conduction G [W/K] ≥ 0 between two ports.
+  void connect(int part, Port a, Port b, double conductance);
+
+  /// InputError for: a body without a path to any boundary, a capacity ≤ 0, a name twice, no node at all.
+  [[nodiscard]] Network build();
+
+  [[nodiscard]] int nodes() const { return int(network_.capacity_.size()); }
+  [[nodiscard]] NodeRange const& range(std::string const& name) const { return network_.range(name); }
+  [[nodiscard]] std::vector<NodeRange> const& ranges() const { return network_.ranges_; }
+
+ private:
+  void check_paths() const;
+
+  struct PendingElement {
+    int part;
+    std::vector<Port> ports;
+    std::vector<double> coefficients;
+    std::vector<int> channels;
+  };
+  struct PendingGroup {
+    std::shared_ptr<Law const> law;
+    std::vector<PendingElement> elements;
+  };
+  struct PendingRelay {
+    Relay relay;
+    Port measured, reference;
+  };
+  Network network_;
+  std::vector<PendingGroup> groups_;
+  std::vector<PendingRelay> relays_;
+};
+
+}  // namespace thermotwin::thermal

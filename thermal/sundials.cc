@@ -1,0 +1,536 @@
+// The only file that knows SUNDIALS.
+#include <Eigen/IterativeLinearSolvers>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cvodes/cvodes.h>
+#include <exception>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunlinsol/sunlinsol_spgmr.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+#include "thermal/error.h"
+#include "thermal/integrate.h"
+#include "thermal/nearest_name.h"
+
+namespace thermotwin::thermal {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Owns a C object that is freed by `Free(object)`.
+template <class T, auto Free>
+using Handle = std::unique_ptr<std::remove_pointer_t<T>, decltype([](auto* p) { Free(p); })>;
+
+void free_cvode(void* memory) { CVodeFree(&memory); }
+void free_context(SUNContext context) { SUNContext_Free(&context); }
+void free_vector(N_Vector v) { N_VDestroy(v); }
+void free_matrix(SUNMatrix m) { SUNMatDestroy(m); }
+void free_solver(SUNLinearSolver s) { SUNLinSolFree(s); }
+
+using ContextHandle = Handle<SUNContext, free_context>;
+using VectorHandle = Handle<N_Vector, free_vector>;
+using MatrixHandle = Handle<SUNMatrix, free_matrix>;
+using SolverHandle = Handle<SUNLinearSolver, free_solver>;
+
+double* data(N_Vector v) { return N_VGetArrayPointer(v); }
+
+/// The course, asked by the network's channel order and never across a jump.
+class OperatingPoint {
+ public:
+  OperatingPoint(Network const& network, Course const& course)
+      : course_(course), raw_(course.channels().size()), values_(std::size_t(network.channels())) {
+    std::vector<std::string> given;
+    for (auto const& channel : course.channels()) given.push_back(channel.name);
+    for (int i = 0; i < network.external_channels(); ++i) {
+      auto const& name = network.channel_names()[std::size_t(i)];
+      auto const it = std::find(given.begin(), given.end(), name);
+      if (it == given.end())
+        throw InputError(fmt::format("the machine needs the input '{}', which the experiment does not give{}", name,
+                                     did_you_mean(name, given)));
+      source_.push_back(std::size_t(it - given.begin()));
+    }
+  }
+
+  /// The piece of the course that follows t; returns its end.
+  double enter_piece(double t) {
+    start_ = t;
+    end_ = course_.next_jump(t);
+    return end_;
+  }
+
+  double const* at(double t) {
+    course_.evaluate(t < end_ ? t : std::nextafter(end_, start_), raw_);
+    for (std::size_t i = 0; i < source_.size(); ++i) values_[i] = raw_[source_[i]];
+    return values_.data();
+  }
+
+  std::span<double const> values() const { return values_; }
+  double& relay_state(Relay const& relay) { return values_[std::size_t(relay.state_channel)]; }
+
+ private:
+  Course const& course_;
+  std::vector<double> raw_, values_;
+  std::vector<std::size_t> source_;
+  double start_ = 0.0, end_ = infinity;
+};
+
+/// Approximate inverse of I − γJ for the Krylov solver.
+class Preconditioner {
+ public:
+  void setup(Eigen::SparseMatrix<double> const& jacobian, double gamma) {
+    matrix_ = -gamma * jacobian;
+    for (int i = 0; i < matrix_.rows(); ++i) matrix_.coeffRef(i, i) += 1.0;
+    factors_.setDroptol(1e-3);
+    factors_.setFillfactor(2);
+    factors_.compute(matrix_);
+  }
+  void solve(double const* b, double* x, Eigen::Index n) const {
+    Eigen::Map<Eigen::VectorXd>(x, n) = factors_.solve(Eigen::Map<Eigen::VectorXd const>(b, n));
+  }
+
+ private:
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::IncompleteLUT<double> factors_;
+};
+
+/// One run: owns everything that CVODES points to.
+class Run {
+ public:
+  Run(Network const& network, Course const& course, IntegrationOptions const& options)
+      : network_(network),
+        options_(options),
+        evaluation_(network),
+        point_(network, course),
+        jacobian_(network.jacobian_pattern()),
+        solver_kind_(options.solver == LinearSolver::automatic ? choose_solver(network) : options.solver) {
+    SUNContext context = nullptr;
+    SUNContext_Create(nullptr, &context);
+    context_.reset(context);
+    next_switch_.assign(network.relays().size(), -infinity);
+  }
+
+  IntegrationSummary operator()(std::span<double const> initial, std::span<double const> times,
+                                Observer const& observe);
+
+ private:
+  void set_up(std::span<double const> initial, double t0);
+  void attach_linear_solver();
+  void set_up_sensitivities(std::span<double const> initial);
+  void restart(double t);
+  void advance(double target);
+  void emit(double t, Observer const& observe);
+  void settle_relays(double t);
+  double next_relay_wake(double t) const;
+  [[noreturn]] void fail(int flag);
+  double stored() const;
+  void collect_counters();
+
+  double const* input(double t) { return point_.at(t); }
+  double relay_distance(std::size_t r, double const* temperatures) const;
+
+  /// Runs a callback; an exception is kept until CVODES has returned.
+  template <class Body>
+  int guarded(Body body) noexcept {
+    try {
+      return body();
+    } catch (...) {
+      failure_ = std::current_exception();
+      return -1;
+    }
+  }
+
+  static Run& self(void* user) { return *static_cast<Run*>(user); }
+  static int rate(double t, N_Vector y, N_Vector ydot, void* user);
+  static int jacobian_matrix(double t, N_Vector y, N_Vector fy, SUNMatrix matrix, void* user, N_Vector, N_Vector,
+                             N_Vector);
+  static int jacobian_times(N_Vector v, N_Vector jv, double t, N_Vector y, N_Vector fy, void* user, N_Vector);
+  static int precondition_setup(double t, N_Vector y, N_Vector fy, int ok, int* current, double gamma, void* user);
+  static int precondition(double t, N_Vector y, N_Vector fy, N_Vector r, N_Vector z, double gamma, double delta, int,
+                          void* user);
+  static int power(double t, N_Vector y, N_Vector out, void* user);
+  static int roots(double t, N_Vector y, double* g, void* user);
+  static int sensitivity_rate(int count, double t, N_Vector y, N_Vector ydot, N_Vector* s, N_Vector* sdot, void* user,
+                              N_Vector, N_Vector);
+  static void collect_message(int code, char const*, char const* function, char* message, void* user);
+
+  Network const& network_;
+  IntegrationOptions const& options_;
+  Evaluation evaluation_;
+  OperatingPoint point_;
+  Eigen::SparseMatrix<double> jacobian_;
+  LinearSolver solver_kind_;
+  Preconditioner preconditioner_;
+
+  ContextHandle context_;
+  VectorHandle y_, quadrature_, tolerance_;
+  std::vector<VectorHandle> sensitivity_;
+  std::vector<N_Vector> sensitivity_view_;
+  MatrixHandle matrix_;
+  SolverHandle solver_;
+  Handle<void*, free_cvode> cvode_;
+
+  std::vector<double> initial_;
+  std::vector<std::vector<double>> temperature_sensitivity_;
+  std::vector<double> next_switch_;  ///< earliest time at which a relay may switch on again
+  std::vector<double> parameter_scale_;
+  double t_ = 0.0;
+  std::exception_ptr failure_;
+  std::string message_;
+  IntegrationSummary summary_;
+};
+
+int Run::rate(double t, N_Vector y, N_Vector ydot, void* user) {
+  return self(user).guarded([&] {
+    auto& run = self(user);
+    run.evaluation_.rate(data(y), run.input(t), data(ydot));
+    double sum = 0.0;
+    for (int i = 0; i < run.network_.nodes(); ++i) sum += data(ydot)[i];
+    return std::isfinite(sum) ? 0 : 1;
+  });
+}
+
+int Run::jacobian_matrix(double t, N_Vector y, N_Vector, SUNMatrix matrix, void* user, N_Vector, N_Vector, N_Vector) {
+  return self(user).guarded([&] {
+    auto& run = self(user);
+    auto& j = run.jacobian_;
+    run.evaluation_.jacobian(data(y), run.input(t), j);
+    if (SUNMatGetID(matrix) == SUNMATRIX_DENSE) {
+      SUNMatZero(matrix);
+      for (int column = 0; column < j.outerSize(); ++column) {
+        double* target = SUNDenseMatrix_Column(matrix, column);
+        for (Eigen::SparseMatrix<double>::InnerIterator it(j, column); it; ++it) target[it.row()] = it.value();
+      }
+    } else {
+      std::copy_n(j.outerIndexPtr(), j.outerSize() + 1, SUNSparseMatrix_IndexPointers(matrix));
+      std::copy_n(j.innerIndexPtr(), j.nonZeros(), SUNSparseMatrix_IndexValues(matrix));
+      std::copy_n(j.valuePtr(), j.nonZeros(), SUNSparseMatrix_Data(matrix));
+    }
+    return 0;
+  });
+}
+
+int Run::jacobian_times(N_Vector v, N_Vector jv, double, N_Vector, N_Vector, void* user, N_Vector) {
+  auto const& j = self(user).jacobian_;
+  Eigen::Map<Eigen::VectorXd>(data(jv), j.rows()) = j * Eigen::Map<Eigen::VectorXd const>(data(v), j.cols());
+  return 0;
+}
+
+int Run::precondition_setup(double t, N_Vector y, N_Vector, int ok, int* current, double gamma, void* user) {
+  return self(user).guarded([&] {
+    auto& run = self(user);
+    if (!ok) run.evaluation_.jacobian(data(y), run.input(t), run.jacobian_);
+    *current = !ok;
+    run.preconditioner_.setup(run.jacobian_, gamma);
+    return 0;
+  });
+}
+
+int Run::precondition(double, N_Vector, N_Vector, N_Vector r, N_Vector z, double, double, int, void* user) {
+  self(user).preconditioner_.solve(data(r), data(z), self(user).network_.nodes());
+  return 0;
+}
+
+int Run::power(double t, N_Vector y, N_Vector out, void* user) {
+  return self(user).guarded([&] {
+    auto& run = self(user);
+    Energy const power = run.evaluation_.power(data(y), run.input(t));
+    data(out)[0] = power.supplied;
+    data(out)[1] = power.withdrawn;
+    data(out)[2] = power.lost;
+    return 0;
+  });
+}
+
+/// Positive while the relay may keep its state, zero where it must switch.
+double Run::relay_distance(std::size_t r, double const* temperatures) const {
+  auto const& relay = network_.relays()[r];
+  auto const values = point_.values();
+  double const state = values[std::size_t(relay.state_channel)];
+  bool const enabled = relay.enable_channel < 0 || values[std::size_t(relay.enable_channel)] > 0.5;
+  double const difference = temperatures[relay.measured] - temperatures[relay.reference];
+  if (!enabled || (state < 0.5 && t_ < next_switch_[r])) return 1.0;
+  return state > 0.5 ? difference - relay.low : relay.high - difference;
+}
+
+int Run::roots(double t, N_Vector y, double* g, void* user) {
+  return self(user).guarded([&] {
+    auto& run = self(user);
+    auto const temperatures = run.evaluation_.temperatures(data(y), run.input(t));
+    for (std::size_t r = 0; r < run.network_.relays().size(); ++r) g[r] = run.relay_distance(r, temperatures.data());
+    return 0;
+  });
+}
+
+int Run::sensitivity_rate(int count, double t, N_Vector y, N_Vector, N_Vector* s, N_Vector* sdot, void* user, N_Vector,
+                          N_Vector) {
+  return self(user).guarded([&] {
+    auto& run = self(user);
+    double const* input = run.input(t);
+    for (int k = 0; k < count; ++k)
+      run.evaluation_.rate_derivative(data(y), data(s[k]), run.options_.parameters[std::size_t(k)], input,
+                                      data(sdot[k]));
+    return 0;
+  });
+}
+
+void Run::collect_message(int code, char const*, char const* function, char* message, void* user) {
+  if (code < 0) self(user).message_ = fmt::format("{}: {}", function, message);
+}
+
+void Run::attach_linear_solver() {
+  int const n = network_.nodes();
+  void* cvode = cvode_.get();
+  switch (solver_kind_) {
+    case LinearSolver::dense:
+      matrix_.reset(SUNDenseMatrix(n, n, context_.get()));
+      solver_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_.get()));
+      break;
+    case LinearSolver::sparse_direct:
+      matrix_.reset(SUNSparseMatrix(n, n, jacobian_.nonZeros(), CSC_MAT, context_.get()));
+      solver_.reset(SUNLinSol_KLU(y_.get(), matrix_.get(), context_.get()));
+      break;
+    default:
+      solver_.reset(SUNLinSol_SPGMR(y_.get(), SUN_PREC_LEFT, 30, context_.get()));
+      CVodeSetLinearSolver(cvode, solver_.get(), nullptr);
+      CVodeSetJacTimes(cvode, nullptr, jacobian_times);
+      CVodeSetPreconditioner(cvode, precondition_setup, precondition);
+      return;
+  }
+  CVodeSetLinearSolver(cvode, solver_.get(), matrix_.get());
+  CVodeSetJacFn(cvode, jacobian_matrix);
+}
+
+void Run::set_up(std::span<double const> initial, double t0) {
+  int const n = network_.nodes();
+  t_ = t0;
+  point_.enter_piece(t0);
+  y_.reset(N_VNew_Serial(n, context_.get()));
+  for (int i = 0; i < n; ++i) data(y_.get())[i] = network_.state_of_temperature(i, initial[std::size_t(i)]);
+  initial_.assign(data(y_.get()), data(y_.get()) + n);
+  quadrature_.reset(N_VNew_Serial(3, context_.get()));
+  N_VConst(0.0, quadrature_.get());
+  cvode_.reset(CVodeCreate(CV_BDF, context_.get()));
+  void* cvode = cvode_.get();
+  CVodeSetErrHandlerFn(cvode, collect_message, this);
+  CVodeInit(cvode, rate, t0, y_.get());
+  CVodeSetUserData(cvode, this);
+  // Temperatures are kelvin, of which only the rise matters: the tolerance is absolute, scaled by a 100 K span.
+  CVodeSStolerances(cvode, 1e-14, options_.absolute_tolerance + 10.0 * options_.relative_tolerance);
+  CVodeSetMaxNumSteps(cvode, 10'000'000);
+  if (options_.maximum_step > 0.0) CVodeSetMaxStep(cvode, options_.maximum_step);
+  attach_linear_solver();
+  CVodeQuadInit(cvode, power, quadrature_.get());
+  if (!network_.relays().empty()) CVodeRootInit(cvode, int(network_.relays().size()), roots);
+  set_up_sensitivities(initial);
+}
+
+void Run::set_up_sensitivities(std::span<double const> initial) {
+  auto const& parameters = options_.parameters;
+  if (parameters.empty()) return;
+  int const n = network_.nodes();
+  for (auto const& parameter : parameters) {
+    auto& s = sensitivity_.emplace_back(N_VNew_Serial(n, context_.get()));
+    for (int i = 0; i < n; ++i) {
+      auto const k = std::size_t(i);
+      double const rise = initial[k] - 293.15;
+      double const dT = parameter.initial_temperature.empty() ? 0.0 : parameter.initial_temperature[k];
+      data(s.get())[i] =
+          dT * (1.0 + network_.capacity_slope()[k] * rise) + 0.5 * rise * rise * parameter.capacity_slope[k];
+    }
+    sensitivity_view_.push_back(s.get());
+    parameter_scale_.push_back(parameter.scale != 0.0 ? std::abs(parameter.scale) : 1.0);
+    temperature_sensitivity_.emplace_back(std::size_t(n));
+  }
+  void* cvode = cvode_.get();
+  CVodeSensInit(cvode, int(parameters.size()), CV_STAGGERED, sensitivity_rate, sensitivity_view_.data());
+  CVodeSetSensParams(cvode, nullptr, parameter_scale_.data(), nullptr);
+  CVodeSensEEtolerances(cvode);
+  CVodeSetSensErrCon(cvode, SUNTRUE);
+}
+
+double Run::stored() const {
+  double sum = 0.0;
+  for (int i = 0; i < network_.nodes(); ++i) {
+    auto const k = std::size_t(i);
+    if (!network_.signals()[k]) sum += network_.capacity()[k] * (data(y_.get())[i] - initial_[k]);
+  }
+  return sum;
+}
+
+void Run::emit(double t, Observer const& observe) {
+  Sample sample;
+  sample.time = t;
+  double const* input = point_.at(t);
+  sample.state = {data(y_.get()), std::size_t(network_.nodes())};
+  sample.energy = {data(quadrature_.get())[0], data(quadrature_.get())[1], data(quadrature_.get())[2]};
+  for (std::size_t k = 0; k < sensitivity_.size(); ++k) {
+    auto const rates =
+        evaluation_.temperature_derivatives(data(y_.get()), data(sensitivity_[k].get()), options_.parameters[k], input);
+    std::copy_n(rates.begin(), network_.nodes(), temperature_sensitivity_[k].begin());
+  }
+  sample.sensitivities = &temperature_sensitivity_;
+  sample.temperatures = evaluation_.temperatures(data(y_.get()), input);
+  sample.input = point_.values();
+  observe(sample);
+}
+
+/// Puts every relay into the state that its temperature demands at time t.
+void Run::settle_relays(double t) {
+  auto const& relays = network_.relays();
+  if (relays.empty()) return;
+  auto const temperatures = evaluation_.temperatures(data(y_.get()), input(t));
+  t_ = t;
+  for (std::size_t r = 0; r < relays.size(); ++r) {
+    bool const enabled = relays[r].enable_channel < 0 || point_.values()[std::size_t(relays[r].enable_channel)] > 0.5;
+    double& state = point_.relay_state(relays[r]);
+    bool const on = state > 0.5;
+    if ((on && !enabled) || (enabled && relay_distance(r, temperatures.data()) <= 1e-10)) {
+      state = on ? 0.0 : 1.0;
+      if (on) next_switch_[r] = t + relays[r].minimum_off_time;
+      ++summary_.relay_switches;
+    }
+  }
+}
+
+double Run::next_relay_wake(double t) const {
+  double wake = infinity;
+  for (double s : next_switch_)
+    if (s > t) wake = std::min(wake, s);
+  return wake;
+}
+
+void Run::collect_counters() {
+  long value = 0;
+  void* cvode = cvode_.get();
+  CVodeGetNumSteps(cvode, &value);
+  summary_.steps += value;
+  CVodeGetNumRhsEvals(cvode, &value);
+  summary_.rate_evaluations += value;
+  CVodeGetNumNonlinSolvIters(cvode, &value);
+  summary_.nonlinear_iterations += value;
+  CVodeGetNumErrTestFails(cvode, &value);
+  summary_.error_test_failures += value;
+  CVodeGetNumJacEvals(cvode, &value);
+  summary_.jacobian_evaluations += value;
+}
+
+void Run::restart(double t) {
+  collect_counters();
+  void* cvode = cvode_.get();
+  CVodeReInit(cvode, t, y_.get());
+  CVodeQuadReInit(cvode, quadrature_.get());
+  if (!sensitivity_view_.empty()) CVodeSensReInit(cvode, CV_STAGGERED, sensitivity_view_.data());
+  ++summary_.restarts;
+}
+
+/// Integrates to `target`, through jumps and relay switches on the way.
+void Run::advance(double target) {
+  void* cvode = cvode_.get();
+  while (t_ < target) {
+    double const piece_end = point_.enter_piece(t_);
+    double const stop = std::min({piece_end, next_relay_wake(t_)});
+    double const goal = std::min(target, stop);
+    CVodeSetStopTime(cvode, std::isfinite(stop) ? stop : std::max(target, t_ + 1.0) * 1e3 + 1e9);
+    double reached = t_;
+    int const flag = CVode(cvode, goal, y_.get(), &reached, CV_NORMAL);
+    if (flag < 0) fail(flag);
+    t_ = reached;
+    double ignored = 0.0;
+    CVodeGetQuad(cvode, &ignored, quadrature_.get());
+    if (!sensitivity_view_.empty()) CVodeGetSens(cvode, &ignored, sensitivity_view_.data());
+    if (flag == CV_ROOT_RETURN || t_ >= stop) {
+      point_.enter_piece(t_);
+      settle_relays(t_);
+      restart(t_);
+    }
+  }
+}
+
+void Run::fail(int flag) {
+  if (failure_) std::rethrow_exception(failure_);
+  int const n = network_.nodes();
+  VectorHandle error(N_VNew_Serial(n, context_.get())), weight(N_VNew_Serial(n, context_.get()));
+  CVodeGetEstLocalErrors(cvode_.get(), error.get());
+  CVodeGetErrWeights(cvode_.get(), weight.get());
+  std::vector<int> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  auto const badness = [&](int i) { return std::abs(data(error.get())[i] * data(weight.get())[i]); };
+  auto const worst = order.begin() + std::min(n, 3);
+  std::partial_sort(order.begin(), worst, order.end(), [&](int a, int b) { return badness(a) > badness(b); });
+  double t = t_;
+  CVodeGetCurrentTime(cvode_.get(), &t);
+  std::string text =
+      fmt::format("the integration stopped at t = {:.6g} s ({}; CVODES flag {}). Worst nodes:", t, message_, flag);
+  for (auto it = order.begin(); it != worst; ++it)
+    text += fmt::format(" {} at {:.6g} °C;", network_.node_name(*it), data(y_.get())[*it] - 273.15);
+  text += " inputs:";
+  double const* values = point_.at(t);
+  for (int i = 0; i < network_.channels(); ++i)
+    text += fmt::format(" {} = {:.6g};", network_.channel_names()[std::size_t(i)], values[i]);
+  throw IntegrationError(text);
+}
+
+IntegrationSummary Run::operator()(std::span<double const> initial, std::span<double const> times,
+                                   Observer const& observe) {
+  auto const begin = std::chrono::steady_clock::now();
+  if (int(initial.size()) != network_.nodes())
+    throw InputError(fmt::format("{} initial temperatures for {} nodes", initial.size(), network_.nodes()));
+  if (times.empty()) throw InputError("there is no output time");
+  set_up(initial, times.front());
+  settle_relays(t_);
+  emit(t_, observe);
+  for (double time : times.subspan(1)) {
+    advance(time);
+    emit(time, observe);
+  }
+  collect_counters();
+  summary_.solver = solver_kind_;
+  summary_.energy = {data(quadrature_.get())[0], data(quadrature_.get())[1], data(quadrature_.get())[2]};
+  summary_.stored = stored();
+  summary_.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return summary_;
+}
+
+}  // namespace
+
+std::string_view name_of(LinearSolver solver) {
+  switch (solver) {
+    case LinearSolver::dense:
+      return "dense LU";
+    case LinearSolver::sparse_direct:
+      return "sparse LU (KLU)";
+    case LinearSolver::preconditioned_krylov:
+      return "GMRES with incomplete LU";
+    case LinearSolver::automatic:
+      break;
+  }
+  return "automatic";
+}
+
+LinearSolver choose_solver(Network const& network) {
+  if (network.nodes() <= 24) return LinearSolver::dense;
+  if (network.nodes() <= 1000) return LinearSolver::sparse_direct;
+  return LinearSolver::preconditioned_krylov;
+}
+
+double IntegrationSummary::energy_imbalance() const {
+  double const scale = energy.supplied > 0.0 ? energy.supplied : std::abs(energy.lost) + energy.withdrawn;
+  double const gap = std::abs(stored + energy.lost + energy.withdrawn - energy.supplied);
+  return scale > 0.0 ? gap / scale : gap;
+}
+
+IntegrationSummary integrate(Network const& network, Course const& course, std::span<double const> initial_temperatures,
+                             std::span<double const> output_times, IntegrationOptions const& options,
+                             Observer const& observe) {
+  return Run(network, course, options)(initial_temperatures, output_times, observe);
+}
+
+}  // namespace thermotwin::thermal
