@@ -34,10 +34,11 @@ S smooth_max(S const& a, S const& b, double epsilon) {
   return 0.5 * (a + b + smooth_abs<S>(a - b, epsilon));
 }
 
-/// max(x, 0), and never quite 0.
+/// max(x, 0) as ½ (x + sqrt(x² + ε²)), positive everywhere; the form for x < 0 is the same without cancellation.
 template <class S>
 S smooth_positive(S const& x, double epsilon) {
-  return 0.5 * (x + smooth_abs<S>(x, epsilon));
+  S const magnitude = smooth_abs<S>(x, epsilon);
+  return x < S(0.0) ? 0.5 * epsilon * epsilon / (magnitude - x) : 0.5 * (x + magnitude);
 }
 
 /// Goes from 0 to 1 around `centre` within a few `width`: s = (1 + tanh((x − centre)/width))/2.
