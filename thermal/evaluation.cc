@@ -61,18 +61,17 @@ Evaluation::Evaluation(Network const& network)
   for (auto const& average : network.averages()) weights_.push_back(average.weights);
 }
 
-/// Exact overlap of the window with the cells; a window that hangs over the end is cut there.
+/// A window that hangs over the end of its track is cut there.
 void Evaluation::weigh_moving_averages(double const* input) {
   auto const& averages = network_->averages();
   for (std::size_t a = 0; a < averages.size(); ++a) {
     auto const& average = averages[a];
-    if (average.position_channel < 0) continue;
-    double const low = input[average.position_channel] - 0.5 * average.window, high = low + average.window;
+    if (average.from_channel < 0) continue;
+    double const from = std::min(input[average.from_channel], input[average.to_channel]);
+    double const to = std::max(input[average.from_channel], input[average.to_channel]);
     double sum = 0.0;
-    for (std::size_t i = 0; i < average.nodes.size(); ++i) {
-      double const overlap = std::min(average.edges[i + 1], high) - std::max(average.edges[i], low);
-      sum += weights_[a][i] = std::max(overlap, 0.0);
-    }
+    for (std::size_t i = 0; i < average.nodes.size(); ++i)
+      sum += weights_[a][i] = mean_overlap(average.edges[i], average.edges[i + 1], average.window, from, to);
     if (!(sum > 0.0)) throw InputError("the moving part '" + average.name + "' has left its track");
     for (double& w : weights_[a]) w /= sum;
   }

@@ -43,7 +43,24 @@ class Partition {
   std::vector<int> parent_;
 };
 
+/// Integral of max(x, 0) from −∞.
+double ramp_integral(double x) { return x > 0.0 ? 0.5 * x * x : 0.0; }
+
 }  // namespace
+
+double mean_overlap(double low, double high, double window, double from, double to) {
+  double const half = 0.5 * window;
+  if (to - from < 1e-9 * window) {
+    double const centre = 0.5 * (from + to);
+    return std::max(0.0, std::min(high, centre + half) - std::max(low, centre - half));
+  }
+  // The overlap as a function of the window's centre p is a sum of four ramps; their integrals give the mean.
+  auto const integral = [&](double p) {
+    return ramp_integral(p + half - low) - ramp_integral(p + half - high) - ramp_integral(p - half - low) +
+           ramp_integral(p - half - high);
+  };
+  return (integral(to) - integral(from)) / (to - from);
+}
 
 std::string Network::node_name(int node) const {
   for (auto const& range : ranges_)
@@ -55,7 +72,7 @@ std::string Network::node_name(int node) const {
 NodeRange const& Network::range(std::string const& name) const {
   for (auto const& range : ranges_)
     if (range.name == name) return range;
-  throw InputError(fmt::format("there is no body '{}'{}", name, did_you_mean(name, names_of(ranges_))));
+  throw InputError(fmt::format("there is no body '{}'; {}", name, did_you_mean(name, names_of(ranges_))));
 }
 
 int Network::index_of(Port port) const {
@@ -157,8 +174,9 @@ Port NetworkBuilder::add_boundary(Boundary boundary) {
 Port NetworkBuilder::add_average(Average average) {
   double sum = 0.0;
   for (double w : average.weights) sum += w;
-  if (average.position_channel < 0 && std::abs(sum - 1.0) > 1e-9)
+  if (average.from_channel < 0 && std::abs(sum - 1.0) > 1e-9)
     throw InputError(fmt::format("the weights of the average '{}' add up to {}, not to 1", average.name, sum));
+  average.weights.resize(average.nodes.size());
   network_.averages_.push_back(std::move(average));
   return {Port::Kind::average, int(network_.averages_.size()) - 1};
 }
@@ -219,7 +237,10 @@ Network NetworkBuilder::build() {
   for (auto& boundary : network_.boundaries_)
     for (auto& term : boundary.terms) term.channel = renumber(term.channel);
   for (auto& average : network_.averages_)
-    if (average.position_channel >= 0) average.position_channel = renumber(average.position_channel);
+    if (average.from_channel >= 0) {
+      average.from_channel = renumber(average.from_channel);
+      average.to_channel = renumber(average.to_channel);
+    }
   for (auto& pending : relays_) {
     pending.relay.measured = network_.index_of(pending.measured);
     pending.relay.reference = network_.index_of(pending.reference);

@@ -37,16 +37,21 @@ struct Boundary {
 
 /// T̄ = Σ wᵢ Tᵢ with Σ wᵢ = 1; heat into the average is shared among the nodes by the same weights.
 ///
-/// If `position_channel` ≥ 0 the average moves: `weights` are recomputed as the exact overlap of a window of length
-/// `window` centred at u[position_channel] with the cells [edges[i], edges[i+1]] (physics.md 2.10).
+/// If `from_channel` ≥ 0 the average moves: a window of length `window`, whose centre is spread evenly over
+/// [u[from_channel], u[to_channel]] (both equal: where it is now), is laid over the cells [edges[i], edges[i+1]]; the
+/// weights are the exact mean overlaps (physics.md 2.10), computed anew at every evaluation.
 struct Average {
   std::string name;
   std::vector<int> nodes;
   std::vector<double> weights;
-  int position_channel = -1;
+  int from_channel = -1, to_channel = -1;
   double window = 0.0;
   std::vector<double> edges;
 };
+
+/// Mean length of overlap of [low, high] with a window of length `window` whose centre is spread evenly over [from,
+/// to].
+[[nodiscard]] double mean_overlap(double low, double high, double window, double from, double to);
 
 /// All elements that follow one law.
 struct ElementGroup {

@@ -53,7 +53,7 @@ class OperatingPoint {
       auto const& name = network.channel_names()[std::size_t(i)];
       auto const it = std::find(given.begin(), given.end(), name);
       if (it == given.end())
-        throw InputError(fmt::format("the machine needs the input '{}', which the experiment does not give{}", name,
+        throw InputError(fmt::format("the machine needs the input '{}', which the experiment does not give; {}", name,
                                      did_you_mean(name, given)));
       source_.push_back(std::size_t(it - given.begin()));
     }

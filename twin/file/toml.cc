@@ -1,0 +1,80 @@
+// The only file that knows toml++.
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+#include <toml++/toml.h>
+
+#include "twin/file/value.h"
+
+namespace thermotwin::twin {
+namespace {
+
+Location location(toml::source_region const& source, std::string const& file) {
+  return {file, int(source.begin.line), int(source.begin.column)};
+}
+
+Value convert(toml::node const& node, std::string const& file);
+
+Value::Table convert_table(toml::table const& table, std::string const& file) {
+  Value::Table entries;
+  for (auto const& [key, node] : table)
+    entries.push_back({std::string(key.str()), location(key.source(), file), convert(node, file)});
+  auto const before = [](Value::Entry const& a, Value::Entry const& b) {
+    return std::pair(a.where.line, a.where.column) < std::pair(b.where.line, b.where.column);
+  };
+  std::stable_sort(entries.begin(), entries.end(), before);
+  return entries;
+}
+
+Value convert(toml::node const& node, std::string const& file) {
+  Value value;
+  value.where = location(node.source(), file);
+  switch (node.type()) {
+    case toml::node_type::table:
+      value.content = convert_table(*node.as_table(), file);
+      break;
+    case toml::node_type::array: {
+      Value::List list;
+      for (auto const& element : *node.as_array()) list.push_back(convert(element, file));
+      value.content = std::move(list);
+      break;
+    }
+    case toml::node_type::string:
+      value.content = node.as_string()->get();
+      break;
+    case toml::node_type::integer:
+      value.content = std::int64_t(node.as_integer()->get());
+      break;
+    case toml::node_type::floating_point:
+      value.content = node.as_floating_point()->get();
+      break;
+    case toml::node_type::boolean:
+      value.content = node.as_boolean()->get();
+      break;
+    default:
+      throw FileError(value.where, "dates and times are not used here; write a duration with its unit, \"30 min\"");
+  }
+  return value;
+}
+
+}  // namespace
+
+Value parse_toml(std::string_view text, std::string const& file_name) {
+  try {
+    toml::table const table = toml::parse(text, file_name);
+    return {{file_name, 1, 1}, convert_table(table, file_name)};
+  } catch (toml::parse_error const& error) {
+    throw FileError(location(error.source(), file_name), error.description());
+  }
+}
+
+Value read_toml(std::filesystem::path const& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  if (!file || !(text << file.rdbuf()) || std::filesystem::is_directory(path))
+    throw FileError({path.string(), 0, 0}, "the file cannot be read");
+  return parse_toml(text.str(), path.string());
+}
+
+}  // namespace thermotwin::twin

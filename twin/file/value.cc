@@ -1,0 +1,124 @@
+#include "twin/file/value.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "thermal/nearest_name.h"
+#include "thermal/units.h"
+
+namespace thermotwin::twin {
+namespace {
+
+std::string name_of(Value const& table) {
+  Value const* name = table.find("name");
+  return name && name->is_text() ? std::get<std::string>(name->content) : std::string();
+}
+
+/// Splits at the dots; a name may itself contain none.
+std::vector<std::string> split(std::string_view path) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= path.size(); ++i)
+    if (i == path.size() || path[i] == '.') {
+      parts.emplace_back(path.substr(begin, i - begin));
+      begin = i + 1;
+    }
+  return parts;
+}
+
+/// What a text on the command line means: true, false, a number, or text (a quantity, a name).
+decltype(Value::content) interpret(std::string const& text) {
+  if (text == "true" || text == "false") return text == "true";
+  char* end = nullptr;
+  double const number = std::strtod(text.c_str(), &end);
+  if (!text.empty() && *end == '\0') {
+    if (text.find_first_not_of("+-0123456789") == std::string::npos) return std::int64_t(number);
+    return number;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string Location::text() const { return fmt::format("{}:{}:{}", file, line, column); }
+
+FileError::FileError(Location const& where, std::string_view what)
+    : InputError(where.line > 0 ? fmt::format("{}: {}", where.text(), what) : fmt::format("{}: {}", where.file, what)) {
+}
+
+Value const* Value::find(std::string_view key) const {
+  for (auto const& entry : std::get<Table>(content))
+    if (entry.key == key) return &entry.value;
+  return nullptr;
+}
+
+Value* Value::find(std::string_view key) { return const_cast<Value*>(std::as_const(*this).find(key)); }
+
+std::vector<std::string> Value::keys() const {
+  std::vector<std::string> keys;
+  for (auto const& entry : std::get<Table>(content)) keys.push_back(entry.key);
+  return keys;
+}
+
+std::string Value::kind() const {
+  constexpr std::string_view kinds[] = {"a text", "a number", "a whole number", "true or false", "a list", "a table"};
+  return std::string(kinds[content.index()]);
+}
+
+std::string Value::text() const {
+  struct Visitor {
+    std::string operator()(std::string const& s) const { return fmt::format("\"{}\"", s); }
+    std::string operator()(double x) const { return thermal::format_number(x); }
+    std::string operator()(std::int64_t i) const { return fmt::format("{}", i); }
+    std::string operator()(bool b) const { return b ? "true" : "false"; }
+    std::string operator()(List const& list) const {
+      std::string text = "[";
+      for (auto const& value : list) text += (text.size() > 1 ? ", " : "") + value.text();
+      return text + "]";
+    }
+    std::string operator()(Table const&) const { return "a table"; }
+  };
+  return std::visit(Visitor{}, content);
+}
+
+std::pair<Value*, std::string> find_parameter(Value& document, std::string_view path) {
+  auto const parts = split(path);
+  auto const fail = [&](std::string const& what, std::vector<std::string> const& known, std::string const& name) {
+    throw thermal::InputError(fmt::format("parameter '{}': {}; {}", path, what, thermal::did_you_mean(name, known)));
+  };
+  Value* here = &document;
+  std::size_t next = 0;
+  for (; next + 1 < parts.size(); ++next) {
+    Value* found = here->find(parts[next]);
+    if (!found) fail(fmt::format("there is no '{}'", parts[next]), here->keys(), parts[next]);
+    if (found->is_list()) {
+      auto& list = std::get<Value::List>(found->content);
+      if (next + 2 >= parts.size()) fail("the path ends before a key", {}, "");
+      auto const& name = parts[++next];
+      auto const it =
+          std::find_if(list.begin(), list.end(), [&](auto const& v) { return v.is_table() && name_of(v) == name; });
+      if (it == list.end()) {
+        std::vector<std::string> names;
+        for (auto const& v : list)
+          if (v.is_table()) names.push_back(name_of(v));
+        fail(fmt::format("there is no {} named '{}'", parts[next - 1], name), names, name);
+      }
+      found = &*it;
+    }
+    if (!found->is_table()) fail(fmt::format("'{}' is {}, not a table", parts[next], found->kind()), {}, "");
+    here = found;
+  }
+  return {here, parts.back()};
+}
+
+void set_parameter(Value& document, std::string_view path, std::string const& text) {
+  auto const [table, key] = find_parameter(document, path);
+  Location const where{fmt::format("parameter {}", path), 0, 0};
+  if (Value* value = table->find(key)) {
+    *value = {where, interpret(text)};
+    return;
+  }
+  std::get<Value::Table>(table->content).push_back({key, where, {where, interpret(text)}});
+}
+
+}  // namespace thermotwin::twin
