@@ -382,6 +382,16 @@ double to_unit(double si, std::string_view unit) { return apply_inverse(read_uni
 
 double from_unit(double number, std::string_view unit) { return apply(read_unit(unit), number); }
 
+void to_unit(std::span<double> values, std::string_view unit) {
+  Unit const read = read_unit(unit);
+  for (double& value : values) value = apply_inverse(read, value);
+}
+
+void from_unit(std::span<double> numbers, std::string_view unit) {
+  Unit const read = read_unit(unit);
+  for (double& number : numbers) number = apply(read, number);
+}
+
 Dimension dimension_of(std::string_view unit) { return read_unit(unit).dimension; }
 
 std::string name_of(Dimension dimension) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -88,6 +89,9 @@ double parse_temperature(std::string_view text);
 /// = 20.
 double to_unit(double si, std::string_view unit);
 double from_unit(double number, std::string_view unit);
+/// The same for a whole column, in place.
+void to_unit(std::span<double> values, std::string_view unit);
+void from_unit(std::span<double> numbers, std::string_view unit);
 
 Dimension dimension_of(std::string_view unit);
 

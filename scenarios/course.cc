@@ -1,0 +1,195 @@
+#include "scenarios/course.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "thermal/error.h"
+#include "thermal/nearest_name.h"
+
+namespace thermotwin::scenarios {
+namespace {
+
+using thermal::InputError;
+
+constexpr double day = 86400.0;
+
+std::vector<DrivenChannel> driven_channels(Experiment const& experiment) {
+  std::vector<DrivenChannel> driven;
+  for (InputProgram const& program : experiment.inputs) driven.push_back(driven_channel(program, experiment.duration));
+  for (Recording const& recording : experiment.recorded) {
+    for (DrivenChannel& channel : read_recording(recording, experiment.directory, experiment.duration)) {
+      driven.push_back(std::move(channel));
+    }
+  }
+  for (auto first = driven.begin(); first != driven.end(); ++first) {
+    bool const twice = std::any_of(
+        first + 1, driven.end(), [&](DrivenChannel const& other) { return other.channel.name == first->channel.name; });
+    if (twice) throw InputError("channel '" + first->channel.name + "' is driven twice, by inputs or recorded columns");
+  }
+  return driven;
+}
+
+Signal const* find(std::vector<DrivenChannel> const& driven, std::string const& name) {
+  auto const found =
+      std::find_if(driven.begin(), driven.end(), [&](DrivenChannel const& d) { return d.channel.name == name; });
+  return found == driven.end() ? nullptr : &found->signal;
+}
+
+void check_axes(Experiment const& experiment, MachineLimits const& machine) {
+  std::vector<std::string> names;
+  for (AxisLimits const& axis : machine.axes) names.push_back(axis.name);
+  auto const require_axis = [&](std::string const& axis, std::string const& place) {
+    if (std::find(names.begin(), names.end(), axis) != names.end()) return;
+    throw InputError(place + ".axis: the machine has no axis '" + axis + "'; " + thermal::did_you_mean(axis, names));
+  };
+  for (std::size_t i = 0; i < experiment.axes.size(); ++i) {
+    require_axis(experiment.axes[i].axis, "axes[" + std::to_string(i) + "]");
+    bool const twice = std::any_of(experiment.axes.begin(), experiment.axes.begin() + static_cast<std::ptrdiff_t>(i),
+                                   [&](FeedProgram const& other) { return other.axis == experiment.axes[i].axis; });
+    if (twice)
+      throw InputError("axes[" + std::to_string(i) + "].axis: axis '" + experiment.axes[i].axis +
+                       "' has two programmes");
+  }
+  if (experiment.laser) require_axis(experiment.laser->axis, "laser");
+}
+
+AxisMotion motion_of(Experiment const& experiment, AxisLimits const& axis) {
+  for (FeedProgram const& program : experiment.axes) {
+    if (program.axis == axis.name) return axis_motion(program, axis, experiment.duration);
+  }
+  return axis_at_rest(axis);
+}
+
+/// A recorded feed is in motion while it is recorded: duty 1.
+void follow(Signal const& recorded_feed, AxisLimits const& axis, AxisMotion& motion) {
+  motion.feed = recorded_feed.magnitude();
+  motion.duty = motion.feed.running();
+  motion.screw_speed = motion.feed.scaled(2.0 * std::numbers::pi / axis.lead);
+}
+
+}  // namespace
+
+ExperimentCourse::ExperimentCourse(Experiment const& experiment, MachineLimits const& machine) {
+  check(experiment);
+  check_axes(experiment, machine);
+  driven_ = driven_channels(experiment);
+  add_spindle(experiment, machine);
+  for (AxisLimits const& axis : machine.axes) add_axis(experiment, axis);
+  add_ambient(experiment);
+  add_switches(experiment);
+  add_clock(experiment);
+  for (DrivenChannel const& driven : driven_) replace_or_add(driven);
+  sort_jumps();
+}
+
+void ExperimentCourse::add_spindle(Experiment const& experiment, MachineLimits const& machine) {
+  Signal speed;
+  if (experiment.spindle) speed = spindle_speed(*experiment.spindle, machine, experiment.duration);
+  if (Signal const* recorded = find(driven_, "spindle.speed")) speed = recorded->magnitude();
+  Signal const running = speed.running();
+  add({"spindle.speed", "rad/s", "spindle speed"}, speed);
+  add({"spindle.running", "1", "1 while the spindle turns"}, running);
+  add({"spindle.time_running", "s", "time since the spindle started"},
+      [running](double t) { return running.at(t) != 0.0 ? t - running.piece_start(t) : 0.0; });
+  add({"spindle.revolutions", "1", "revolutions since the start of the run"},
+      [speed](double t) { return speed.integral(t) / (2.0 * std::numbers::pi); });
+}
+
+void ExperimentCourse::add_axis(Experiment const& experiment, AxisLimits const& axis) {
+  AxisMotion motion = motion_of(experiment, axis);
+  if (Signal const* recorded = find(driven_, axis.name + ".feed")) follow(*recorded, axis, motion);
+  add({axis.name + ".feed", "m/s", "feed while moving"}, motion.feed);
+  add({axis.name + ".duty", "1", "share of the time in motion"}, motion.duty);
+  add({axis.name + ".speed", "rad/s", "mean speed of the screw"}, motion.screw_speed);
+  add({axis.name + ".running", "1", "1 while the screw turns"}, motion.screw_speed.running());
+  add({axis.name + ".stroke_from", "m", "near end of the nut's stroke"}, motion.stroke_from);
+  add({axis.name + ".stroke_to", "m", "far end of the nut's stroke"}, motion.stroke_to);
+  add({axis.name + ".position", "m", "nut position"}, motion.position);
+  if (motion.position.times().size() > 1) add_jumps(motion.position.times());  // the integrator meets each reversal
+}
+
+void ExperimentCourse::add_ambient(Experiment const& experiment) {
+  Ambient const& ambient = experiment.ambient;
+  add({"ambient.temperature", "K", "air temperature at the reference height"},
+      [ambient, start = experiment.start_time_of_day](double t) { return air_temperature(ambient, start, t); });
+  add({"ambient.gradient", "K/m", "rise of the air temperature with height"}, Signal(ambient.stratification));
+  add({"ambient.reference_height", "m", "height of the air temperature"}, Signal(ambient.reference_height));
+  add({"ambient.door", "1", "1 while a door stands open"},
+      [ambient](double t) { return door_open(ambient, t) ? 1.0 : 0.0; });
+  for (DoorOpening const& door : ambient.door_openings) add_jumps({door.time, door.time + door.duration});
+}
+
+void ExperimentCourse::add_switches(Experiment const& experiment) {
+  auto const add_switch = [&](std::string const& name, std::string const& field, std::string const& description,
+                              std::vector<SwitchBlock> const& blocks, bool afterwards) {
+    add({name, "1", description}, switching(blocks, afterwards, experiment.duration, field));
+  };
+  add_switch("coolant.on", "coolant", "1 while the coolant runs", experiment.coolant.blocks, experiment.coolant.on);
+  add({"coolant.temperature", "K", "of the coolant supply"}, Signal(experiment.coolant.temperature));
+  add_switch("chiller.on", "chiller", "1 while the chiller may run", experiment.chiller.blocks, experiment.chiller.on);
+  add({"chiller.offset", "K", "added to the chiller's set point"}, Signal(experiment.chiller.offset));
+  add_switch("machine.on", "power", "1 while the machine is on", experiment.power.blocks, experiment.power.on);
+  add_switch("servo.on", "servo", "1 while the drives are on", experiment.servo.blocks, experiment.servo.on);
+}
+
+void ExperimentCourse::add_clock(Experiment const& experiment) {
+  std::vector<double> times = {0.0};
+  std::vector<double> midnights = {-experiment.start_time_of_day};
+  for (double next = midnights.front() + day; next <= experiment.duration; next += day) {
+    times.push_back(next);
+    midnights.push_back(next);
+  }
+  Signal const last_midnight(times, midnights, Interpolation::step);
+  add({"time_of_day", "s", "clock"}, [last_midnight](double t) { return t - last_midnight.at(t); });
+  add_jumps(last_midnight.jumps());
+}
+
+void ExperimentCourse::replace_or_add(DrivenChannel const& driven) {
+  auto const known = std::find_if(channels_.begin(), channels_.end(), [&](thermal::InputChannel const& channel) {
+    return channel.name == driven.channel.name;
+  });
+  if (known == channels_.end()) return add(driven.channel, driven.signal);
+  if (thermal::dimension_of(known->unit) != thermal::dimension_of(driven.channel.unit)) {
+    throw InputError("channel '" + known->name + "': " + driven.channel.description + " is in " + driven.channel.unit +
+                     ", the channel in " + known->unit);
+  }
+  bool const done = known->name == "spindle.speed" || known->name.ends_with(".feed");
+  if (done) return;
+  formulas_[static_cast<std::size_t>(known - channels_.begin())] = [signal = driven.signal](double t) {
+    return signal.at(t);
+  };
+  add_jumps(driven.signal.jumps());
+}
+
+void ExperimentCourse::add(thermal::InputChannel channel, Formula formula) {
+  channels_.push_back(std::move(channel));
+  formulas_.push_back(std::move(formula));
+}
+
+void ExperimentCourse::add(thermal::InputChannel channel, Signal const& signal) {
+  add(std::move(channel), [signal](double t) { return signal.at(t); });
+  add_jumps(signal.jumps());
+}
+
+void ExperimentCourse::add_jumps(std::vector<double> const& times) {
+  jumps_.insert(jumps_.end(), times.begin(), times.end());
+}
+
+void ExperimentCourse::sort_jumps() {
+  std::sort(jumps_.begin(), jumps_.end());
+  jumps_.erase(std::unique(jumps_.begin(), jumps_.end()), jumps_.end());
+}
+
+void ExperimentCourse::evaluate(double t, std::span<double> values) const {
+  for (std::size_t i = 0; i < formulas_.size(); ++i) values[i] = formulas_[i](t);
+}
+
+double ExperimentCourse::next_jump(double t) const {
+  auto const next = std::upper_bound(jumps_.begin(), jumps_.end(), t);
+  return next == jumps_.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
+}  // namespace thermotwin::scenarios

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "scenarios/experiment.h"
+#include "scenarios/machine_limits.h"
+#include "thermal/operating_point.h"
+
+namespace thermotwin::scenarios {
+
+/// An experiment on a machine as the course of its input channels, in SI.
+///
+/// | channel | unit | |
+/// |---|---|---|
+/// | spindle.speed | rad/s | magnitude |
+/// | spindle.running | 1 | 1 while the speed is not zero |
+/// | spindle.time_running | s | since the last start; 0 at standstill |
+/// | spindle.revolutions | 1 | since the start of the run |
+/// | <axis>.feed | m/s | while moving |
+/// | <axis>.duty | 1 | share of the time in motion |
+/// | <axis>.speed | rad/s | mean magnitude of the screw's speed, duty included: 2π feed/lead · duty |
+/// | <axis>.running | 1 | 1 while the screw's speed is not zero |
+/// | <axis>.stroke_from, <axis>.stroke_to | m | interval over which the nut's heat is spread; equal while the nut is
+/// followed | | <axis>.position | m | of the nut; the middle of the stroke unless it is followed | |
+/// ambient.temperature | K | at the reference height | | ambient.gradient | K/m | upwards | | ambient.reference_height
+/// | m | | | ambient.door | 1 | 1 while a door stands open | | coolant.on, chiller.on, machine.on, servo.on | 1 | 0 or
+/// 1 | | coolant.temperature | K | of the supply | | chiller.offset | K | added to the machine's set point | |
+/// time_of_day | s | 0 to 86400 |
+///
+/// Recorded columns and input programmes replace a channel of the same name, or add one. A replaced spindle.speed or
+/// <axis>.feed carries along what follows from it.
+class ExperimentCourse : public thermal::Course {
+ public:
+  /// Throws InputError that names field, value and what is allowed; for a recording also file, line and column.
+  ExperimentCourse(Experiment const& experiment, MachineLimits const& machine);
+
+  [[nodiscard]] std::vector<thermal::InputChannel> const& channels() const override { return channels_; }
+  void evaluate(double t, std::span<double> values) const override;
+  [[nodiscard]] double next_jump(double t) const override;
+
+ private:
+  using Formula = std::function<double(double)>;
+
+  void add_spindle(Experiment const& experiment, MachineLimits const& machine);
+  void add_axis(Experiment const& experiment, AxisLimits const& axis);
+  void add_ambient(Experiment const& experiment);
+  void add_switches(Experiment const& experiment);
+  void add_clock(Experiment const& experiment);
+  void replace_or_add(DrivenChannel const& driven);
+  void sort_jumps();
+
+  void add(thermal::InputChannel channel, Formula formula);
+  void add(thermal::InputChannel channel, Signal const& signal);
+  void add_jumps(std::vector<double> const& times);
+
+  std::vector<DrivenChannel> driven_;  ///< by recordings and input programmes
+  std::vector<thermal::InputChannel> channels_;
+  std::vector<Formula> formulas_;
+  std::vector<double> jumps_;
+};
+
+}  // namespace thermotwin::scenarios

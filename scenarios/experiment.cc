@@ -1,0 +1,36 @@
+#include "scenarios/experiment.h"
+
+#include "thermal/error.h"
+
+namespace thermotwin::scenarios {
+namespace {
+
+void require_positive(double seconds, std::string const& name) {
+  if (seconds > 0.0) return;
+  throw thermal::InputError(name + ": " + thermal::format_quantity(seconds, thermal::dimension::time) +
+                            " must be above 0 s, for example \"4 h\"");
+}
+
+}  // namespace
+
+std::vector<double> sample_times(Experiment const& experiment) {
+  std::vector<double> times;
+  for (int i = 0; i * experiment.sampling <= experiment.duration; ++i) times.push_back(i * experiment.sampling);
+  return times;
+}
+
+void check(Experiment const& experiment) {
+  require_positive(experiment.duration, "duration");
+  require_positive(experiment.sampling, "sampling");
+  if (experiment.seed < 0) {
+    throw thermal::InputError("seed: " + std::to_string(experiment.seed) + " must be 0 or more");
+  }
+  if (experiment.start_time_of_day < 0.0 || experiment.start_time_of_day >= 86400.0) {
+    throw thermal::InputError(
+        "start_time_of_day: " + thermal::format_quantity(experiment.start_time_of_day, thermal::dimension::time) +
+        " must be from 0 h to below 24 h");
+  }
+  check(experiment.ambient);
+}
+
+}  // namespace thermotwin::scenarios

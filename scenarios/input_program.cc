@@ -1,0 +1,44 @@
+#include "scenarios/input_program.h"
+
+#include "thermal/error.h"
+
+namespace thermotwin::scenarios {
+
+using thermal::InputError;
+
+namespace {
+
+thermal::Quantity value_of(ValueBlock const& block, std::string const& place) {
+  try {
+    return thermal::parse_quantity(block.value);
+  } catch (InputError const& error) {
+    throw InputError(place + "value: " + error.what());
+  }
+}
+
+}  // namespace
+
+DrivenChannel driven_channel(InputProgram const& program, double duration) {
+  if (program.channel.empty()) throw InputError("inputs.channel: the name of an input channel is due");
+  std::string const place = "inputs '" + program.channel + "': blocks";
+  if (program.blocks.empty()) throw InputError(place + " is empty; write at least one");
+  thermal::Dimension const dimension = value_of(program.blocks.front(), place + "[0].").dimension;
+  std::vector<Block> blocks;
+  for (ValueBlock const& block : program.blocks) {
+    std::string const here = place + "[" + std::to_string(blocks.size()) + "].";
+    thermal::Quantity const value = value_of(block, here);
+    if (value.dimension != dimension) {
+      throw InputError(here + "value: '" + block.value + "' is a " + thermal::name_of(value.dimension) +
+                       ", the first block's value a " + thermal::name_of(dimension));
+    }
+    if (block.duration <= 0.0) {
+      throw InputError(here + "duration: " + thermal::format_quantity(block.duration, thermal::dimension::time) +
+                       " must be above 0 s");
+    }
+    blocks.push_back({block.duration, value.value});
+  }
+  double const last = blocks.back().value;
+  return {{program.channel, thermal::unit_of(dimension), "programme"}, schedule(blocks, 1, last, duration)};
+}
+
+}  // namespace thermotwin::scenarios
