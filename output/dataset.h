@@ -49,4 +49,11 @@ struct Dataset {
   bool complete = true;                           ///< false: the run was interrupted; rows up to time_s.size() are good
 };
 
+/// Throws thermal::InputError unless the data set is in order: every course as long as the time axis, times finite and
+/// strictly increasing, names unique within their group, not empty, without '/' and not "time".
+void check(Dataset const& dataset);
+
+/// Cuts or lengthens the time axis and every course along it; what is added is not set.
+void resize_rows(Dataset& dataset, Eigen::Index rows);
+
 }  // namespace thermotwin::output

@@ -1,0 +1,97 @@
+#include "output/atomic_file.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <string>
+#include <unistd.h>
+
+#include "output/error.h"
+
+namespace thermotwin::output {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file beyond RLIMIT_FSIZE raises SIGXFSZ, which kills; while this lives, write() reports EFBIG instead.
+class SizeLimitAsError {
+ public:
+  SizeLimitAsError() {
+    struct sigaction ignore {};
+    ignore.sa_handler = SIG_IGN;
+    sigaction(SIGXFSZ, &ignore, &before_);
+  }
+  ~SizeLimitAsError() { sigaction(SIGXFSZ, &before_, nullptr); }
+  SizeLimitAsError(SizeLimitAsError const&) = delete;
+  SizeLimitAsError& operator=(SizeLimitAsError const&) = delete;
+
+ private:
+  struct sigaction before_ {};
+};
+
+class Descriptor {
+ public:
+  Descriptor(fs::path const& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(Descriptor const&) = delete;
+  Descriptor& operator=(Descriptor const&) = delete;
+
+  [[nodiscard]] bool write(std::string_view bytes) const {
+    if (fd_ < 0) return false;
+    SizeLimitAsError const guard;
+    while (!bytes.empty()) {
+      ssize_t const written = ::write(fd_, bytes.data(), bytes.size());
+      if (written < 0 && errno != EINTR) return false;
+      if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+  }
+  [[nodiscard]] bool synchronise() const { return ::fsync(fd_) == 0; }
+
+ private:
+  int fd_;
+};
+
+[[noreturn]] void fail(fs::path const& path, std::string const& reason) {
+  std::error_code ignored;
+  bool const old = fs::is_regular_file(path, ignored);
+  throw OutputError(
+      fmt::format("cannot write '{}': {}{}", path.string(), reason, old ? " (the old file is as it was)" : ""));
+}
+
+void replace(fs::path const& path, std::string_view contents) {
+  fs::path temporary = path;
+  temporary += ".tmp";
+  Descriptor const file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+  if (file.write(contents) && file.synchronise() && ::rename(temporary.c_str(), path.c_str()) == 0) return;
+  std::string const reason = std::strerror(errno);
+  ::unlink(temporary.c_str());
+  fail(path, reason);
+}
+
+}  // namespace
+
+void write_atomically(fs::path const& path, std::string_view contents) {
+  std::error_code ignored;
+  fs::path const target = fs::exists(path, ignored) ? fs::canonical(path) : path;
+  if (fs::is_directory(target, ignored)) fail(path, "it is a directory");
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
+    if (!Descriptor(target, O_WRONLY).write(contents)) fail(path, std::strerror(errno));
+    return;
+  }
+  replace(target, contents);
+  Descriptor const directory(target.has_parent_path() ? target.parent_path() : fs::path("."), O_RDONLY);
+  static_cast<void>(directory.synchronise());  // some file systems cannot: the rename is durable a little later there
+}
+
+void make_directory(fs::path const& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw OutputError(fmt::format("cannot make directory '{}': {}", directory.string(), error.message()));
+}
+
+}  // namespace thermotwin::output

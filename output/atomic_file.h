@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace thermotwin::output {
+
+/// After this, `path` holds all of `contents`; whatever happens on the way (kill, power cut, disk full), it holds what
+/// it held before. The bytes go to `<path>.tmp` in the same directory, are synchronised to the disk, and renamed.
+///
+/// A symbolic link is followed. A device or a pipe (`/dev/stdout`) is written straight through. Throws OutputError and
+/// leaves no `.tmp` behind when the directory is missing or not writable, the disk is full or a size limit is met.
+void write_atomically(std::filesystem::path const& path, std::string_view contents);
+
+/// Makes the directory and its parents; OutputError when that cannot be.
+void make_directory(std::filesystem::path const& directory);
+
+}  // namespace thermotwin::output

@@ -1,0 +1,127 @@
+#include "output/atomic_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <string>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "output/error.h"
+#include "tests/output/temporary_directory.h"
+
+namespace thermotwin::output {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+using tests::contents;
+using tests::put;
+using tests::TemporaryDirectory;
+
+/// While this lives no file may grow beyond `bytes`: the disk is full.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit const small{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+  SmallDisk(SmallDisk const&) = delete;
+  SmallDisk& operator=(SmallDisk const&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+/// Permissions do not hold for root, so be somebody else for a while.
+class WithoutPrivileges {
+ public:
+  WithoutPrivileges() : was_root_(geteuid() == 0) {
+    if (was_root_ && seteuid(65534) != 0) throw std::runtime_error("seteuid");
+  }
+  ~WithoutPrivileges() {
+    if (was_root_ && seteuid(0) != 0) std::abort();
+  }
+  WithoutPrivileges(WithoutPrivileges const&) = delete;
+  WithoutPrivileges& operator=(WithoutPrivileges const&) = delete;
+
+ private:
+  bool was_root_;
+};
+
+TEST(AtomicFile, WritesAndReplaces) {
+  TemporaryDirectory const directory;
+  write_atomically(directory / "a.csv", "first");
+  write_atomically(directory / "a.csv", std::string("sec\0nd", 6));
+  EXPECT_EQ(contents(directory / "a.csv"), std::string("sec\0nd", 6));
+  EXPECT_THAT(directory.files(), ElementsAre("a.csv"));
+}
+
+TEST(AtomicFile, FollowsALink) {
+  TemporaryDirectory const directory;
+  put(directory / "run_7.csv", "old");
+  std::filesystem::create_symlink("run_7.csv", directory / "latest.csv");
+  write_atomically(directory / "latest.csv", "new");
+  EXPECT_EQ(contents(directory / "run_7.csv"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(directory / "latest.csv"));
+}
+
+TEST(AtomicFile, LeavesTheOldFileWhenTheDiskIsFull) {
+  TemporaryDirectory const directory;
+  put(directory / "a.csv", "old");
+  std::string const large(100'000, 'x');
+  auto const write_on_small_disk = [&] {
+    SmallDisk const full(10'000);
+    write_atomically(directory / "a.csv", large);
+  };
+  EXPECT_THAT(write_on_small_disk, ThrowsMessage<OutputError>(AllOf(HasSubstr("a.csv': File too large"),
+                                                                    HasSubstr("the old file is as it was"))));
+  EXPECT_EQ(contents(directory / "a.csv"), "old");
+  EXPECT_THAT(directory.files(), ElementsAre("a.csv"));
+}
+
+TEST(AtomicFile, SaysThatTheDeviceIsFull) {
+  EXPECT_THAT([] { write_atomically("/dev/full", "x"); },
+              ThrowsMessage<OutputError>(HasSubstr("'/dev/full': No space left on device")));
+}
+
+TEST(AtomicFile, SaysThatTheDirectoryIsMissing) {
+  TemporaryDirectory const directory;
+  EXPECT_THAT([&] { write_atomically(directory / "no/a.csv", "x"); },
+              ThrowsMessage<OutputError>(HasSubstr("no/a.csv': No such file or directory")));
+}
+
+TEST(AtomicFile, SaysThatTheTargetIsADirectory) {
+  TemporaryDirectory const directory;
+  EXPECT_THAT([&] { write_atomically(directory.path(), "x"); },
+              ThrowsMessage<OutputError>(HasSubstr("it is a directory")));
+}
+
+TEST(AtomicFile, LeavesTheOldFileWhenTheDirectoryIsReadOnly) {
+  TemporaryDirectory const directory;
+  put(directory / "a.csv", "old");
+  std::filesystem::permissions(directory.path(), std::filesystem::perms(0555));
+  auto const write_without_privileges = [&] {
+    WithoutPrivileges const nobody;
+    write_atomically(directory / "a.csv", "new");
+  };
+  EXPECT_THAT(write_without_privileges,
+              ThrowsMessage<OutputError>(HasSubstr("Permission denied (the old file is as it was)")));
+  std::filesystem::permissions(directory.path(), std::filesystem::perms(0755));
+  EXPECT_EQ(contents(directory / "a.csv"), "old");
+}
+
+TEST(MakeDirectory, SaysWhatIsInTheWay) {
+  TemporaryDirectory const directory;
+  put(directory / "a", "");
+  EXPECT_THAT([&] { make_directory(directory / "a/b"); },
+              ThrowsMessage<OutputError>(HasSubstr("a/b': Not a directory")));
+  make_directory(directory / "c/d");
+  EXPECT_TRUE(std::filesystem::is_directory(directory / "c/d"));
+}
+
+}  // namespace
+}  // namespace thermotwin::output
