@@ -1,0 +1,96 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "thermal/body.h"
+#include "thermal/network.h"
+#include "thermal/site.h"
+#include "twin/description.h"
+
+namespace thermotwin::twin {
+
+/// A place on a body of the machine, as text in a file:
+///
+///   head                         the whole body
+///   shaft[40 mm .. 80 mm]        a stretch along the axis of a bar, a cylinder or a channel
+///   shaft[10 mm]                 a point on it
+///   cartridge.outer[0 mm .. 40 mm]   a stretch of a face (faces: see `thermotwin describe machine`)
+///   column.x_max[0 mm .. 200 mm, 100 mm .. 900 mm]   a rectangle on a block's face, from the block's corner
+///   head[10 mm, 20 mm, 30 mm]    a point in a block; with `..` a box
+struct Place {
+  std::string text;
+  thermal::Body const* body = nullptr;
+  int first_node = 0;
+  thermal::Site site;
+
+  [[nodiscard]] double area() const;
+  [[nodiscard]] Eigen::Vector3d centre() const;
+};
+
+/// A term of a displacement channel that follows an input at once: coefficient · u[channel]^power.
+struct InputTerm {
+  std::string displacement;
+  std::string channel;
+  double coefficient = 0.0;
+  double power = 1.0;
+};
+
+/// What the parts of a machine file are added to: the network while it is built, and the names of everything in it.
+class Assembly {
+ public:
+  Assembly(std::map<std::string, thermal::Body> const& bodies, std::vector<std::string> const& order,
+           double maximum_spindle_speed);
+
+  [[nodiscard]] thermal::NetworkBuilder& network() { return builder_; }
+
+  /// The part being added; its elements and its heat carry this number.
+  [[nodiscard]] int part() const { return part_; }
+  void begin_part(std::string const& name) { part_ = builder_.part(name); }
+
+  /// Resolves a place; InputError that names the nearest body or the faces that there are.
+  [[nodiscard]] Place place(std::string const& text) const;
+  /// The same, where heat passes a surface: a bar or a lump without a face means its "surface".
+  [[nodiscard]] Place surface(std::string const& text) const;
+
+  /// The temperature of a place: its node, or the weighted average of its nodes.
+  [[nodiscard]] thermal::Port port(Place const& place);
+  [[nodiscard]] thermal::Port port(std::string const& text) { return port(place(text)); }
+  [[nodiscard]] thermal::Port node(Place const& place, int local) const;
+  /// Room air at a height over the machine's zero.
+  [[nodiscard]] thermal::Port air(double height);
+  /// A boundary whose temperature is an input channel plus an offset [K].
+  [[nodiscard]] thermal::Port boundary(std::string const& channel, double offset = 0.0);
+
+  [[nodiscard]] int channel(std::string const& name) { return builder_.channel(name); }
+  [[nodiscard]] double maximum_spindle_speed() const { return maximum_spindle_speed_; }
+  [[nodiscard]] thermal::Body const& body(std::string const& name) const;
+  [[nodiscard]] int first_node(std::string const& name) const;
+
+  void displace(InputTerm term) { input_terms_.push_back(std::move(term)); }
+  [[nodiscard]] std::vector<InputTerm> const& input_terms() const { return input_terms_; }
+
+  /// What one part tells those after it: the ports and coefficients of a friction torque, for the motor that drives it.
+  struct Torque {
+    std::vector<thermal::Port> ports;
+    std::vector<double> coefficients;
+  };
+  void announce(std::string const& part, Torque torque) { torques_[part] = std::move(torque); }
+  [[nodiscard]] Torque const& torque_of(std::string const& part) const;
+
+ private:
+  thermal::NetworkBuilder builder_;
+  std::map<std::string, thermal::Body> const& bodies_;
+  std::map<std::string, int> first_nodes_;
+  std::map<std::string, thermal::Port> averages_;
+  std::map<double, thermal::Port> airs_;
+  std::map<std::pair<std::string, double>, thermal::Port> boundaries_;
+  std::map<std::string, Torque> torques_;
+  std::vector<InputTerm> input_terms_;
+  double maximum_spindle_speed_ = 0.0;
+  int part_ = 0;
+};
+
+}  // namespace thermotwin::twin

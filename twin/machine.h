@@ -1,0 +1,95 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenarios/machine_limits.h"
+#include "thermal/ball_screw.h"
+#include "thermal/geometry.h"
+#include "thermal/network.h"
+#include "twin/assembly.h"
+#include "twin/description.h"
+#include "twin/effect.h"
+#include "twin/instruments/temperature_sensor.h"
+
+namespace thermotwin::twin {
+
+/// `[[temperature_sensor]]`: an instrument at a place, or at the mean of several.
+struct SensorDescription : TemperatureSensor {
+  std::string name, title;
+  std::vector<std::string> at;
+  std::string component;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("name", &SensorDescription::name, "of the channel: T1");
+    f("title", &SensorDescription::title, "one line for people");
+    f("at", &SensorDescription::at, "place on a body; several: their mean; \"ambient\": room air");
+    f("component", &SensorDescription::component, "group that it belongs to when sensors are selected");
+    TemperatureSensor::fields(f);
+  }
+};
+
+/// Weights over the nodes of the network.
+using NodeWeights = std::vector<std::pair<int, double>>;
+
+/// A sensor as built: what it sees.
+struct Sensor {
+  SensorDescription description;
+  NodeWeights weights;            ///< Σ = 1; empty: it hangs in the air
+  Eigen::Vector3d position{0.0, 0.0, 0.0};  ///< [m]
+};
+
+/// A channel of displacement [m] or rotation [rad]: Σ wᵢ (Tᵢ(t) − Tᵢ(0)) + Σ c (u(t)^p − u(0)^p).
+struct Displacement {
+  std::string name, title;
+  bool rotation = false;
+  NodeWeights weights;
+  std::vector<InputTerm> input_terms;
+};
+
+/// A ball screw as built: positions at which its error is a channel.
+struct Screw {
+  BallScrewDescription description;
+  thermal::BallScrew screw;
+  int first_node = 0;
+};
+
+/// A machine: what its file describes, ready to run. Built whole and never changed; threads share it.
+class Machine {
+ public:
+  /// Reads a machine file. FileError names file, line, column, value and what is allowed.
+  static Machine read(std::filesystem::path const& path);
+  /// From a document that was read (and perhaps changed by set_parameter).
+  static Machine build(Value const& document);
+
+  std::string name, title;
+  scenarios::MachineLimits limits;
+  thermal::Geometry geometry;
+  std::vector<Sensor> sensors;
+  std::vector<Displacement> displacements;
+  std::vector<Screw> screws;
+
+  [[nodiscard]] thermal::Network const& network() const { return *network_; }
+
+ private:
+  friend class MachineBuilder;
+  Machine() = default;
+  std::shared_ptr<thermal::Network const> network_;
+};
+
+/// The file of a machine: a path, or the name of one in twin/machines. InputError that names the nearest one.
+[[nodiscard]] std::filesystem::path machine_file(std::string const& name_or_path);
+
+/// What `thermotwin describe machine` prints: every table of a machine file with its fields.
+struct TableRecord {
+  std::string name;
+  std::string meaning;
+  std::vector<FieldRecord> fields;
+};
+[[nodiscard]] std::vector<TableRecord> describe_machine();
+
+}  // namespace thermotwin::twin
