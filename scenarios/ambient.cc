@@ -32,7 +32,7 @@ double draught(DoorOpening const& door, double t) {
 }
 
 void require_positive(double value, std::string const& place) {
-  if (value <= 0.0) throw InputError(place + ": " + format_quantity(value, dimension::time) + " must be above 0 s");
+  if (!(value > 0.0)) throw InputError(place + ": " + format_quantity(value, dimension::time) + " must be above 0 s");
 }
 
 }  // namespace

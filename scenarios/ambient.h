@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "scenarios/field.h"
 #include "thermal/units.h"
 
 namespace thermotwin::scenarios {
@@ -14,7 +15,8 @@ struct DailyCycle {
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("amplitude", &DailyCycle::amplitude, thermal::dimension::temperature_difference, "half of peak to peak");
+    f("amplitude", &DailyCycle::amplitude, thermal::dimension::temperature_difference, "half of peak to peak",
+      {0.0, 10.0});
     f("peak_time", &DailyCycle::peak_time, thermal::dimension::time, "time of day of the maximum");
   }
 };
@@ -26,25 +28,29 @@ struct AirConditioning {
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("amplitude", &AirConditioning::amplitude, thermal::dimension::temperature_difference, "half of peak to peak");
-    f("period", &AirConditioning::period, thermal::dimension::time, "of one cycle of the air conditioning");
+    f("amplitude", &AirConditioning::amplitude, thermal::dimension::temperature_difference, "half of peak to peak",
+      {0.0, 10.0});
+    f("period", &AirConditioning::period, thermal::dimension::time, "of one cycle of the air conditioning",
+      {0.0, unbounded});
   }
 };
 
 /// The air goes to ΔT(1 − exp(−t/τ)) while the door is open and back with the same τ; ΔT = −1 to −5 K, τ = 5 to 20 min.
 /// (physics.md 2.13, §7 no. 15)
 struct DoorOpening {
-  double time = 0.0;                 ///< when it opens, from the start of the run [s]
+  double time = required;            ///< when it opens, from the start of the run [s]
   double duration = 10 * 60.0;       ///< how long it stays open [s]
   double step = -3.0;                ///< where the air would end up [K]
   double time_constant = 10 * 60.0;  ///< [s]
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("time", &DoorOpening::time, thermal::dimension::time, "when the door opens, from the start of the run");
-    f("duration", &DoorOpening::duration, thermal::dimension::time, "how long it stays open");
+    f("time", &DoorOpening::time, thermal::dimension::time, "when the door opens, from the start of the run",
+      {0.0, unbounded});
+    f("duration", &DoorOpening::duration, thermal::dimension::time, "how long it stays open", {0.0, unbounded});
     f("step", &DoorOpening::step, thermal::dimension::temperature_difference, "change of the air if it stayed open");
-    f("time_constant", &DoorOpening::time_constant, thermal::dimension::time, "of the air's change, both ways");
+    f("time_constant", &DoorOpening::time_constant, thermal::dimension::time, "of the air's change, both ways",
+      {0.0, unbounded});
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "scenarios/ambient.h"
 #include "scenarios/feed_program.h"
+#include "scenarios/field.h"
 #include "scenarios/input_program.h"
 #include "scenarios/recorded.h"
 #include "scenarios/spindle_program.h"
@@ -15,21 +16,13 @@
 
 namespace thermotwin::scenarios {
 
-/// What a machine is put through. Every struct here lists its fields once, in `fields`, for whoever reads or describes
-/// it:
+/// What a machine is put through. Its fields, and those of its parts, are listed as scenarios/field.h says.
 ///
-///     f("key", &S::member, dimension, "doc")          double, std::optional<double>
-///     f.temperature("key", &S::member, "doc")         double, std::optional<double>: a point on the scale [K]
-///     f("key", &S::member, "doc")                     std::string, bool, int, a struct with fields,
-///                                                     std::optional<struct>, std::vector<struct>
-///     f.choice("key", &S::member, {"a", "b"}, "doc")  std::string, one of the names
-///
-/// The members' initial values are the defaults. Programmes run from the start, one block after another; what a
-/// programme leaves open at its end stands still.
+/// Programmes run from the start, one block after another; what a programme leaves open at its end stands still.
 struct Experiment {
   std::string title;
   std::string machine;                        ///< name of a machine, or the file that describes it
-  double duration = 0.0;                      ///< [s] > 0
+  double duration = required;                 ///< [s] > 0
   double sampling = 60.0;                     ///< interval of the readings [s]
   int seed = 1;                               ///< of everything random in the instruments
   double start_time_of_day = 8 * 3600.0;      ///< [s]
@@ -50,11 +43,12 @@ struct Experiment {
   template <class Fields>
   static void fields(Fields& f) {
     f("title", &Experiment::title, "one line for people");
-    f("machine", &Experiment::machine, "name of a machine, or the file that describes it");
-    f("duration", &Experiment::duration, thermal::dimension::time, "of the run");
-    f("sampling", &Experiment::sampling, thermal::dimension::time, "interval of the readings");
+    f.name("machine", &Experiment::machine, "name of a machine, or the file that describes it");
+    f("duration", &Experiment::duration, thermal::dimension::time, "of the run", {0.0, unbounded});
+    f("sampling", &Experiment::sampling, thermal::dimension::time, "interval of the readings", {0.0, unbounded});
     f("seed", &Experiment::seed, "of everything random in the instruments");
-    f("start_time_of_day", &Experiment::start_time_of_day, thermal::dimension::time, "clock at the start of the run");
+    f("start_time_of_day", &Experiment::start_time_of_day, thermal::dimension::time, "clock at the start of the run",
+      {0.0, unbounded});
     f.temperature("initial_temperature", &Experiment::initial_temperature,
                   "of the whole machine; default: that of the air around each part");
     f("spindle", &Experiment::spindle, "speed of the spindle; without it: standstill");

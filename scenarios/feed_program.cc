@@ -32,7 +32,7 @@ Stroke stroke_of(FeedProgram const& program, AxisLimits const& axis) {
 }
 
 double feed_of(FeedBlock const& block, AxisLimits const& axis, std::string const& place) {
-  if (block.duration <= 0.0) {
+  if (!(block.duration > 0.0)) {
     throw InputError(place + "duration: " + format_quantity(block.duration, dimension::time) + " must be above 0 s");
   }
   if (block.feed && block.of_rapid) throw InputError(place + "feed: give either feed or of_rapid, not both");
@@ -108,7 +108,7 @@ class Passes {
   }
 
   AxisMotion motion(double lead) {
-    breakpoint(0.0);
+    breakpoint(feeds_.back());
     Signal const feed(times_, feeds_, Interpolation::step);
     Signal const position(times_, positions_, Interpolation::linear);
     return {feed, feed.running(), feed.scaled(2.0 * std::numbers::pi / lead), position, position, position};
@@ -169,7 +169,7 @@ std::vector<double> targets(LaserMeasurement const& laser) {
 }
 
 std::vector<double> measurement_times(LaserMeasurement const& laser, double duration) {
-  if (laser.interval <= 0.0) {
+  if (!(laser.interval > 0.0)) {
     throw InputError("laser.interval: " + format_quantity(laser.interval, dimension::time) + " must be above 0 s");
   }
   std::vector<double> times;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/field.h"
 #include "scenarios/machine_limits.h"
 #include "scenarios/signal.h"
 #include "thermal/units.h"
@@ -12,16 +13,17 @@ namespace thermotwin::scenarios {
 
 /// Reciprocation at one feed for a while. Without `feed` and `of_rapid` the axis stands still.
 struct FeedBlock {
-  double duration = 0.0;           ///< [s] > 0
+  double duration = required;      ///< [s] > 0
   std::optional<double> feed;      ///< [m/s], 0 to the axis' rapid feed
   std::optional<double> of_rapid;  ///< share of the rapid feed, 0 to 1
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("duration", &FeedBlock::duration, thermal::dimension::time, "how long the axis goes to and fro");
-    f("feed", &FeedBlock::feed, thermal::dimension::speed, "feed; without any feed: standstill");
+    f("duration", &FeedBlock::duration, thermal::dimension::time, "how long the axis goes to and fro",
+      {0.0, unbounded});
+    f("feed", &FeedBlock::feed, thermal::dimension::speed, "feed; without any feed: standstill", {0.0, unbounded});
     f("of_rapid", &FeedBlock::of_rapid, thermal::dimension::dimensionless,
-      "share of the axis' rapid feed, instead of feed");
+      "share of the axis' rapid feed, instead of feed", {0.0, 1.0});
   }
 };
 
@@ -49,8 +51,10 @@ struct FeedProgram {
       "first end of the nut's stroke; default: the machine's");
     f("stroke_to", &FeedProgram::stroke_to, thermal::dimension::length,
       "other end of the nut's stroke; default: the machine's");
-    f("duty", &FeedProgram::duty, thermal::dimension::dimensionless, "share of the time in motion; default 1");
-    f("dwell", &FeedProgram::dwell, thermal::dimension::time, "rest at each end of the stroke, instead of duty");
+    f("duty", &FeedProgram::duty, thermal::dimension::dimensionless, "share of the time in motion; default 1",
+      {0.0, 1.0});
+    f("dwell", &FeedProgram::dwell, thermal::dimension::time, "rest at each end of the stroke, instead of duty",
+      {0.0, unbounded});
     f("resolved", &FeedProgram::resolved, "follow the nut to and fro instead of the mean over the stroke");
   }
 };
@@ -67,11 +71,11 @@ struct LaserMeasurement {
   template <class Fields>
   static void fields(Fields& f) {
     f("axis", &LaserMeasurement::axis, "name of the axis");
-    f("interval", &LaserMeasurement::interval, thermal::dimension::time,
-      "time between measurements, from the start on");
+    f("interval", &LaserMeasurement::interval, thermal::dimension::time, "time between measurements, from the start on",
+      {0.0, unbounded});
     f("from", &LaserMeasurement::from, thermal::dimension::length, "first target, from the start of the stroke");
     f("to", &LaserMeasurement::to, thermal::dimension::length, "last target, from the start of the stroke");
-    f("pitch", &LaserMeasurement::pitch, thermal::dimension::length, "distance between targets");
+    f("pitch", &LaserMeasurement::pitch, thermal::dimension::length, "distance between targets", {0.0, unbounded});
     f("both_directions", &LaserMeasurement::both_directions, "targets approached from either side");
   }
 };

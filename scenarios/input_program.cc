@@ -31,7 +31,7 @@ DrivenChannel driven_channel(InputProgram const& program, double duration) {
       throw InputError(here + "value: '" + block.value + "' is a " + thermal::name_of(value.dimension) +
                        ", the first block's value a " + thermal::name_of(dimension));
     }
-    if (block.duration <= 0.0) {
+    if (!(block.duration > 0.0)) {
       throw InputError(here + "duration: " + thermal::format_quantity(block.duration, thermal::dimension::time) +
                        " must be above 0 s");
     }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/field.h"
 #include "scenarios/recorded.h"
 #include "thermal/units.h"
 
@@ -10,13 +11,13 @@ namespace thermotwin::scenarios {
 
 /// A value held for a while. It is text, because its dimension is that of the channel: "70 %", "35 degC", "1.2 kg/s".
 struct ValueBlock {
-  double duration = 0.0;  ///< [s] > 0
+  double duration = required;  ///< [s] > 0
   std::string value;
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("duration", &ValueBlock::duration, thermal::dimension::time, "how long the value is held");
-    f("value", &ValueBlock::value, "number with unit, for example \"70 %\"");
+    f("duration", &ValueBlock::duration, thermal::dimension::time, "how long the value is held", {0.0, unbounded});
+    f.name("value", &ValueBlock::value, "number with unit, for example \"70 %\"");
   }
 };
 
@@ -27,7 +28,7 @@ struct InputProgram {
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("channel", &InputProgram::channel, "input channel that it drives, of the machine's or a new one");
+    f.name("channel", &InputProgram::channel, "input channel that it drives, of the machine's or a new one");
     f("blocks", &InputProgram::blocks, "values one after another; the last one holds afterwards");
   }
 };

@@ -26,7 +26,7 @@ void check(Recording const& recording) {
   if (recording.file.empty()) throw InputError("recorded.file: the name of a CSV file is due");
   std::string const place = "recorded '" + recording.file + "': ";
   if (recording.columns.empty()) throw InputError(place + "columns is empty; name at least one column and its channel");
-  if (recording.max_gap <= 0.0) {
+  if (!(recording.max_gap > 0.0)) {
     throw InputError(place + "max_gap: " + format_quantity(recording.max_gap, dimension::time) + " must be above 0 s");
   }
   if (dimension_of(recording.time_unit, place + "time_unit: ") != dimension::time) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenarios/field.h"
 #include "scenarios/signal.h"
 #include "thermal/operating_point.h"
 #include "thermal/units.h"
@@ -20,8 +21,8 @@ struct RecordedColumn {
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("column", &RecordedColumn::column, "exact name of the column in the file's header");
-    f("channel", &RecordedColumn::channel, "input channel that it drives, of the machine's or a new one");
+    f.name("column", &RecordedColumn::column, "exact name of the column in the file's header");
+    f.name("channel", &RecordedColumn::channel, "input channel that it drives, of the machine's or a new one");
     f("unit", &RecordedColumn::unit, "unit of the numbers in the file, for example \"rpm\", \"degC\", \"%\"");
     f.choice("interpolation", &RecordedColumn::interpolation, {"linear", "step"},
              "between two rows: a straight line, or held until the next");
@@ -40,13 +41,13 @@ struct Recording {
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("file", &Recording::file,
-      "CSV file, relative to this one; ${NAME} and ${NAME:-default} are read from the environment");
+    f.name("file", &Recording::file,
+           "CSV file, relative to this one; ${NAME} and ${NAME:-default} are read from the environment");
     f("time_column", &Recording::time_column, "exact name of the column of times");
     f("time_unit", &Recording::time_unit, "unit of the times in the file");
     f("clock_offset", &Recording::clock_offset, thermal::dimension::time,
       "added to the file's times to give those of the run");
-    f("max_gap", &Recording::max_gap, thermal::dimension::time, "longest time between two rows");
+    f("max_gap", &Recording::max_gap, thermal::dimension::time, "longest time between two rows", {0.0, unbounded});
     f("columns", &Recording::columns, "columns to read and the channels that they drive");
   }
 };

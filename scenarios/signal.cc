@@ -88,8 +88,10 @@ Signal schedule(std::vector<Block> const& blocks, int cycles, double afterwards,
       t += block.duration;
     }
   }
-  times.push_back(t);
-  values.push_back(afterwards);
+  if (t < until) {
+    times.push_back(t);
+    values.push_back(afterwards);
+  }
   return {times, values, Interpolation::step};
 }
 

@@ -21,7 +21,8 @@ double even(std::mt19937_64& bits, double low, double high) {
 
 void check(RandomSpectrum const& s) {
   std::string const place = "spindle.random.";
-  if (s.run <= 0.0) throw InputError(place + "run: " + format_quantity(s.run, dimension::time) + " must be above 0 s");
+  if (!(s.run > 0.0))
+    throw InputError(place + "run: " + format_quantity(s.run, dimension::time) + " must be above 0 s");
   if (s.shortest < 1.0) {
     throw InputError(place + "shortest: " + format_quantity(s.shortest, dimension::time) + " must be 1 s or more");
   }
@@ -37,7 +38,7 @@ void check(RandomSpectrum const& s) {
 }
 
 double speed_of(SpeedBlock const& block, MachineLimits const& machine, std::string const& place) {
-  if (block.duration <= 0.0) {
+  if (!(block.duration > 0.0)) {
     throw InputError(place + "duration: " + format_quantity(block.duration, dimension::time) + " must be above 0 s");
   }
   if (block.speed && block.of_maximum) throw InputError(place + "speed: give either speed or of_maximum, not both");

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "scenarios/field.h"
 #include "scenarios/machine_limits.h"
 #include "scenarios/signal.h"
 #include "thermal/units.h"
@@ -11,16 +12,17 @@ namespace thermotwin::scenarios {
 
 /// One speed held for a while. Without `speed` and `of_maximum` the spindle stands still.
 struct SpeedBlock {
-  double duration = 0.0;             ///< [s] > 0
+  double duration = required;        ///< [s] > 0
   std::optional<double> speed;       ///< [rad/s], 0 to the machine's maximum
   std::optional<double> of_maximum;  ///< share of the machine's maximum, 0 to 1
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("duration", &SpeedBlock::duration, thermal::dimension::time, "how long the speed is held");
-    f("speed", &SpeedBlock::speed, thermal::dimension::angular_speed, "spindle speed; without any speed: standstill");
+    f("duration", &SpeedBlock::duration, thermal::dimension::time, "how long the speed is held", {0.0, unbounded});
+    f("speed", &SpeedBlock::speed, thermal::dimension::angular_speed, "spindle speed; without any speed: standstill",
+      {0.0, unbounded});
     f("of_maximum", &SpeedBlock::of_maximum, thermal::dimension::dimensionless,
-      "share of the machine's maximum speed, instead of speed");
+      "share of the machine's maximum speed, instead of speed", {0.0, 1.0});
   }
 };
 
@@ -35,11 +37,14 @@ struct RandomSpectrum {
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("run", &RandomSpectrum::run, thermal::dimension::time, "length of the spectrum; afterwards standstill");
-    f("shortest", &RandomSpectrum::shortest, thermal::dimension::time, "shortest block");
-    f("longest", &RandomSpectrum::longest, thermal::dimension::time, "longest block");
-    f("lowest", &RandomSpectrum::lowest, thermal::dimension::dimensionless, "lowest share of the maximum speed");
-    f("highest", &RandomSpectrum::highest, thermal::dimension::dimensionless, "highest share of the maximum speed");
+    f("run", &RandomSpectrum::run, thermal::dimension::time, "length of the spectrum; afterwards standstill",
+      {0.0, unbounded});
+    f("shortest", &RandomSpectrum::shortest, thermal::dimension::time, "shortest block", {0.0, unbounded});
+    f("longest", &RandomSpectrum::longest, thermal::dimension::time, "longest block", {0.0, unbounded});
+    f("lowest", &RandomSpectrum::lowest, thermal::dimension::dimensionless, "lowest share of the maximum speed",
+      {0.0, 1.0});
+    f("highest", &RandomSpectrum::highest, thermal::dimension::dimensionless, "highest share of the maximum speed",
+      {0.0, 1.0});
     f("seed", &RandomSpectrum::seed, "the same seed draws the same spectrum");
   }
 };

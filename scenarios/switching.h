@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/field.h"
 #include "scenarios/signal.h"
 #include "thermal/units.h"
 
@@ -10,12 +11,12 @@ namespace thermotwin::scenarios {
 
 /// A switch that stays on or off for a while.
 struct SwitchBlock {
-  double duration = 0.0;  ///< [s] > 0
+  double duration = required;  ///< [s] > 0
   bool on = true;
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("duration", &SwitchBlock::duration, thermal::dimension::time, "how long it stays so");
+    f("duration", &SwitchBlock::duration, thermal::dimension::time, "how long it stays so", {0.0, unbounded});
     f("on", &SwitchBlock::on, "on or off");
   }
 };
