@@ -98,7 +98,7 @@ HarrisCoefficients harris_coefficients(double contact_angle) {
 
 double static_axial_factor(double contact_angle, Arrangement arrangement) {
   AngleRow const row = interpolate(iso_76_table, contact_angle, "static axial factor Y0");
-  return arrangement == Arrangement::Single ? row.first : row.second;
+  return arrangement == Arrangement::single ? row.first : row.second;
 }
 
 double viscous_torque_factor(std::string_view bearing_type, std::string_view lubrication) {

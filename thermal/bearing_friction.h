@@ -59,7 +59,7 @@ inline constexpr Validity harris_contact_angle{0.17453, 1.5708};  ///< [rad], 10
 /// the sources contradict each other; a deep-groove bearing states z and y itself.
 [[nodiscard]] HarrisCoefficients harris_coefficients(double contact_angle);
 
-enum class Arrangement { Single, Duplex };  ///< one bearing or tandem; face to face or back to back
+enum class Arrangement { single, duplex };  ///< one bearing or tandem; face to face or back to back
 
 /// Y₀ of ISO 76 over the contact angle α [rad], linear between its rows. Throws InputError outside 15° to 40°.
 [[nodiscard]] double static_axial_factor(double contact_angle, Arrangement arrangement);
@@ -70,7 +70,7 @@ inline constexpr double load_blend = 1.0;
 /// P₀ = max(½F_r + Y₀F_a, F_r) for a single bearing, F_r + Y₀F_a for a pair [N] (ISO 76).
 template <class S>
 S static_equivalent_load(S const& radial, S const& axial, S const& axial_factor, Arrangement arrangement) {
-  if (arrangement == Arrangement::Duplex) return radial + axial_factor * axial;
+  if (arrangement == Arrangement::duplex) return radial + axial_factor * axial;
   return smooth_max<S>(0.5 * radial + axial_factor * axial, radial, load_blend);
 }
 
@@ -85,7 +85,7 @@ S harris_torque_load(S const& radial, S const& axial, S const& contact_angle) {
 /// P₁ = max(F_a − 0.1 F_r, F_r) for one bearing, max(1.4 F_a − 0.1 F_r, F_r) for a pair [N]: Schaeffler's torque load.
 template <class S>
 S schaeffler_torque_load(S const& radial, S const& axial, Arrangement arrangement) {
-  double const axial_share = arrangement == Arrangement::Duplex ? 1.4 : 1.0;
+  double const axial_share = arrangement == Arrangement::duplex ? 1.4 : 1.0;
   return smooth_max<S>(axial_share * axial - 0.1 * radial, radial, load_blend);
 }
 
