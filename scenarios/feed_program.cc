@@ -36,7 +36,11 @@ double feed_of(FeedBlock const& block, AxisLimits const& axis, std::string const
     throw InputError(place + "duration: " + format_quantity(block.duration, dimension::time) + " must be above 0 s");
   }
   if (block.feed && block.of_rapid) throw InputError(place + "feed: give either feed or of_rapid, not both");
-  double const feed = block.feed.value_or(block.of_rapid.value_or(0.0) * axis.rapid_feed);
+  double const share = block.of_rapid.value_or(0.0);
+  if (share < 0.0 || share > 1.0) {
+    throw InputError(place + "of_rapid: " + thermal::format_number(share) + " must be from 0 to 1");
+  }
+  double const feed = block.feed.value_or(share * axis.rapid_feed);
   if (feed < 0.0) throw InputError(place + "feed: " + format_quantity(feed, dimension::speed) + " is negative");
   if (feed > axis.rapid_feed) {
     throw InputError(place + "feed: " + format_quantity(feed, dimension::speed) + " is above the axis' rapid feed, " +

@@ -42,11 +42,15 @@ double speed_of(SpeedBlock const& block, MachineLimits const& machine, std::stri
     throw InputError(place + "duration: " + format_quantity(block.duration, dimension::time) + " must be above 0 s");
   }
   if (block.speed && block.of_maximum) throw InputError(place + "speed: give either speed or of_maximum, not both");
-  double const speed = block.speed.value_or(block.of_maximum.value_or(0.0) * machine.max_spindle_speed);
+  double const share = block.of_maximum.value_or(0.0);
+  if (share < 0.0 || share > 1.0) {
+    throw InputError(place + "of_maximum: " + thermal::format_number(share) + " must be from 0 to 1");
+  }
+  double const speed = block.speed.value_or(share * machine.max_spindle_speed);
   if (speed < 0.0)
     throw InputError(place + "speed: " + format_quantity(speed, dimension::angular_speed) + " is negative");
-  bool const moving = speed > 0.0 || block.of_maximum.value_or(0.0) != 0.0;
-  if (moving && machine.max_spindle_speed <= 0.0) throw InputError(place + "speed: the machine has no spindle");
+  if ((speed > 0.0 || share > 0.0) && machine.max_spindle_speed <= 0.0)
+    throw InputError(place + "speed: the machine has no spindle");
   if (speed > machine.max_spindle_speed) {
     throw InputError(place + "speed: " + format_quantity(speed, dimension::angular_speed) +
                      " is above the machine's maximum, " +

@@ -52,8 +52,9 @@ std::string nearest_name(std::string_view name, std::span<std::string const> kno
 std::string did_you_mean(std::string_view name, std::span<std::string const> known) {
   if (known.empty()) return "none is known";
   std::string const nearest = nearest_name(name, known);
-  int const close = std::max(1, static_cast<int>(name.size()) / 3);
-  if (edit_distance(name, nearest) <= close) return "did you mean '" + nearest + "'?";
+  int const size = static_cast<int>(name.size());
+  int const edits = edit_distance(name, nearest);
+  if (edits <= std::max(1, size / 3) && edits < size) return "did you mean '" + nearest + "'?";
   std::string sentence = "known: ";
   std::vector<std::string> const names = nearest_first(name, known);
   for (std::size_t i = 0; i < std::min(names.size(), listed_at_most); ++i) {

@@ -35,6 +35,11 @@ TEST(DidYouMean, ListsNearestFirstWhenNoneIsClose) {
   EXPECT_EQ(did_you_mean("xmxxs", known), "known: 'mass', 'conductance'");
 }
 
+TEST(DidYouMean, ANameOfOneLetterIsNotCloseToAnother) {
+  std::vector<std::string> const known = {"z"};
+  EXPECT_EQ(did_you_mean("w", known), "known: 'z'");
+}
+
 TEST(DidYouMean, CutsALongList) {
   std::vector<std::string> const known(11, "conductance");
   EXPECT_TRUE(did_you_mean("zzzz", known).ends_with(", …"));

@@ -1,0 +1,148 @@
+#include "scenarios/recorded.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include "tests/output/temporary_directory.h"
+#include "tests/scenarios/refusal.h"
+
+namespace thermotwin::scenarios {
+namespace {
+
+class RecordedInput : public testing::Test {
+ protected:
+  /// A recording of `text` with one column `a` for the channel "heater.duty".
+  Recording recording(std::string const& text, std::string const& unit = "1") {
+    tests::put(directory_ / "data.csv", text);
+    Recording result;
+    result.file = "data.csv";
+    result.columns = {{"a", "heater.duty", unit, "linear"}};
+    return result;
+  }
+
+  std::vector<DrivenChannel> read(Recording const& recording, double duration) {
+    return read_recording(recording, directory_.path(), duration);
+  }
+
+  std::string refused(Recording const& recording, double duration = 20.0) {
+    std::string message = tests::refusal([&] { read(recording, duration); });
+    std::string const folder = directory_.path().string() + "/";
+    return message.starts_with(folder) ? message.substr(folder.size()) : message;
+  }
+
+  tests::TemporaryDirectory directory_;
+};
+
+TEST_F(RecordedInput, IsInSIWithTheChannelsName) {
+  auto const channels = read(recording("time_s,a\n0,0\n20,50\n", "%"), 20.0);
+  ASSERT_EQ(channels.size(), 1U);
+  EXPECT_EQ(channels[0].channel.name, "heater.duty");
+  EXPECT_EQ(channels[0].channel.unit, "1");
+  EXPECT_DOUBLE_EQ(channels[0].signal.at(10.0), 0.25);
+}
+
+TEST_F(RecordedInput, InDegreesBecomesKelvin) {
+  auto const channels = read(recording("time_s,a\n0,20\n20,22\n", "degC"), 20.0);
+  EXPECT_EQ(channels[0].channel.unit, "K");
+  EXPECT_DOUBLE_EQ(channels[0].signal.at(10.0), 294.15);
+}
+
+TEST_F(RecordedInput, HoldsItsValueWhereItIsStepped) {
+  Recording stepped = recording("time_s,a\n0,1\n10,2\n20,2\n");
+  stepped.columns[0].interpolation = "step";
+  Signal const signal = read(stepped, 20.0)[0].signal;
+  EXPECT_EQ(signal.at(9.9), 1.0);
+  EXPECT_EQ(signal.at(10.0), 2.0);
+  EXPECT_EQ(signal.jumps(), (std::vector<double>{10.0}));
+}
+
+TEST_F(RecordedInput, ShiftsItsClockAndReadsItsUnit) {
+  Recording shifted = recording("time_min,a\n0,0\n1,60\n2,120\n");
+  shifted.time_column = "time_min";
+  shifted.time_unit = "min";
+  shifted.clock_offset = -60.0;
+  EXPECT_DOUBLE_EQ(read(shifted, 60.0)[0].signal.at(30.0), 90.0);
+}
+
+TEST_F(RecordedInput, SaysWhereTimeDoesNotIncrease) {
+  EXPECT_EQ(refused(recording("time_s,a\n0,0\n15,1\n10,2\n")),
+            "data.csv:4: column 'time_s': 10 after 15 s: time must increase");
+  EXPECT_EQ(refused(recording("time_s,a\n0,0\n15,1\n15,2\n")),
+            "data.csv:4: column 'time_s': 15 after 15 s: time must increase");
+}
+
+TEST_F(RecordedInput, SaysWhereAGapIs) {
+  Recording gap = recording("time_s,a\n0,0\n10,1\n90,2\n");
+  gap.max_gap = 60.0;
+  EXPECT_EQ(refused(gap), "data.csv:4: column 'time_s': 90 after 10 s is a gap longer than max_gap, 1 min");
+  gap.max_gap = 80.0;
+  EXPECT_EQ(refused(gap), "accepted");
+}
+
+TEST_F(RecordedInput, MustCoverTheRun) {
+  Recording brief = recording("time_s,a\n0,0\n10,1\n");
+  brief.max_gap = 60.0;
+  EXPECT_EQ(refused(brief, 100.0),
+            "data.csv: covers 0 s to 10 s of a run of 100 s; at its ends at most max_gap, 1 min, may be missing (see "
+            "clock_offset and duration)");
+  EXPECT_EQ(refused(brief, 70.0), "accepted");
+  brief.clock_offset = 61.0;
+  EXPECT_TRUE(refused(brief, 70.0).starts_with("data.csv: covers 61 s to 71 s")) << refused(brief, 70.0);
+}
+
+TEST_F(RecordedInput, RefusesWhatTheFileDoesNotHave) {
+  EXPECT_EQ(refused(recording("time_s,b\n0,0\n")), "data.csv:1:1: no column 'a'; known: 'b', 'time_s'");
+  EXPECT_EQ(refused(recording("t,a\n0,0\n")), "data.csv:1:1: no column 'time_s'; known: 't', 'a'");
+  EXPECT_EQ(refused(recording("time_s,a\n0,x\n")), "data.csv:2:3: column 'a': 'x' is not a number");
+}
+
+TEST_F(RecordedInput, RefusesUnitsAndWordsThatAreNone) {
+  std::string const text = "time_s,a\n0,0\n20,1\n";
+  EXPECT_EQ(refused(recording(text, "rpmm")),
+            "recorded 'data.csv': column 'a': 'rpmm': unknown unit 'rpmm'; did you mean 'rpm'?");
+  Recording r = recording(text);
+  r.time_unit = "K";
+  EXPECT_EQ(refused(r), "recorded 'data.csv': time_unit: 'K' is no unit of time");
+  r = recording(text);
+  r.columns[0].interpolation = "cubic";
+  EXPECT_EQ(refused(r), "recorded 'data.csv': interpolation: 'cubic' must be \"linear\" or \"step\"");
+  r = recording(text);
+  r.max_gap = 0.0;
+  EXPECT_EQ(refused(r), "recorded 'data.csv': max_gap: 0 min must be above 0 s");
+  r.columns.clear();
+  EXPECT_EQ(refused(r), "recorded 'data.csv': columns is empty; name at least one column and its channel");
+  EXPECT_EQ(refused({}), "recorded.file: the name of a CSV file is due");
+}
+
+class Environment : public testing::Test {
+ protected:
+  void TearDown() override { ::unsetenv("THERMOTWIN_TEST_FOLDER"); }
+};
+
+TEST_F(Environment, GivesTheFolderOfAPath) {
+  ::setenv("THERMOTWIN_TEST_FOLDER", "/somewhere", 1);
+  EXPECT_EQ(resolved_path("${THERMOTWIN_TEST_FOLDER}/a.csv", "/here"), "/somewhere/a.csv");
+  EXPECT_EQ(resolved_path("${THERMOTWIN_TEST_FOLDER:-../data}/a.csv", "/here"), "/somewhere/a.csv");
+}
+
+TEST_F(Environment, RelativeStartsAtTheWorkingDirectory) {
+  ::setenv("THERMOTWIN_TEST_FOLDER", "data", 1);
+  EXPECT_EQ(resolved_path("${THERMOTWIN_TEST_FOLDER}/a.csv", "/here"), std::filesystem::current_path() / "data/a.csv");
+}
+
+TEST_F(Environment, DefaultsStartAtTheFilesDirectory) {
+  EXPECT_EQ(resolved_path("${THERMOTWIN_TEST_FOLDER:-../data}/a.csv", "/here/there"), "/here/data/a.csv");
+  EXPECT_EQ(resolved_path("a.csv", "/here"), "/here/a.csv");
+  EXPECT_EQ(resolved_path("/there/a.csv", "/here"), "/there/a.csv");
+}
+
+TEST_F(Environment, SaysWhatIsNotSet) {
+  EXPECT_EQ(tests::refusal([] { resolved_path("${THERMOTWIN_TEST_FOLDER}/a.csv", "."); }),
+            "the environment variable THERMOTWIN_TEST_FOLDER is not set; it names the folder of a recorded file");
+  EXPECT_EQ(tests::refusal([] { resolved_path("${THERMOTWIN", "."); }), "'${THERMOTWIN': a '}' is missing");
+}
+
+}  // namespace
+}  // namespace thermotwin::scenarios
