@@ -11,7 +11,6 @@ namespace {
 
 using hdf5::any_text_type;
 using hdf5::expect;
-using hdf5::fail;
 using hdf5::Handle;
 using thermal::InputError;
 using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
