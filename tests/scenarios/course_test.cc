@@ -195,7 +195,8 @@ TEST(ExperimentCourse, AFollowedNutIsAStrokeOfNoLength) {
 
 TEST(ExperimentCourse, EveryChannelHasAnSIUnitAndAName) {
   std::map<std::string, int> names;
-  for (thermal::InputChannel const& channel : ExperimentCourse(eventful(), machine()).channels()) {
+  ExperimentCourse const course(eventful(), machine());
+  for (thermal::InputChannel const& channel : course.channels()) {
     EXPECT_EQ(from_unit(1.0, channel.unit), 1.0) << channel.name;
     EXPECT_FALSE(channel.description.empty()) << channel.name;
     EXPECT_EQ(++names[channel.name], 1) << channel.name;
