@@ -1,0 +1,19 @@
+#pragma once
+
+#include "output/field_mesh.h"
+#include "output/fields.h"
+
+class vtkUnstructuredGrid;
+
+/// What the seams to VTK share: the mesh as a grid, and a frame on it; for output/vtk_*.cc only.
+namespace thermotwin::output {
+
+void set_mesh(vtkUnstructuredGrid& grid, FieldMesh const& mesh);
+
+/// Cell and point data as FieldSeries documents them, except names and metadata.
+void set_frame(vtkUnstructuredGrid& grid, FieldMesh const& mesh, Frame const& frame, double reference_degC);
+
+/// Throws thermal::InputError when the frame has fewer values than the geometry has nodes.
+void check(Frame const& frame, Eigen::Index n_nodes);
+
+}  // namespace thermotwin::output
