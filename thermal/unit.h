@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "thermal/dimension.h"
+
+namespace thermotwin::thermal {
+
+/// SI value = number · numerator / denominator: two factors, so that "250 um" is the double nearest to 250e-6.
+struct Unit {
+  Dimension dimension;
+  double numerator = 1.0;
+  double denominator = 1.0;
+  bool absolute = false;  ///< degC: a point on the scale
+
+  [[nodiscard]] double si(double number) const;
+  [[nodiscard]] double number(double si) const;
+};
+
+/// Reads a unit as parse_quantity describes it, in ASCII; `text` is what messages quote. Throws InputError.
+Unit read_unit(std::string_view unit, std::string_view text);
+
+/// Writes the usual non-ASCII signs in letters: µ, °C, ², ³, ·, Ω; without spaces at its ends.
+std::string in_ascii(std::string_view text);
+
+}  // namespace thermotwin::thermal
