@@ -86,11 +86,11 @@ S rotating_ball_conductance(BallBearing const& b, S const& angular_speed) {
 /// What Jungnickel's contact model needs to know of the elements between two raceways.
 struct RollingElements {
   double count = 0.0;
-  double radius = 0.0;           ///< r_b [m]
-  double pitch_radius = 0.0;     ///< r_m [m]; for a guide 1: the velocity then stands for ω
-  bool four_point = false;       ///< two contacts on either side
-  double conductivity = 32.8;    ///< of the steel [W/(m K)]
-  double diffusivity = 8.70e-6;  ///< of the steel [m²/s]
+  double radius = 0.0;                           ///< r_b [m]
+  double pitch_radius = 0.0;                     ///< r_m [m]; for a guide 1: the velocity then stands for ω
+  bool four_point = false;                       ///< two contacts on either side
+  double conductivity = 32.8;                    ///< of the steel [W/(m K)]
+  double diffusivity = 32.8 / (7850.0 * 480.0);  ///< of the steel [m²/s]
 };
 
 /// G = N [n g_c g_f/(2 g_c + g_f) + 0.05 k r_b], n = 1 or 2 (four-point), per element
