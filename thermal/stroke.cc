@@ -36,7 +36,7 @@ Site dwell(Site const& track, double from, double to, double window) {
     contact.area *= covered / (contact.high - contact.low);
     contact.share = covered / window;
   }
-  std::erase_if(site.contacts, [](Contact const& c) { return c.share <= 0.0; });
+  std::erase_if(site.contacts, [](Contact const& c) { return c.share < 1e-12; });
   return site;
 }
 
