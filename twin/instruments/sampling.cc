@@ -1,0 +1,42 @@
+#include "twin/instruments/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "thermal/error.h"
+#include "twin/instruments/random_stream.h"
+
+namespace thermotwin::twin {
+
+std::vector<bool> due(Eigen::VectorXd const& sample_times, double interval) {
+  std::vector<bool> result;
+  double passed = -1.0;
+  for (double const t : sample_times) {
+    double const instant = interval > 0.0 ? std::floor((t - sample_times[0]) / interval + 1e-9) : passed + 1.0;
+    result.push_back(instant > passed);
+    passed = instant;
+  }
+  return result;
+}
+
+void drop_out(Eigen::VectorXd& values, Eigen::VectorXd const& sample_times, InstrumentChannel const& channel,
+              double dropout, double dead_from) {
+  RandomStream chance(channel.seed, channel.name + "/dropout");
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    bool const lost = chance.uniform() < dropout;
+    if (lost || sample_times[k] >= dead_from) values[k] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+int conversions(double window, double interval, double since_last_reading) {
+  if (!(interval > 0.0))
+    throw thermal::InputError(fmt::format("conversion_interval is {} s; it must be positive", interval));
+  double const span = std::min(window, since_last_reading);
+  return std::max(1, static_cast<int>(std::floor(span / interval + 1e-9)));
+}
+
+double quantised(double x, double resolution) { return resolution > 0.0 ? resolution * std::round(x / resolution) : x; }
+
+}  // namespace thermotwin::twin

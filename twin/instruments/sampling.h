@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "twin/instruments/readings.h"
+
+namespace thermotwin::twin {
+
+/// Which of the sample times the instrument serves: those that pass an instant t₀ + m Δ of its own clock; Δ = 0: all.
+std::vector<bool> due(Eigen::VectorXd const& sample_times, double interval);
+
+/// Sets readings to NaN, each with probability `dropout`, and all from `dead_from` on.
+void drop_out(Eigen::VectorXd& values, Eigen::VectorXd const& sample_times, InstrumentChannel const& channel,
+              double dropout, double dead_from);
+
+/// How many conversions, `interval` apart, are averaged into a reading: those within the window, not further back than
+/// the reading before, at least one. Throws InputError unless the interval is positive.
+int conversions(double window, double interval, double since_last_reading);
+
+/// Quant(x) = q round(x/q); x itself for q = 0.
+double quantised(double x, double resolution);
+
+}  // namespace thermotwin::twin
