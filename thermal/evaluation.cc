@@ -105,18 +105,77 @@ void Evaluation::share_averages(std::vector<double>& heat) const {
 }
 
 void Evaluation::rate(double const* state, double const* input, double* state_rate) {
-  temperatures(state, input);
-  std::fill(heat_.begin(), heat_.end(), 0.0);
-  for (auto const& group : network_->groups())
-    group.law->add_heat_flows(group.batch(), temperature_.data(), input, heat_.data());
+  rate_and_power(state, input, state_rate);
+}
+
+Energy Evaluation::rate_and_power(double const* state, double const* input, double* state_rate) {
+  Energy const energy = power(state, input);
   share_averages(heat_);
   auto const& capacity = network_->capacity();
   for (std::size_t i = 0; i < capacity.size(); ++i) state_rate[i] = heat_[i] / capacity[i];
+  return energy;
 }
 
-void Evaluation::jacobian(double const* state, double const* input, Eigen::SparseMatrix<double>& matrix) {
-  temperatures(state, input);
+/// What an element's flows bring into bodies, averages and boundaries together; a controller's state is none of them.
+double Evaluation::heat_made(ElementGroup const& group, int element, double const* flows) const {
+  int const p = group.law->ports();
+  double made = 0.0;
+  for (int k = 0; k < p; ++k) {
+    int const port = group.ports[std::size_t(element * p + k)];
+    bool const signal = port < network_->nodes() && network_->signals()[std::size_t(port)];
+    if (!signal) made += flows[element * p + k];
+  }
+  return made;
+}
+
+template <class Add>
+void Evaluation::for_nodes_behind(int port, Add add) const {
+  int const n = network_->nodes(), first_average = n + int(network_->boundaries().size());
+  if (port < n) add(port, 1.0);
+  if (port < first_average) return;
+  auto const a = std::size_t(port - first_average);
+  auto const& nodes = network_->averages()[a].nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) add(nodes[i], weights_[a][i]);
+}
+
+/// From the blocks of a group; heat_ holds the flows into the boundaries.
+void Evaluation::add_power_gradient(ElementGroup const& group, double const* input, PowerGradient& power) {
   auto const& net = *network_;
+  int const p = group.law->ports(), n = net.nodes(), first_average = n + int(net.boundaries().size());
+  bool const makes_heat = !group.law->conservative();
+  if (makes_heat) {
+    flows_.resize(group.ports.size());
+    group.law->heat_flows(group.batch(), temperature_.data(), input, flows_.data());
+  }
+  for (int e = 0; e < group.count(); ++e) {
+    int const made_row = makes_heat && heat_made(group, e, flows_.data()) < 0.0 ? 1 : 0;
+    for (int k = 0; k < p; ++k) {
+      int const port = group.ports[std::size_t(e * p + k)];
+      bool const border = port >= n && port < first_average;
+      bool const signal = port < n && net.signals()[std::size_t(port)];
+      if (!border && !(makes_heat && !signal)) continue;
+      for (int r = 0; r < p; ++r) {
+        double const slope = blocks_[std::size_t((e * p + k) * p + r)];
+        double const sense = border && heat_[std::size_t(port)] < 0.0 ? -1.0 : 1.0;
+        for_nodes_behind(group.ports[std::size_t(e * p + r)], [&](int node, double weight) {
+          if (makes_heat) power(made_row, node) += (made_row == 0 ? 1.0 : -1.0) * slope * weight;
+          if (border) power(2, node) += slope * weight;
+          if (border) power(3, node) += sense * slope * weight;
+        });
+      }
+    }
+  }
+}
+
+void Evaluation::jacobian(double const* state, double const* input, Eigen::SparseMatrix<double>& matrix,
+                          PowerGradient* gradient) {
+  auto const& net = *network_;
+  if (gradient) {
+    power(state, input);
+    gradient->setZero(4, net.nodes());
+  } else {
+    temperatures(state, input);
+  }
   double* values = matrix.valuePtr();
   std::fill(values, values + matrix.nonZeros(), 0.0);
   for (std::size_t g = 0; g < net.groups().size(); ++g) {
@@ -130,10 +189,12 @@ void Evaluation::jacobian(double const* state, double const* input, Eigen::Spars
       if (s.column_average >= 0) value *= weights_[std::size_t(s.column_average)][std::size_t(s.column_entry)];
       values[s.slot] += value;
     }
+    if (gradient) add_power_gradient(group, input, *gradient);
   }
   for (int column = 0; column < matrix.outerSize(); ++column) {
     double const slope = net.capacity_slope()[std::size_t(column)];
     double const dT_dy = 1.0 / (1.0 + slope * (temperature_[std::size_t(column)] - T20));
+    if (gradient) gradient->col(column) *= dT_dy;
     for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
       it.valueRef() *= dT_dy / net.capacity()[std::size_t(it.row())];
   }
@@ -204,21 +265,18 @@ Energy Evaluation::power(double const* state, double const* input) {
       group.law->add_heat_flows(group.batch(), temperature_.data(), input, heat_.data());
       continue;
     }
-    int const p = group.law->ports();
-    flows_.resize(std::size_t(group.count() * p));
+    flows_.resize(group.ports.size());
     group.law->heat_flows(group.batch(), temperature_.data(), input, flows_.data());
+    for (std::size_t i = 0; i < flows_.size(); ++i) heat_[std::size_t(group.ports[i])] += flows_[i];
     for (int e = 0; e < group.count(); ++e) {
-      double made = 0.0;
-      for (int k = 0; k < p; ++k) {
-        int const port = group.ports[std::size_t(e * p + k)];
-        bool const signal = port < net.nodes() && net.signals()[std::size_t(port)];
-        if (!signal) made += flows_[std::size_t(e * p + k)];
-        heat_[std::size_t(port)] += flows_[std::size_t(e * p + k)];
-      }
+      double const made = heat_made(group, e, flows_.data());
       (made >= 0.0 ? energy.supplied : energy.withdrawn) += std::abs(made);
     }
   }
-  for (std::size_t b = 0; b < net.boundaries().size(); ++b) energy.lost += heat_[std::size_t(net.nodes()) + b];
+  for (std::size_t b = 0; b < net.boundaries().size(); ++b) {
+    energy.lost += heat_[std::size_t(net.nodes()) + b];
+    energy.exchanged += std::abs(heat_[std::size_t(net.nodes()) + b]);
+  }
   return energy;
 }
 
@@ -229,7 +287,7 @@ void Evaluation::heat_of_parts(double const* state, double const* input, std::sp
   std::fill(watts.begin(), watts.end(), 0.0);
   for (auto const& group : net.groups()) {
     int const p = group.law->ports();
-    flows_.resize(std::size_t(group.count() * p));
+    flows_.resize(group.ports.size());
     group.law->heat_flows(group.batch(), temperature_.data(), input, flows_.data());
     for (int e = 0; e < group.count(); ++e)
       for (int k = 0; k < p; ++k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <span>
 #include <vector>
@@ -29,7 +30,11 @@ struct Energy {
   double supplied = 0.0;   ///< by parts that make heat, ≥ 0 [J or W]
   double withdrawn = 0.0;  ///< by parts that take heat (evaporation, chiller), ≥ 0
   double lost = 0.0;       ///< into boundaries (room air, coolant leaving), either sign
+  double exchanged = 0.0;  ///< with boundaries, both ways added up, ≥ 0
 };
+
+/// d(power)/dy [W/K]: one column per node; rows supplied, withdrawn, lost, exchanged.
+using PowerGradient = Eigen::Matrix<double, 4, Eigen::Dynamic>;
 
 /// Evaluates one network; holds the scratch memory, so one per thread.
 class Evaluation {
@@ -44,8 +49,13 @@ class Evaluation {
   /// dy/dt [K/s].
   void rate(double const* state, double const* input, double* state_rate);
 
-  /// ∂(dy/dt)/∂y with the pattern of network().jacobian_pattern().
-  void jacobian(double const* state, double const* input, Eigen::SparseMatrix<double>& matrix);
+  /// dy/dt [K/s], and the powers [W] at this instant.
+  Energy rate_and_power(double const* state, double const* input, double* state_rate);
+
+  /// ∂(dy/dt)/∂y with the pattern of network().jacobian_pattern(); if asked, the gradient of the powers too. Exact:
+  /// Σ Cᵢ ∂(dyᵢ/dt)/∂y = supplied − withdrawn − lost, row by row, whatever the point.
+  void jacobian(double const* state, double const* input, Eigen::SparseMatrix<double>& matrix,
+                PowerGradient* power = nullptr);
 
   /// d(dy/dt)/dθ = (∂f/∂y) dy/dθ + ∂f/∂θ.
   void rate_derivative(double const* state, double const* state_derivative, NetworkDerivative const& derivative,
@@ -65,6 +75,10 @@ class Evaluation {
  private:
   void weigh_moving_averages(double const* input);
   void share_averages(std::vector<double>& heat) const;
+  double heat_made(ElementGroup const& group, int element, double const* flows) const;
+  void add_power_gradient(ElementGroup const& group, double const* input, PowerGradient& power);
+  template <class Add>
+  void for_nodes_behind(int port, Add add) const;
 
   Network const* network_;
   std::vector<double> temperature_, heat_, temperature_rate_, heat_rate_, flows_, blocks_;

@@ -50,12 +50,13 @@ struct IntegrationSummary {
   double stored = 0.0;     ///< [J]
   double wall_time = 0.0;  ///< [s]
 
-  /// |stored + lost + withdrawn − supplied| over the heat that moved (supplied + |lost| if nothing was supplied).
+  /// |stored + lost + withdrawn − supplied| over the heat that moved: all that came in, from sources and boundaries, or
+  /// all that went out, whichever is more.
   [[nodiscard]] double energy_imbalance() const;
 };
 
 /// Integrates C dy/dt = heat with CVODES (BDF, Newton, analytic Jacobian): stops at every jump of the course, finds
-/// the switching of relays as roots, and carries the energy balance as quadratures. Calls `observe` at every output
+/// the switching of relays as roots, and carries the energy balance in the state, where it closes to round-off. Calls `observe` at every output
 /// time (increasing; the first is the start). SUNDIALS: Hindmarsh et al., ACM TOMS 31 (2005) 363.
 ///
 /// Throws InputError when the course lacks a channel that the network needs; IntegrationError, which names the worst

@@ -176,6 +176,8 @@ Port NetworkBuilder::add_average(Average average) {
   for (double w : average.weights) sum += w;
   if (average.from_channel < 0 && std::abs(sum - 1.0) > 1e-9)
     throw InputError(fmt::format("the weights of the average '{}' add up to {}, not to 1", average.name, sum));
+  if (average.from_channel < 0)
+    for (double& w : average.weights) w /= sum;
   average.weights.resize(average.nodes.size());
   network_.averages_.push_back(std::move(average));
   return {Port::Kind::average, int(network_.averages_.size()) - 1};

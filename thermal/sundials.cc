@@ -1,5 +1,4 @@
 // The only file that knows SUNDIALS.
-#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,15 +9,13 @@
 #include <memory>
 #include <numeric>
 #include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunlinsol/sunlinsol_klu.h>
-#include <sunlinsol/sunlinsol_spgmr.h>
-#include <sunmatrix/sunmatrix_dense.h>
-#include <sunmatrix/sunmatrix_sparse.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
 
 #include "thermal/error.h"
 #include "thermal/integrate.h"
 #include "thermal/nearest_name.h"
+#include "thermal/newton_system.h"
 
 namespace thermotwin::thermal {
 namespace {
@@ -82,24 +79,32 @@ class OperatingPoint {
   double start_ = 0.0, end_ = infinity;
 };
 
-/// Approximate inverse of I − γJ for the Krylov solver.
-class Preconditioner {
- public:
-  void setup(Eigen::SparseMatrix<double> const& jacobian, double gamma) {
-    matrix_ = -gamma * jacobian;
-    for (int i = 0; i < matrix_.rows(); ++i) matrix_.coeffRef(i, i) += 1.0;
-    factors_.setDroptol(1e-3);
-    factors_.setFillfactor(2);
-    factors_.compute(matrix_);
-  }
-  void solve(double const* b, double* x, Eigen::Index n) const {
-    Eigen::Map<Eigen::VectorXd>(x, n) = factors_.solve(Eigen::Map<Eigen::VectorXd const>(b, n));
-  }
+/// A matrix and a linear solver that SUNDIALS may hold; what they stand for is the NewtonSystem of the run.
+MatrixHandle matrix_shell(SUNContext context) {
+  SUNMatrix matrix = SUNMatNewEmpty(context);
+  matrix->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+  matrix->ops->destroy = [](SUNMatrix m) { SUNMatFreeEmpty(m); };
+  return MatrixHandle(matrix);
+}
 
- private:
-  Eigen::SparseMatrix<double> matrix_;
-  Eigen::IncompleteLUT<double> factors_;
-};
+SolverHandle solver_shell(SUNContext context, NewtonSystem& system, bool iterative) {
+  SUNLinearSolver solver = SUNLinSolNewEmpty(context);
+  solver->content = &system;
+  if (iterative)
+    solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_ITERATIVE; };
+  else
+    solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+  solver->ops->solve = [](SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, realtype tolerance) {
+    auto const n = std::size_t(N_VGetLength(b));
+    bool const solved = static_cast<NewtonSystem*>(self->content)->solve({data(b), n}, tolerance, {data(x), n});
+    return solved ? 0 : 1;
+  };
+  solver->ops->free = [](SUNLinearSolver self) {
+    SUNLinSolFreeEmpty(self);
+    return 0;
+  };
+  return SolverHandle(solver);
+}
 
 /// One run: owns everything that CVODES points to.
 class Run {
@@ -109,8 +114,8 @@ class Run {
         options_(options),
         evaluation_(network),
         point_(network, course),
-        jacobian_(network.jacobian_pattern()),
-        solver_kind_(options.solver == LinearSolver::automatic ? choose_solver(network) : options.solver) {
+        solver_kind_(options.solver == LinearSolver::automatic ? choose_solver(network) : options.solver),
+        newton_(network, solver_kind_) {
     SUNContext context = nullptr;
     SUNContext_Create(nullptr, &context);
     context_.reset(context);
@@ -123,6 +128,7 @@ class Run {
  private:
   void set_up(std::span<double const> initial, double t0);
   void attach_linear_solver();
+  void set_tolerances();
   void set_up_sensitivities(std::span<double const> initial);
   void restart(double t);
   void advance(double target);
@@ -130,6 +136,7 @@ class Run {
   void settle_relays(double t);
   double next_relay_wake(double t) const;
   [[noreturn]] void fail(int flag);
+  Energy energy() const;
   double stored() const;
   void collect_counters();
 
@@ -149,13 +156,8 @@ class Run {
 
   static Run& self(void* user) { return *static_cast<Run*>(user); }
   static int rate(double t, N_Vector y, N_Vector ydot, void* user);
-  static int jacobian_matrix(double t, N_Vector y, N_Vector fy, SUNMatrix matrix, void* user, N_Vector, N_Vector,
-                             N_Vector);
-  static int jacobian_times(N_Vector v, N_Vector jv, double t, N_Vector y, N_Vector fy, void* user, N_Vector);
-  static int precondition_setup(double t, N_Vector y, N_Vector fy, int ok, int* current, double gamma, void* user);
-  static int precondition(double t, N_Vector y, N_Vector fy, N_Vector r, N_Vector z, double gamma, double delta, int,
-                          void* user);
-  static int power(double t, N_Vector y, N_Vector out, void* user);
+  static int newton_matrix(double t, N_Vector y, N_Vector fy, SUNMatrix, int reuse, int* current, double gamma,
+                           void* user, N_Vector, N_Vector, N_Vector);
   static int roots(double t, N_Vector y, double* g, void* user);
   static int sensitivity_rate(int count, double t, N_Vector y, N_Vector ydot, N_Vector* s, N_Vector* sdot, void* user,
                               N_Vector, N_Vector);
@@ -165,12 +167,11 @@ class Run {
   IntegrationOptions const& options_;
   Evaluation evaluation_;
   OperatingPoint point_;
-  Eigen::SparseMatrix<double> jacobian_;
   LinearSolver solver_kind_;
-  Preconditioner preconditioner_;
+  NewtonSystem newton_;
 
   ContextHandle context_;
-  VectorHandle y_, quadrature_, tolerance_;
+  VectorHandle y_, tolerance_;
   std::vector<VectorHandle> sensitivity_;
   std::vector<N_Vector> sensitivity_view_;
   MatrixHandle matrix_;
@@ -190,62 +191,24 @@ class Run {
 int Run::rate(double t, N_Vector y, N_Vector ydot, void* user) {
   return self(user).guarded([&] {
     auto& run = self(user);
-    run.evaluation_.rate(data(y), run.input(t), data(ydot));
-    double sum = 0.0;
-    for (int i = 0; i < run.network_.nodes(); ++i) sum += data(ydot)[i];
-    return std::isfinite(sum) ? 0 : 1;
+    int const n = run.network_.nodes();
+    Energy const power = run.evaluation_.rate_and_power(data(y), run.input(t), data(ydot));
+    double const unit = run.newton_.energy_unit();
+    data(ydot)[n] = power.supplied / unit;
+    data(ydot)[n + 1] = power.withdrawn / unit;
+    data(ydot)[n + 2] = power.lost / unit;
+    data(ydot)[n + 3] = power.exchanged / unit;
+    return std::isfinite(std::accumulate(data(ydot), data(ydot) + n + NewtonSystem::energies, 0.0)) ? 0 : 1;
   });
 }
 
-int Run::jacobian_matrix(double t, N_Vector y, N_Vector, SUNMatrix matrix, void* user, N_Vector, N_Vector, N_Vector) {
+int Run::newton_matrix(double t, N_Vector y, N_Vector, SUNMatrix, int reuse, int* current, double gamma, void* user,
+                       N_Vector, N_Vector, N_Vector) {
   return self(user).guarded([&] {
     auto& run = self(user);
-    auto& j = run.jacobian_;
-    run.evaluation_.jacobian(data(y), run.input(t), j);
-    if (SUNMatGetID(matrix) == SUNMATRIX_DENSE) {
-      SUNMatZero(matrix);
-      for (int column = 0; column < j.outerSize(); ++column) {
-        double* target = SUNDenseMatrix_Column(matrix, column);
-        for (Eigen::SparseMatrix<double>::InnerIterator it(j, column); it; ++it) target[it.row()] = it.value();
-      }
-    } else {
-      std::copy_n(j.outerIndexPtr(), j.outerSize() + 1, SUNSparseMatrix_IndexPointers(matrix));
-      std::copy_n(j.innerIndexPtr(), j.nonZeros(), SUNSparseMatrix_IndexValues(matrix));
-      std::copy_n(j.valuePtr(), j.nonZeros(), SUNSparseMatrix_Data(matrix));
-    }
-    return 0;
-  });
-}
-
-int Run::jacobian_times(N_Vector v, N_Vector jv, double, N_Vector, N_Vector, void* user, N_Vector) {
-  auto const& j = self(user).jacobian_;
-  Eigen::Map<Eigen::VectorXd>(data(jv), j.rows()) = j * Eigen::Map<Eigen::VectorXd const>(data(v), j.cols());
-  return 0;
-}
-
-int Run::precondition_setup(double t, N_Vector y, N_Vector, int ok, int* current, double gamma, void* user) {
-  return self(user).guarded([&] {
-    auto& run = self(user);
-    if (!ok) run.evaluation_.jacobian(data(y), run.input(t), run.jacobian_);
-    *current = !ok;
-    run.preconditioner_.setup(run.jacobian_, gamma);
-    return 0;
-  });
-}
-
-int Run::precondition(double, N_Vector, N_Vector, N_Vector r, N_Vector z, double, double, int, void* user) {
-  self(user).preconditioner_.solve(data(r), data(z), self(user).network_.nodes());
-  return 0;
-}
-
-int Run::power(double t, N_Vector y, N_Vector out, void* user) {
-  return self(user).guarded([&] {
-    auto& run = self(user);
-    Energy const power = run.evaluation_.power(data(y), run.input(t));
-    data(out)[0] = power.supplied;
-    data(out)[1] = power.withdrawn;
-    data(out)[2] = power.lost;
-    return 0;
+    if (!reuse) run.newton_.linearise(run.evaluation_, data(y), run.input(t));
+    *current = !reuse;
+    return run.newton_.factorise(gamma) ? 0 : 1;
   });
 }
 
@@ -274,9 +237,11 @@ int Run::sensitivity_rate(int count, double t, N_Vector y, N_Vector, N_Vector* s
   return self(user).guarded([&] {
     auto& run = self(user);
     double const* input = run.input(t);
-    for (int k = 0; k < count; ++k)
+    for (int k = 0; k < count; ++k) {
       run.evaluation_.rate_derivative(data(y), data(s[k]), run.options_.parameters[std::size_t(k)], input,
                                       data(sdot[k]));
+      std::fill_n(data(sdot[k]) + run.network_.nodes(), NewtonSystem::energies, 0.0);
+    }
     return 0;
   });
 }
@@ -286,48 +251,40 @@ void Run::collect_message(int code, char const*, char const* function, char* mes
 }
 
 void Run::attach_linear_solver() {
+  matrix_ = matrix_shell(context_.get());
+  solver_ = solver_shell(context_.get(), newton_, solver_kind_ == LinearSolver::preconditioned_krylov);
+  CVodeSetLinearSolver(cvode_.get(), solver_.get(), matrix_.get());
+  CVodeSetLinSysFn(cvode_.get(), newton_matrix);
+}
+
+/// Temperatures are kelvin, of which only the rise matters: the tolerance is absolute, scaled by a rise of 10 K. The
+/// energies are sums over the temperatures and need no control of their own.
+void Run::set_tolerances() {
   int const n = network_.nodes();
-  void* cvode = cvode_.get();
-  switch (solver_kind_) {
-    case LinearSolver::dense:
-      matrix_.reset(SUNDenseMatrix(n, n, context_.get()));
-      solver_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_.get()));
-      break;
-    case LinearSolver::sparse_direct:
-      matrix_.reset(SUNSparseMatrix(n, n, jacobian_.nonZeros(), CSC_MAT, context_.get()));
-      solver_.reset(SUNLinSol_KLU(y_.get(), matrix_.get(), context_.get()));
-      break;
-    default:
-      solver_.reset(SUNLinSol_SPGMR(y_.get(), SUN_PREC_LEFT, 30, context_.get()));
-      CVodeSetLinearSolver(cvode, solver_.get(), nullptr);
-      CVodeSetJacTimes(cvode, nullptr, jacobian_times);
-      CVodeSetPreconditioner(cvode, precondition_setup, precondition);
-      return;
-  }
-  CVodeSetLinearSolver(cvode, solver_.get(), matrix_.get());
-  CVodeSetJacFn(cvode, jacobian_matrix);
+  double const tolerance = options_.absolute_tolerance + 10.0 * options_.relative_tolerance;
+  tolerance_.reset(N_VClone(y_.get()));
+  std::fill_n(data(tolerance_.get()), n, tolerance);
+  std::fill_n(data(tolerance_.get()) + n, NewtonSystem::energies, 1e6 * tolerance);
+  CVodeSVtolerances(cvode_.get(), 1e-14, tolerance_.get());
 }
 
 void Run::set_up(std::span<double const> initial, double t0) {
   int const n = network_.nodes();
   t_ = t0;
   point_.enter_piece(t0);
-  y_.reset(N_VNew_Serial(n, context_.get()));
+  y_.reset(N_VNew_Serial(n + NewtonSystem::energies, context_.get()));
+  N_VConst(0.0, y_.get());
   for (int i = 0; i < n; ++i) data(y_.get())[i] = network_.state_of_temperature(i, initial[std::size_t(i)]);
   initial_.assign(data(y_.get()), data(y_.get()) + n);
-  quadrature_.reset(N_VNew_Serial(3, context_.get()));
-  N_VConst(0.0, quadrature_.get());
   cvode_.reset(CVodeCreate(CV_BDF, context_.get()));
   void* cvode = cvode_.get();
   CVodeSetErrHandlerFn(cvode, collect_message, this);
   CVodeInit(cvode, rate, t0, y_.get());
   CVodeSetUserData(cvode, this);
-  // Temperatures are kelvin, of which only the rise matters: the tolerance is absolute, scaled by a 100 K span.
-  CVodeSStolerances(cvode, 1e-14, options_.absolute_tolerance + 10.0 * options_.relative_tolerance);
+  set_tolerances();
   CVodeSetMaxNumSteps(cvode, 10'000'000);
   if (options_.maximum_step > 0.0) CVodeSetMaxStep(cvode, options_.maximum_step);
   attach_linear_solver();
-  CVodeQuadInit(cvode, power, quadrature_.get());
   if (!network_.relays().empty()) CVodeRootInit(cvode, int(network_.relays().size()), roots);
   set_up_sensitivities(initial);
 }
@@ -337,7 +294,8 @@ void Run::set_up_sensitivities(std::span<double const> initial) {
   if (parameters.empty()) return;
   int const n = network_.nodes();
   for (auto const& parameter : parameters) {
-    auto& s = sensitivity_.emplace_back(N_VNew_Serial(n, context_.get()));
+    auto& s = sensitivity_.emplace_back(N_VClone(y_.get()));
+    N_VConst(0.0, s.get());
     for (int i = 0; i < n; ++i) {
       auto const k = std::size_t(i);
       double const rise = initial[k] - 293.15;
@@ -356,6 +314,12 @@ void Run::set_up_sensitivities(std::span<double const> initial) {
   CVodeSetSensErrCon(cvode, SUNTRUE);
 }
 
+Energy Run::energy() const {
+  double const* e = data(y_.get()) + network_.nodes();
+  double const unit = newton_.energy_unit();
+  return {e[0] * unit, e[1] * unit, e[2] * unit, e[3] * unit};
+}
+
 double Run::stored() const {
   double sum = 0.0;
   for (int i = 0; i < network_.nodes(); ++i) {
@@ -370,7 +334,7 @@ void Run::emit(double t, Observer const& observe) {
   sample.time = t;
   double const* input = point_.at(t);
   sample.state = {data(y_.get()), std::size_t(network_.nodes())};
-  sample.energy = {data(quadrature_.get())[0], data(quadrature_.get())[1], data(quadrature_.get())[2]};
+  sample.energy = energy();
   for (std::size_t k = 0; k < sensitivity_.size(); ++k) {
     auto const rates =
         evaluation_.temperature_derivatives(data(y_.get()), data(sensitivity_[k].get()), options_.parameters[k], input);
@@ -426,7 +390,6 @@ void Run::restart(double t) {
   collect_counters();
   void* cvode = cvode_.get();
   CVodeReInit(cvode, t, y_.get());
-  CVodeQuadReInit(cvode, quadrature_.get());
   if (!sensitivity_view_.empty()) CVodeSensReInit(cvode, CV_STAGGERED, sensitivity_view_.data());
   ++summary_.restarts;
 }
@@ -444,7 +407,6 @@ void Run::advance(double target) {
     if (flag < 0) fail(flag);
     t_ = reached;
     double ignored = 0.0;
-    CVodeGetQuad(cvode, &ignored, quadrature_.get());
     if (!sensitivity_view_.empty()) CVodeGetSens(cvode, &ignored, sensitivity_view_.data());
     if (flag == CV_ROOT_RETURN || t_ >= stop) {
       point_.enter_piece(t_);
@@ -457,7 +419,7 @@ void Run::advance(double target) {
 void Run::fail(int flag) {
   if (failure_) std::rethrow_exception(failure_);
   int const n = network_.nodes();
-  VectorHandle error(N_VNew_Serial(n, context_.get())), weight(N_VNew_Serial(n, context_.get()));
+  VectorHandle error(N_VClone(y_.get())), weight(N_VClone(y_.get()));
   CVodeGetEstLocalErrors(cvode_.get(), error.get());
   CVodeGetErrWeights(cvode_.get(), weight.get());
   std::vector<int> order(static_cast<std::size_t>(n));
@@ -493,7 +455,7 @@ IntegrationSummary Run::operator()(std::span<double const> initial, std::span<do
   }
   collect_counters();
   summary_.solver = solver_kind_;
-  summary_.energy = {data(quadrature_.get())[0], data(quadrature_.get())[1], data(quadrature_.get())[2]};
+  summary_.energy = energy();
   summary_.stored = stored();
   summary_.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return summary_;
@@ -522,9 +484,11 @@ LinearSolver choose_solver(Network const& network) {
 }
 
 double IntegrationSummary::energy_imbalance() const {
-  double const scale = energy.supplied > 0.0 ? energy.supplied : std::abs(energy.lost) + energy.withdrawn;
+  double const came = energy.supplied + 0.5 * (energy.exchanged - energy.lost);
+  double const went = energy.withdrawn + 0.5 * (energy.exchanged + energy.lost);
   double const gap = std::abs(stored + energy.lost + energy.withdrawn - energy.supplied);
-  return scale > 0.0 ? gap / scale : gap;
+  double const moved = std::max(came, went);
+  return moved > 0.0 ? gap / moved : gap;
 }
 
 IntegrationSummary integrate(Network const& network, Course const& course, std::span<double const> initial_temperatures,
