@@ -82,6 +82,7 @@ ExperimentCourse::ExperimentCourse(Experiment const& experiment, MachineLimits c
   add_switches(experiment);
   add_clock(experiment);
   for (DrivenChannel const& driven : driven_) replace_or_add(driven);
+  add_floor_temperature();
   sort_jumps();
 }
 
@@ -162,6 +163,17 @@ void ExperimentCourse::replace_or_add(DrivenChannel const& driven) {
     return signal.at(t);
   };
   add_jumps(driven.signal.jumps());
+}
+
+/// From the other channels of the air, which a recording may have replaced.
+void ExperimentCourse::add_floor_temperature() {
+  auto const formula_of = [&](std::string const& name) {
+    auto const known = std::find_if(channels_.begin(), channels_.end(), [&](auto const& c) { return c.name == name; });
+    return formulas_[static_cast<std::size_t>(known - channels_.begin())];
+  };
+  add({"ambient.floor_temperature", "K", "air temperature at the machine's zero"},
+      [temperature = formula_of("ambient.temperature"), gradient = formula_of("ambient.gradient"),
+       height = formula_of("ambient.reference_height")](double t) { return temperature(t) - gradient(t) * height(t); });
 }
 
 void ExperimentCourse::add(thermal::InputChannel channel, Formula formula) {

@@ -21,12 +21,17 @@ namespace thermotwin::scenarios {
 /// | <axis>.duty | 1 | share of the time in motion |
 /// | <axis>.speed | rad/s | mean magnitude of the screw's speed, duty included: 2π feed/lead · duty |
 /// | <axis>.running | 1 | 1 while the screw's speed is not zero |
-/// | <axis>.stroke_from, <axis>.stroke_to | m | interval over which the nut's heat is spread; equal while the nut is
-/// followed | | <axis>.position | m | of the nut; the middle of the stroke unless it is followed | |
-/// ambient.temperature | K | at the reference height | | ambient.gradient | K/m | upwards | | ambient.reference_height
-/// | m | | | ambient.door | 1 | 1 while a door stands open | | coolant.on, chiller.on, machine.on, servo.on | 1 | 0 or
-/// 1 | | coolant.temperature | K | of the supply | | chiller.offset | K | added to the machine's set point | |
-/// time_of_day | s | 0 to 86400 |
+/// | <axis>.stroke_from, <axis>.stroke_to | m | where the nut's heat is spread; equal while the nut is followed |
+/// | <axis>.position | m | of the nut; the middle of the stroke unless it is followed |
+/// | ambient.temperature | K | at the reference height |
+/// | ambient.gradient | K/m | upwards |
+/// | ambient.reference_height | m | |
+/// | ambient.floor_temperature | K | at the machine's zero, from the three above |
+/// | ambient.door | 1 | 1 while a door stands open |
+/// | coolant.on, chiller.on, machine.on, servo.on | 1 | 0 or 1 |
+/// | coolant.temperature | K | of the supply |
+/// | chiller.offset | K | added to the machine's set point |
+/// | time_of_day | s | 0 to 86400 |
 ///
 /// Recorded columns and input programmes replace a channel of the same name, or add one. A replaced spindle.speed or
 /// <axis>.feed carries along what follows from it.
@@ -48,6 +53,7 @@ class ExperimentCourse : public thermal::Course {
   void add_switches(Experiment const& experiment);
   void add_clock(Experiment const& experiment);
   void replace_or_add(DrivenChannel const& driven);
+  void add_floor_temperature();
   void sort_jumps();
 
   void add(thermal::InputChannel channel, Formula formula);
