@@ -93,6 +93,15 @@ struct RollingElements {
   double diffusivity = 32.8 / (7850.0 * 480.0);  ///< of the steel [m²/s]
 };
 
+[[nodiscard]] inline RollingElements rolling_elements(BallBearing const& b) {
+  return {static_cast<double>(b.balls), b.ball_radius(), b.pitch_radius()};
+}
+
+/// Of a single nut; a double nut has two of them.
+[[nodiscard]] inline RollingElements rolling_elements(BallNut const& nut) {
+  return {nut.balls(), 0.5 * nut.ball_diameter, 0.5 * nut.nominal_diameter};
+}
+
 /// G = N [n g_c g_f/(2 g_c + g_f) + 0.05 k r_b], n = 1 or 2 (four-point), per element
 ///   g_c = 1.8 k r_b W^{1/3} [1 + W^{1/6} (ω r_b r_m/a)^{1/2}]   contact, static and renewed by rotation,
 ///   g_f = 0.22 k_oil r_b W^0.83 U^{−0.67}, U = η ω r_m/(2 E' r_b)   oil film,

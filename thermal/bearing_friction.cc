@@ -45,7 +45,7 @@ AngleRow interpolate(std::span<AngleRow const> table, double contact_angle, std:
 }
 
 struct ViscousFactors {
-  std::string type;
+  std::string name;
   double grease;
   double oil_bath;
 };
@@ -82,11 +82,17 @@ std::vector<Lubrication> const& all_lubrications() {
 }
 
 template <class Row>
-Row const& row_named(std::vector<Row> const& rows, std::vector<std::string> const& names, std::string_view name,
-                     std::string const& what) {
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (edit_distance(names[i], name) == 0) return rows[i];
-  throw InputError("unknown " + what + " '" + std::string(name) + "'; " + did_you_mean(name, names));
+std::vector<std::string> names_of(std::vector<Row> const& rows) {
+  std::vector<std::string> names;
+  for (Row const& row : rows) names.push_back(row.name);
+  return names;
+}
+
+template <class Row>
+Row const& row_named(std::vector<Row> const& rows, std::string_view name, std::string const& what) {
+  for (Row const& row : rows)
+    if (edit_distance(row.name, name) == 0) return row;
+  throw InputError("unknown " + what + " '" + std::string(name) + "'; " + did_you_mean(name, names_of(rows)));
 }
 
 }  // namespace
@@ -102,26 +108,18 @@ double static_axial_factor(double contact_angle, Arrangement arrangement) {
 }
 
 double viscous_torque_factor(std::string_view bearing_type, std::string_view lubrication) {
-  ViscousFactors const& factors = row_named(viscous_factors(), bearing_types(), bearing_type, "bearing type");
-  Lubrication const& kind = row_named(all_lubrications(), lubrications(), lubrication, "lubrication");
+  ViscousFactors const& factors = row_named(viscous_factors(), bearing_type, "bearing type");
+  Lubrication const& kind = row_named(all_lubrications(), lubrication, "lubrication");
   return kind.grease ? factors.grease : kind.times_bath * factors.oil_bath;
 }
 
 std::vector<std::string> const& bearing_types() {
-  static std::vector<std::string> const names = [] {
-    std::vector<std::string> all;
-    for (auto const& row : viscous_factors()) all.push_back(row.type);
-    return all;
-  }();
+  static std::vector<std::string> const names = names_of(viscous_factors());
   return names;
 }
 
 std::vector<std::string> const& lubrications() {
-  static std::vector<std::string> const names = [] {
-    std::vector<std::string> all;
-    for (auto const& row : all_lubrications()) all.push_back(row.name);
-    return all;
-  }();
+  static std::vector<std::string> const names = names_of(all_lubrications());
   return names;
 }
 

@@ -44,7 +44,8 @@ S palmgren_viscous_torque(S const& f0, S const& viscosity, S const& angular_spee
 template <class S>
 S load_torque(S const& z, S const& y, S const& load_ratio, S const& torque_load, S const& mean_diameter) {
   using std::pow;
-  return z * pow(load_ratio, y) * torque_load * mean_diameter;
+  constexpr double unloaded = 1e-9;
+  return z * pow(smooth_abs<S>(load_ratio, unloaded), y) * torque_load * mean_diameter;
 }
 
 /// z and y of f₁ = z (P₀/C₀)^y.

@@ -51,8 +51,8 @@ S ball_load(BallBearing const& b, S const& axial) {
   return axial / (b.balls * std::sin(b.contact_angle));
 }
 
-/// F_a = F_a0 (1 + δ_n/δ₀)₊^{3/2} (1.8) [N]: axial preload after the approach δ_n [m]; δ₀ is the deflection under F_a0.
-/// Continuous with its slope where the preload is lost, at δ_n = −δ₀.
+/// F_a = F_a0 (1 + δ_n/δ₀)₊^{3/2} (1.8) [N]: axial preload after the approach δ_n [m]; δ₀ is the deflection under
+/// F_a0 > 0. Continuous with its slope where the preload is lost, at δ_n = −δ₀.
 template <class S>
 S preload(BallBearing const& b, S const& initial, S const& approach) {
   using std::pow;

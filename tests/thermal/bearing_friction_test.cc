@@ -78,6 +78,16 @@ TEST(LoadTorque, AgreesWithThePrototype) {  // harris_M1 of reference/net.py, fr
   EXPECT_NEAR(load_torque(0.0005, 0.38, 0.003, 3.36 * 300.0, 0.09), 0.004988605057563065, 1e-12);
 }
 
+TEST(LoadTorque, HasAFiniteSlopeWithoutPreload) {
+  auto const torque = [](auto const& ratio) {
+    using S = std::decay_t<decltype(ratio)>;
+    return load_torque<S>(S(5e-4), S(0.38), ratio, S(1000.0), S(0.09));
+  };
+  EXPECT_TRUE(std::isfinite(slope_of(torque, 0.0)));
+  EXPECT_NEAR(torque(0.0), 0.0, 2e-5);
+  expect_slope_is_difference(torque, 0.003, 1e-6);
+}
+
 TEST(LoadTorque, IsBelowFivePercentOfTheViscousOneInALightlyPreloadedSpindle) {
   EXPECT_LT(load_torque(0.0005, 0.38, 0.003, 1008.0, 0.09),
             0.05 * palmgren_viscous_torque(0.55, 22e-6, 6000 * rpm, 0.09));

@@ -43,6 +43,20 @@ TEST(Turbulent, CorrelationsAgreeForWater) {
   EXPECT_LT(dittus_boelter_nusselt(5e4, 7.0, FluidIs::cooled), dittus_boelter_nusselt(5e4, 7.0, FluidIs::heated));
 }
 
+TEST(Turbulent, SlopesAreExact) {
+  auto const each = [](auto const& re) {
+    using S = std::decay_t<decltype(re)>;
+    return gnielinski_1976_nusselt<S>(re, S(7.0), S(0.01)) + dittus_boelter_nusselt<S>(re, S(7.0), FluidIs::cooled);
+  };
+  auto const over_prandtl = [](auto const& pr) {
+    using S = std::decay_t<decltype(pr)>;
+    return gnielinski_nusselt<S>(S(2e4), pr, S(0.01)) * wall_correction<S>(pr, S(5.0), channel_wall_exponent) +
+           sieder_tate_nusselt<S>(S(1e3), pr, S(0.01), S(1.2));
+  };
+  expect_slope_is_difference(each, 2e4, 1.0);
+  expect_slope_is_difference(over_prandtl, 7.0, 1e-3);
+}
+
 TEST(Turbulent, FrictionIsThatOfASmoothPipe) { EXPECT_NEAR(smooth_pipe_friction(1e5), 0.0180, 0.0003); }
 
 template <class S>
@@ -145,6 +159,12 @@ TEST(Ntu, TendsToFilmAndToCapacityRate) {
 TEST(ViscousFlow, HalvesWhenViscosityDoublesInALaminarCircuit) {
   EXPECT_DOUBLE_EQ(viscous_flow_ratio(10e-6, 20e-6, 1.0), 0.5);
   EXPECT_DOUBLE_EQ(viscous_flow_ratio(10e-6, 20e-6, 0.0), 1.0);
+  expect_slope_is_difference(
+      [](auto const& exponent) {
+        using S = std::decay_t<decltype(exponent)>;
+        return viscous_flow_ratio<S>(S(10e-6), S(20e-6), exponent);
+      },
+      0.6, 1e-4);
 }
 
 }  // namespace

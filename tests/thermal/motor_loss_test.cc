@@ -83,6 +83,24 @@ TEST(RotorSlipLoss, IsSlipTimesAirGapPower) {
   EXPECT_NEAR(rotor_slip_loss(slip, shaft), 20.0, 1e-12);
 }
 
+TEST(MotorLoss, SlopesAreExact) {
+  auto const slip = [](auto const& s) {
+    using S = std::decay_t<decltype(s)>;
+    return rotor_slip_loss<S>(s, S(1000.0));
+  };
+  auto const friction = [](auto const& r) {
+    using S = std::decay_t<decltype(r)>;
+    return motor_friction_loss<S>(S(20.0), r, 1.5);
+  };
+  auto const map = [](auto const& eta) {
+    using S = std::decay_t<decltype(eta)>;
+    return map_loss<S>(S(900.0), eta, S(50.0));
+  };
+  expect_slope_is_difference(slip, 0.03, 1e-5);
+  expect_slope_is_difference(friction, 0.6, 1e-4);
+  expect_slope_is_difference(map, 0.9, 1e-4);
+}
+
 TEST(HarmonicsLoss, IsAShareOfIronAndCopper) { EXPECT_DOUBLE_EQ(harmonics_loss(0.15, 60.0, 40.0), 15.0); }
 
 EfficiencyMap sample_map() { return {{0.0, 100.0, 300.0}, {0.0, 10.0}, {0.5, 0.7, 0.6, 0.9, 0.6, 0.8}}; }

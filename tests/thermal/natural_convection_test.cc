@@ -135,6 +135,15 @@ TEST(VerticalGap, IsConductionInAThinOneAndSmoothIntoTurbulence) {
               properties(Air{}, celsius(20.5)).conductivity / 1e-3, 0.1);
 }
 
+TEST(VerticalGap, HasExactSlopes) {
+  auto const film = [](auto const& T) {
+    using S = std::decay_t<decltype(T)>;
+    return vertical_gap_film<S>(T, S(celsius(20)), S(0.03), S(0.5));
+  };
+  expect_slope_is_difference(film, celsius(28), 1e-3);
+  expect_continuous_with_slope(film, celsius(19.9), celsius(20.1));
+}
+
 TEST(HorizontalGap, IsConductionBelowTheOnsetAndSmoothAcrossBothSwitches) {
   auto const nusselt = [](auto const& ra) { return horizontal_gap_nusselt(ra); };
   EXPECT_NEAR(nusselt(500.0), 1.0, 1e-4);

@@ -34,6 +34,12 @@ TEST(Radiation, SlopesAreExact) {
         return radiation_heat<S>(S(0.9), S(1.0), S(0.5), T, S(330.0));
       },
       300.0, 0.01);
+  expect_slope_is_difference(
+      [](auto const& emissivity) {
+        using S = std::decay_t<decltype(emissivity)>;
+        return exchange_emissivity<S>(emissivity, S(0.8), S(0.6), S(0.5));
+      },
+      0.7, 1e-4);
 }
 
 }  // namespace

@@ -111,7 +111,11 @@ TEST(RotatingBallConductance, IsSmoothThroughStandstill) {
   expect_slope_is_difference(conductance, 100.0, 0.01);
 }
 
-RollingElements balls_7014c(bool four_point) { return {20.0, 6.15e-3, 45e-3, four_point}; }
+RollingElements balls_7014c(bool four_point) {
+  RollingElements balls = rolling_elements(bearing_7014c);
+  balls.four_point = four_point;
+  return balls;
+}
 
 double contact_model_7014c(double speed, bool four_point) {
   Vogel const oil = mineral_oil_viscosity(22);
@@ -124,6 +128,14 @@ TEST(ContactModelConductance, Of7014CIsAFewTenthsOfAWattPerKelvin) {  // NumPy e
   EXPECT_NEAR(contact_model_7014c(2000 * rpm, false), 0.6418960404859266, 1e-7);
   EXPECT_NEAR(contact_model_7014c(6000 * rpm, false), 0.46166464210162433, 1e-7);
   EXPECT_NEAR(contact_model_7014c(2000 * rpm, true), 1.0820720809718534, 1e-7);
+}
+
+TEST(ContactModelConductance, OfADoubleNutIs2To3WattPerKelvinAt1000Rpm) {
+  double const force = 1500.0 / (nut_40x10.balls() * std::sin(nut_40x10.contact_angle));
+  double const running = 2 * contact_model_conductance(rolling_elements(nut_40x10), force, 0.13, 0.06, 1000 * rpm);
+  double const still = 2 * contact_model_conductance(rolling_elements(nut_40x10), force, 0.13, 0.06, 0.0);
+  EXPECT_NEAR(running, 2.5, 0.6);
+  EXPECT_NEAR(still, 1.0, 0.3);
 }
 
 TEST(ContactModelConductance, IsFiniteAtRestAndHasExactSlopes) {
