@@ -168,7 +168,6 @@ struct ChannelDescription : LineDescription {
   double diameter = required;
   int cells = 50;
   std::string flow;
-  double flow_rate = 0.0;
   std::string inlet;
 
   template <class Fields>

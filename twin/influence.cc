@@ -17,13 +17,13 @@ std::vector<double> solution(std::filesystem::path const& machine_file, ElasticB
   auto found = find_solution(machine_file, solution_key(block, load));
   if (!found)
     throw InputError(fmt::format("there are no influence weights for '{}' ({}) in {}; run: thermotwin weights {}",
-                                 block.body.name, unit_loads[std::size_t(load)],
-                                 InfluenceFile::beside(machine_file).string(), machine_file.string()));
+                                 block.body.name, unit_loads[std::size_t(load)], weights_file(machine_file).string(),
+                                 machine_file.string()));
   if (int(found->size()) != block.body.nodes())
     throw InputError(
-        fmt::format("the influence weights of '{}' are {}, its cells {}; delete {} and run: thermotwin "
+        fmt::format("{} has {} numbers for '{}', which has {} cells; delete the file and run: thermotwin "
                     "weights {}",
-                    block.body.name, found->size(), block.body.nodes(), InfluenceFile::beside(machine_file).string(),
+                    weights_file(machine_file).string(), found->size(), block.body.name, block.body.nodes(),
                     machine_file.string()));
   return *std::move(found);
 }

@@ -52,37 +52,20 @@ std::vector<fs::path> neighbours(fs::path const& own) {
 
 }  // namespace
 
-fs::path InfluenceFile::beside(fs::path const& machine_file) {
-  return fs::path(machine_file).replace_extension(".weights");
-}
+fs::path weights_file(fs::path const& machine_file) { return fs::path(machine_file).replace_extension(".weights"); }
 
-InfluenceFile InfluenceFile::read(fs::path const& path) {
-  InfluenceFile result;
-  std::ifstream file(path);
-  std::string remark;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("#")) {
-      remark = line.substr(std::min<std::size_t>(2, line.size()));
-      continue;
-    }
-    std::string const key = line.substr(0, line.find(','));
-    result.entries[key] = {remark, numbers_of(std::string_view(line).substr(key.size()), path, key)};
-  }
-  return result;
-}
-
-void InfluenceFile::write(fs::path const& path) const {
+void write_solutions(fs::path const& path, std::map<std::string, Solution> const& solutions) {
   std::string text;
-  for (auto const& [key, entry] : entries) {
-    text += fmt::format("# {}\n{}", entry.remark, key);
-    for (double const sum : entry.sums) text += fmt::format(",{:.9g}", sum);
+  for (auto const& [key, solution] : solutions) {
+    text += fmt::format("# {}\n{}", solution.remark, key);
+    for (double const sum : solution.sums) text += fmt::format(",{:.9g}", sum);
     text += '\n';
   }
   output::write_atomically(path, text);
 }
 
 std::optional<std::vector<double>> find_solution(fs::path const& machine_file, std::string const& key) {
-  auto const own = InfluenceFile::beside(machine_file);
+  auto const own = weights_file(machine_file);
   if (auto found = find_in(own, key)) return found;
   for (auto const& path : neighbours(own))
     if (auto found = find_in(path, key)) return found;

@@ -8,21 +8,18 @@
 
 namespace thermotwin::twin {
 
-/// Elastic solutions that a machine's displacements rest on: `v450.weights` beside `v450.toml`. Text; each solution is
-/// a line that begins with `#` and says what it is, and a line with its key and ∫ tr σ̂ φᵢ dV of every cell, in the
-/// order of the body's nodes, separated by commas [m for a unit force, 1 for a unit moment].
-struct InfluenceFile {
-  struct Entry {
-    std::string remark;  ///< "column: force_z on z_max, held at z_min"
-    std::vector<double> sums;
-  };
-  std::map<std::string, Entry> entries;  ///< by key
-
-  [[nodiscard]] static std::filesystem::path beside(std::filesystem::path const& machine_file);
-  /// Empty if there is no such file; InputError if it is damaged.
-  [[nodiscard]] static InfluenceFile read(std::filesystem::path const& path);
-  void write(std::filesystem::path const& path) const;
+/// One elastic solution as the file holds it.
+struct Solution {
+  std::string remark;  ///< for people: "column: force_z on face 'z_max', held at face 'z_min'"
+  std::vector<double> sums;  ///< ∫ tr σ̂ φᵢ dV of every cell, in the order of the body's nodes [m], or [1] for a moment
 };
+
+/// The elastic solutions that a machine's displacements rest on: `v450.weights` beside `v450.toml`.
+[[nodiscard]] std::filesystem::path weights_file(std::filesystem::path const& machine_file);
+
+/// Writes solutions by their keys as text: for each a line `# remark` and a line with its key and its sums to nine
+/// digits, separated by commas.
+void write_solutions(std::filesystem::path const& path, std::map<std::string, Solution> const& solutions);
 
 /// The solution of this key from the file beside the machine's, or from that of a neighbour: a machine file that was
 /// copied or amended in the same folder needs no new solution.

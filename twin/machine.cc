@@ -13,6 +13,7 @@
 #include "thermal/hollow_cylinder.h"
 #include "thermal/lump.h"
 #include "thermal/nearest_name.h"
+#include "twin/channel_flow.h"
 #include "twin/influence.h"
 
 namespace thermotwin::twin {
@@ -364,7 +365,7 @@ void MachineBuilder::read_displacements() {
         if (rotation && !d.base) throw InputError(fmt::format("rotation '{}': 'base' is missing", d.name));
         for (auto const& segment : d.segment) add_segment(channel, d, segment);
         for (auto const& influence : d.influence)
-          add_influence(channel.weights, document_.where.file, machine_.name, influence, d.direction,
+          add_influence(channel.weights, document_.where.file, influence, d.direction,
                         assembly_->body(influence.body), material(material_of_.at(influence.body)),
                         assembly_->first_node(influence.body), rotation);
         check_closure(d);

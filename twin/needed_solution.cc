@@ -18,12 +18,23 @@ namespace {
 
 using thermal::InputError;
 
+Value::List const& tables(Value const& document, std::string const& key) {
+  static Value::List const none;
+  Value const* value = document.find(key);
+  return value && value->is_list() ? std::get<Value::List>(value->content) : none;
+}
+
+template <class Description>
+Description read_table(Value const& table) {
+  Description description;
+  read_fields(table, description);
+  return description;
+}
+
 template <class Description>
 std::vector<Description> read_list(Value const& document, std::string const& key) {
   std::vector<Description> result;
-  Value const* value = document.find(key);
-  if (!value || !value->is_list()) return result;
-  for (auto const& table : std::get<Value::List>(value->content)) read_fields(table, result.emplace_back());
+  for (auto const& table : tables(document, key)) result.push_back(read_table<Description>(table));
   return result;
 }
 
@@ -49,6 +60,33 @@ thermal::Body shape_of(BlockDescription const& d) {
   return thermal::make_body(d.name, thermal::Block{thermal::material("C45"), d.corner, d.size, cells, 1.0});
 }
 
+class Collector {
+ public:
+  explicit Collector(Value const& document)
+      : materials_(read_list<MaterialDescription>(document, "material")),
+        blocks_(read_list<BlockDescription>(document, "block")) {}
+
+  void add(DisplacementDescription const& channel, bool rotation) {
+    Eigen::Vector3d const direction = LineDescription{.direction = channel.direction}.axis();
+    for (auto const& influence : channel.influence) {
+      auto const& description = find_block(blocks_, influence.body);
+      auto const block = elastic_block(shape_of(description), poisson_ratio(materials_, description.material),
+                                       influence.fixed, influence.loaded);
+      Load const load = unit_load(block, direction, influence.point, rotation);
+      for (int k = 0; k < 6; ++k)
+        if (load[k] != 0.0 && keys_.insert(solution_key(block, k)).second)
+          needed_.push_back({solution_key(block, k), block, k});
+    }
+  }
+  [[nodiscard]] std::vector<NeededSolution> const& needed() const { return needed_; }
+
+ private:
+  std::vector<MaterialDescription> materials_;
+  std::vector<BlockDescription> blocks_;
+  std::vector<NeededSolution> needed_;
+  std::set<std::string> keys_;
+};
+
 }  // namespace
 
 std::string NeededSolution::remark() const {
@@ -57,41 +95,34 @@ std::string NeededSolution::remark() const {
 }
 
 std::vector<NeededSolution> needed_solutions(Value const& document) {
-  auto const materials = read_list<MaterialDescription>(document, "material");
-  auto const blocks = read_list<BlockDescription>(document, "block");
-  std::vector<NeededSolution> needed;
-  std::set<std::string> keys;
+  Collector collector(document);
   for (bool const rotation : {true, false})
-    for (auto const& channel : read_list<DisplacementDescription>(document, rotation ? "rotation" : "displacement"))
-      for (auto const& influence : channel.influence) {
-        auto const& description = find_block(blocks, influence.body);
-        auto const block = elastic_block(shape_of(description), poisson_ratio(materials, description.material),
-                                         influence.fixed, influence.loaded);
-        Eigen::Vector3d const direction = LineDescription{.direction = channel.direction}.axis();
-        Load const load = unit_load(block, direction, influence.point, rotation);
-        for (int k = 0; k < 6; ++k)
-          if (load[k] != 0.0 && keys.insert(solution_key(block, k)).second)
-            needed.push_back({solution_key(block, k), block, k});
+    for (auto const& table : tables(document, rotation ? "rotation" : "displacement")) try {
+        collector.add(read_table<DisplacementDescription>(table), rotation);
+      } catch (FileError const&) {
+        throw;
+      } catch (InputError const& error) {
+        throw FileError(table.where, error.what());
       }
-  return needed;
+  return collector.needed();
 }
 
 int write_weights(std::filesystem::path const& machine_file, std::ostream& progress) {
   auto const needed = needed_solutions(read_toml(machine_file));
-  auto const path = InfluenceFile::beside(machine_file);
-  InfluenceFile file;
+  auto const path = weights_file(machine_file);
+  std::map<std::string, Solution> solutions;
   for (auto const& one : needed)
-    if (auto const known = find_solution(machine_file, one.key)) file.entries[one.key] = {one.remark(), *known};
-  int const due = int(needed.size() - file.entries.size());
+    if (auto const known = find_solution(machine_file, one.key)) solutions[one.key] = {one.remark(), *known};
+  int const due = int(needed.size() - solutions.size());
   int solved = 0;
   for (auto const& one : needed) {
-    if (file.entries.contains(one.key)) continue;
+    if (solutions.contains(one.key)) continue;
     progress << fmt::format("{} of {}: {}, {} cells\n", ++solved, due, one.remark(), one.block.body.nodes())
              << std::flush;
-    file.entries[one.key] = {one.remark(), solve_unit_load(one.block, one.load)};
-    file.write(path);
+    solutions[one.key] = {one.remark(), solve_unit_load(one.block, one.load)};
+    write_solutions(path, solutions);
   }
-  if (!needed.empty()) file.write(path);
+  if (!needed.empty()) write_solutions(path, solutions);
   progress << fmt::format("{}: {} of {} solutions are new\n", path.string(), solved, needed.size());
   return solved;
 }

@@ -1,0 +1,29 @@
+#include "twin/channel_flow.h"
+
+#include <cmath>
+
+#include "thermal/fluid.h"
+
+namespace thermotwin::twin {
+namespace {
+
+thermal::FluidProperties<double> properties_at_20(ChannelDescription const& description) {
+  return thermal::properties(thermal::fluid(description.fluid), 293.15);
+}
+
+}  // namespace
+
+thermal::Channel channel_of(ChannelDescription const& description) {
+  auto const fluid = properties_at_20(description);
+  double const d = description.diameter;
+  return {description.origin,    description.axis(), description.length,  M_PI / 4.0 * d * d,
+          M_PI * d, fluid.density,      fluid.specific_heat, description.cells};
+}
+
+void add_channel_flow(Assembly& assembly, ChannelDescription const& description) {
+  auto const inlet = assembly.boundary(description.inlet);
+  thermal::add_flow(assembly.network(), assembly.part(), assembly.body(description.name),
+                    properties_at_20(description).specific_heat, assembly.channel(description.flow), inlet, inlet);
+}
+
+}  // namespace thermotwin::twin

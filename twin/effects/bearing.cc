@@ -1,0 +1,92 @@
+#include <cmath>
+
+#include "thermal/ball_conductance.h"
+#include "thermal/bearing_friction.h"
+#include "thermal/laws.h"
+#include "thermal/lubricant.h"
+#include "twin/assembly.h"
+#include "twin/effect.h"
+
+namespace thermotwin::twin {
+namespace {
+
+/// Port 0 inner ring, port 1 outer ring; the lubricant has their mean temperature. u = {ω}.
+/// c = {count, f₀, A, B (viscosity), d_m, z, y, P₀/C₀, P₁, inner share}.
+struct PalmgrenHeat {
+  static constexpr std::string_view name = "bearing friction after Palmgren and Harris";
+  static constexpr int ports = 2, coefficients = 10, inputs = 1;
+  static constexpr bool conservative = false;
+  template <class S>
+  static void flows(S const* T, S const* c, double const* u, S* q) {
+    if (u[0] == 0.0) return;
+    S const speed(u[0]);
+    S const viscosity = thermal::vogel_cameron_viscosity<S>(c[2], c[3], 0.5 * (T[0] + T[1]));
+    S const torque = thermal::palmgren_viscous_torque<S>(c[1], viscosity, speed, c[4]) +
+                     thermal::load_torque<S>(c[5], c[6], c[7], c[8], c[4]);
+    S const heat = c[0] * thermal::friction_heat<S>(torque, speed);
+    q[0] = c[9] * heat;
+    q[1] = (1.0 - c[9]) * heat;
+  }
+};
+
+struct Bearing {
+  std::string name, inner, outer;
+  double count = 1.0;
+  double grease_factor = 0.8;
+  int oil = 22;
+  double pitch_diameter = required;
+  double load_factor = 5e-4, load_exponent = 0.38, load_ratio = 0.003;
+  double torque_load = required;
+  double inner_share = 0.5;
+  double conductance = required;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("name", &Bearing::name, "unique among the bearings");
+    f.name("inner", &Bearing::inner, "place of the inner rings, on the shaft");
+    f.name("outer", &Bearing::outer, "place of the outer rings");
+    f("count", &Bearing::count, dimension::dimensionless, "bearings in the set", Range{1, 6});
+    f("grease_factor", &Bearing::grease_factor, dimension::dimensionless,
+      "f0 of each: run-in spindle grease 0.4 to 1.0, grease 2, oil bath 3.3", Range{0.2, 8.0});
+    f("oil", &Bearing::oil, "ISO viscosity grade of the base oil", Range{10, 100});
+    f("pitch_diameter", &Bearing::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0});
+    f("load_factor", &Bearing::load_factor, dimension::dimensionless, "z of f1 = z (P0/C0)^y", Range{1e-4, 2e-3});
+    f("load_exponent", &Bearing::load_exponent, dimension::dimensionless, "y", Range{0.3, 0.6});
+    f("load_ratio", &Bearing::load_ratio, dimension::dimensionless, "P0/C0", Range{1e-4, 0.2});
+    f("torque_load", &Bearing::torque_load, dimension::force, "P1 = max(0.9 Fa cot(alpha) - 0.1 Fr, Fr) of each",
+      Range{0.0, 1e5});
+    f("inner_share", &Bearing::inner_share, dimension::dimensionless, "of the heat, into the inner rings",
+      Range{0.0, 1.0});
+    f("conductance", &Bearing::conductance, dimension::conductance,
+      "from inner to outer rings of the whole set, through balls and grease", Range{0.1, 50.0});
+  }
+
+  void add_to(Assembly& assembly) const {
+    auto const viscosity = thermal::mineral_oil_viscosity(oil);
+    Place const shaft = assembly.place(inner), housing = assembly.place(outer);
+    assembly.network().add<PalmgrenHeat>(
+        assembly.part(), {assembly.port(shaft), assembly.port(housing)},
+        {count, grease_factor, viscosity.scale, viscosity.temperature, pitch_diameter, load_factor, load_exponent,
+         load_ratio, torque_load, inner_share},
+        {assembly.channel("spindle.speed")});
+    for (auto const& a : shaft.site.contacts)
+      for (auto const& b : housing.site.contacts)
+        assembly.network().connect(assembly.part(), assembly.node(shaft, a.node), assembly.node(housing, b.node),
+                                   conductance * a.share * b.share);
+  }
+};
+
+}  // namespace
+
+Effect const& bearing_effect() {
+  static Effect const effect = make_effect<Bearing>(
+      {"bearing", "friction of a set of spindle bearings, and conduction through its balls",
+       "Q = n (M0 + M1) |ω|;  M0 = 4500.9 f0 (νω)^(2/3) d_m³ (νω ≥ 2.0944e-4 m²/s², else 16 f0 d_m³);  M1 = z (P0/C0)^y P1 "
+       "d_m;  ν = A exp(B/(T[°C] + 95)) at the mean of both rings;  q = G (T_outer − T_inner)",
+       "source, link", "shaft and outer ring", "power of speed 1.67, falling to 1.0…1.2 in the steady state by the "
+       "viscosity's feedback; first seen at the rings; ends at stop",
+       "physics.md 1.1, 1.3, 2.4; Palmgren 1957; Harris & Kotzalas 2006"});
+  return effect;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,144 @@
+#include <map>
+#include <optional>
+
+#include "thermal/error.h"
+#include "thermal/natural_convection.h"
+#include "thermal/rotating_surface.h"
+#include "twin/assembly.h"
+#include "twin/effect.h"
+
+namespace thermotwin::twin {
+namespace {
+
+/// q = A (T_fluid − T_surface)/(1/h + r). Ports: surface cell, fluid. c = {A, r, size, coefficient, emissivity},
+/// u = {ω}. The correlation gives h from the temperatures, the speed and what else it needs.
+template <class Correlation>
+struct FilmLaw {
+  static constexpr std::string_view name = Correlation::name;
+  static constexpr int ports = 2, coefficients = 5, inputs = 1;
+  static constexpr bool conservative = true;
+  template <class S>
+  static void flows(S const* T, S const* c, double const* u, S* q) {
+    S const h = Correlation::template film<S>(T[0], T[1], c[2], c[3], c[4], u[0]);
+    q[0] = c[0] * h / (1.0 + c[1] * h) * (T[1] - T[0]);
+    q[1] = -q[0];
+  }
+};
+
+#define THERMOTWIN_CORRELATION(Name, title, expression)                                                               \
+  struct Name {                                                                                                       \
+    static constexpr std::string_view name = title;                                                                   \
+    template <class S>                                                                                                \
+    static S film(S const& surface, S const& fluid, S const& size, S const& coefficient, S const& emissivity,         \
+                  double speed) {                                                                                     \
+      (void)surface, (void)fluid, (void)size, (void)coefficient, (void)emissivity, (void)speed;                       \
+      return expression;                                                                                              \
+    }                                                                                                                 \
+  };
+THERMOTWIN_CORRELATION(Constant, "constant film", coefficient)
+THERMOTWIN_CORRELATION(Room, "room film", (thermal::room_film<S>(surface, fluid, emissivity)))
+THERMOTWIN_CORRELATION(Fan, "film under a fan",
+                       (speed > 0.0 ? coefficient : thermal::room_film<S>(surface, fluid, emissivity)))
+THERMOTWIN_CORRELATION(RotatingCylinder, "rotating cylinder",
+                       (thermal::rotating_cylinder_film<S>(surface, fluid, size, S(speed))))
+THERMOTWIN_CORRELATION(RotatingDisc, "rotating disc",
+                       (thermal::rotating_disc_film<S>(surface, fluid, 0.5 * size, S(speed))))
+THERMOTWIN_CORRELATION(VerticalPlate, "vertical plate", (thermal::vertical_plate_film<S>(surface, fluid, size)))
+THERMOTWIN_CORRELATION(PlateUp, "horizontal plate facing up",
+                       (thermal::horizontal_plate_film<S>(thermal::Facing::up, surface, fluid, size)))
+THERMOTWIN_CORRELATION(PlateDown, "horizontal plate facing down",
+                       (thermal::horizontal_plate_film<S>(thermal::Facing::down, surface, fluid, size)))
+THERMOTWIN_CORRELATION(HorizontalCylinder, "horizontal cylinder",
+                       (thermal::horizontal_cylinder_film<S>(surface, fluid, size)))
+#undef THERMOTWIN_CORRELATION
+
+std::map<std::string, std::shared_ptr<thermal::Law const>> const& correlations() {
+  static std::map<std::string, std::shared_ptr<thermal::Law const>> const laws = {
+      {"constant", thermal::law_of<FilmLaw<Constant>>()},
+      {"room", thermal::law_of<FilmLaw<Room>>()},
+      {"fan", thermal::law_of<FilmLaw<Fan>>()},
+      {"rotating_cylinder", thermal::law_of<FilmLaw<RotatingCylinder>>()},
+      {"rotating_disc", thermal::law_of<FilmLaw<RotatingDisc>>()},
+      {"vertical_plate", thermal::law_of<FilmLaw<VerticalPlate>>()},
+      {"plate_facing_up", thermal::law_of<FilmLaw<PlateUp>>()},
+      {"plate_facing_down", thermal::law_of<FilmLaw<PlateDown>>()},
+      {"horizontal_cylinder", thermal::law_of<FilmLaw<HorizontalCylinder>>()}};
+  return laws;
+}
+
+std::vector<std::string> correlation_names() {
+  std::vector<std::string> names;
+  for (auto const& entry : correlations()) names.push_back(entry.first);
+  return names;
+}
+
+struct Film {
+  std::string name, on, to = "ambient", correlation = "room";
+  std::optional<double> area, coefficient, diameter, height;
+  double emissivity = thermal::painted_emissivity;
+  std::string speed = "spindle.speed";
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("name", &Film::name, "unique among the films");
+    f.name("on", &Film::on, "surface");
+    f("to", &Film::to, "\"ambient\", the room air at each cell's height, or the body of a fluid");
+    f.choice("correlation", &Film::correlation, correlation_names(), "how the coefficient is found");
+    f("area", &Film::area, dimension::area, "default: that of the surface; a lump has none of its own", positive);
+    f("coefficient", &Film::coefficient, dimension::film_coefficient, "of a constant film or one under a fan",
+      Range{1.0, 2e4});
+    f("diameter", &Film::diameter, dimension::length, "of a cylinder or disc", positive);
+    f("height", &Film::height, dimension::length, "of a vertical plate; area over perimeter of a horizontal one",
+      positive);
+    f("emissivity", &Film::emissivity, dimension::dimensionless, "of a room film", Range{0.05, 1.0});
+    f("speed", &Film::speed, "input channel with the speed of rotation, or what runs the fan");
+  }
+
+  void add_to(Assembly& assembly) const {
+    Place place = assembly.surface(on);
+    if (area) place.site = thermal::with_area(place.site, *area);
+    if (!(place.area() > 0.0)) throw thermal::InputError("film '" + name + "': '" + on + "' has no area of its own; give one");
+    bool const rotating = correlation.starts_with("rotating") || correlation == "fan";
+    // The speed of a film that does not rotate is asked from a channel that every course has.
+    int const input = assembly.channel(rotating ? speed : "ambient.floor_temperature");
+    for (auto const& contact : place.site.contacts)
+      assembly.network().add(correlations().at(correlation), assembly.part(),
+                             {assembly.node(place, contact.node), fluid(assembly, contact.centre.z())},
+                             {contact.area, contact.half_resistance, size(), needed(), emissivity}, {input});
+  }
+
+ private:
+  [[nodiscard]] thermal::Port fluid(Assembly& assembly, double z) const {
+    return to == "ambient" ? assembly.air(z) : assembly.port(to);
+  }
+  [[nodiscard]] double size() const {
+    bool const round = correlation.find("cylinder") != std::string::npos || correlation == "rotating_disc";
+    bool const plate = correlation.find("plate") != std::string::npos;
+    if (!round && !plate) return 1.0;
+    auto const& given = round ? diameter : height;
+    if (given) return *given;
+    throw thermal::InputError("film '" + name + "': " + correlation + " needs a " + (round ? "diameter" : "height"));
+  }
+  [[nodiscard]] double needed() const {
+    if (coefficient) return *coefficient;
+    if (correlation == "constant" || correlation == "fan")
+      throw thermal::InputError("film '" + name + "': correlation " + correlation + " needs a coefficient");
+    return 0.0;
+  }
+};
+
+}  // namespace
+
+Effect const& film_effect() {
+  static Effect const effect = make_effect<Film>(
+      {"film", "convection and radiation from a surface to the room or to a fluid",
+       "q = h A (T_fluid − T_surface), in series with the half cell of a discretised body. room: h = 1.7·1.3 |ΔT|^(1/3) + "
+       "0.8 ε 4σ T_m³;  rotating cylinder: Nu = (Nu_f³ + Nu_n³)^(1/3), Nu_f = 0.133 Re^(2/3) Pr^(1/3), Nu_n Churchill & "
+       "Chu;  fan: constant while it runs, room film otherwise",
+       "film", "any surface", "sink proportional to T − T_air; sets the slow time constants; a rotating surface cools with "
+       "speed^0.67 and stops cooling when it stops",
+       "physics.md 2.5, 2.6 (2.6), (2.8); Becker 1963; Churchill & Chu 1975; Jungnickel 2010"});
+  return effect;
+}
+
+}  // namespace thermotwin::twin

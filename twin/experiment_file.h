@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scenarios/experiment.h"
+#include "twin/file/schema.h"
+
+namespace thermotwin::twin {
+
+/// An experiment from its document; FileError with the place of what is wrong. `file` is where recordings start from.
+[[nodiscard]] scenarios::Experiment read_experiment(Value const& document, std::filesystem::path const& file);
+
+/// A path, or the name of one in scenarios/catalogue.
+[[nodiscard]] std::filesystem::path experiment_file(std::string const& name_or_path);
+
+}  // namespace thermotwin::twin

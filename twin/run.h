@@ -1,0 +1,45 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/dataset.h"
+#include "scenarios/experiment.h"
+#include "thermal/integrate.h"
+#include "twin/machine.h"
+
+namespace thermotwin::twin {
+
+/// How a run is carried out and what it leaves behind.
+struct RunOptions {
+  thermal::IntegrationOptions integration;
+  std::optional<std::filesystem::path> dataset;  ///< HDF5 file
+  std::optional<std::filesystem::path> fields;   ///< folder of the VTK series
+  std::optional<std::filesystem::path> picture;  ///< PNG of the last frame
+  double field_interval = 900.0;                 ///< between two frames [s]
+  bool node_temperatures = false;                ///< keep every node's course in the data set
+  std::map<std::string, std::string> provenance; ///< echo of the input files and the command
+  /// Called now and then with the share done, 0…1.
+  std::function<void(double)> progress;
+  /// Set from outside (Ctrl-C) to stop at the next output time; the data set is then marked as partial.
+  std::atomic<bool> const* stop = nullptr;
+};
+
+struct RunResult {
+  output::Dataset dataset;
+  thermal::IntegrationSummary summary;
+};
+
+/// Runs an experiment on a machine: temperatures, displacements, instruments, fields.
+[[nodiscard]] RunResult run(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options);
+
+/// Temperatures of all nodes at the start: as the experiment says, or the air around each.
+[[nodiscard]] std::vector<double> initial_temperatures(Machine const& machine, scenarios::Experiment const& experiment,
+                                                       thermal::Course const& course);
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+namespace thermotwin::twin {
+
+/// Of the program, as in CMakeLists.txt: "0.1.0".
+[[nodiscard]] std::string_view version();
+
+/// The commit that was built, as `git describe --always --dirty --tags` names it, or "unknown" outside a repository.
+[[nodiscard]] std::string_view commit();
+
+}  // namespace thermotwin::twin
