@@ -1,0 +1,45 @@
+#include "output/picture_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+namespace thermotwin::output {
+namespace {
+
+constexpr double tolerance = 1e-9;  // of a step, against numbers that are round only nearly
+
+}  // namespace
+
+double round_down(double x) {
+  double const decade = std::pow(10.0, std::floor(std::log10(x) + tolerance));
+  for (double const factor : {5.0, 2.0})
+    if (x >= factor * decade * (1 - tolerance)) return factor * decade;
+  return decade;
+}
+
+Ticks round_ticks(double low, double high) {
+  constexpr double smallest_span = 0.4;  // [K]: a machine at rest is one colour, not noise
+  double const middle = 0.5 * (low + high);
+  double const half = 0.5 * std::max(high - low, smallest_span);
+  double const step = round_down(2 * half / 4);
+  double const first = std::floor((middle - half) / step + tolerance);
+  double const last = std::ceil((middle + half) / step - tolerance);
+  int const decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + tolerance)));
+  return {first * step, step, static_cast<int>(last - first) + 1, decimals};
+}
+
+std::string time_text(double time_s) {
+  auto const seconds = std::llround(time_s);
+  if (seconds >= 3600) return fmt::format("{} h {:02} min", seconds / 3600, seconds / 60 % 60);
+  if (seconds >= 60) return fmt::format("{} min {:02} s", seconds / 60, seconds % 60);
+  return fmt::format("{} s", seconds);
+}
+
+std::string magnification_text(double magnification) {
+  if (magnification < 1000) return fmt::format("{:g}", magnification);
+  auto const whole = std::llround(magnification);
+  return fmt::format("{},{:03}", magnification_text(static_cast<double>(whole / 1000)), whole % 1000);
+}
+
+}  // namespace thermotwin::output

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+/// The numbers and words on a picture.
+namespace thermotwin::output {
+
+/// Evenly spaced ticks at round numbers that enclose [low, high], four to nine of them.
+struct Ticks {
+  double first;
+  double step;
+  int count;
+  int decimals;  ///< that the numbers need
+};
+[[nodiscard]] Ticks round_ticks(double low, double high);
+
+/// 1, 2 or 5 times a power of ten, the largest that is not above x > 0.
+[[nodiscard]] double round_down(double x);
+
+/// "4 h 00 min", "12 min 30 s", "45 s".
+[[nodiscard]] std::string time_text(double time_s);
+
+/// "5,000", "0.5".
+[[nodiscard]] std::string magnification_text(double magnification);
+
+}  // namespace thermotwin::output

@@ -1,0 +1,304 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <vtkActor.h>
+#include <vtkAxesActor.h>
+#include <vtkBillboardTextActor3D.h>
+#include <vtkCamera.h>
+#include <vtkCaptionActor2D.h>
+#include <vtkCellArray.h>
+#include <vtkDataSetSurfaceFilter.h>
+#include <vtkDoubleArray.h>
+#include <vtkFeatureEdges.h>
+#include <vtkImageShrink3D.h>
+#include <vtkLight.h>
+#include <vtkLookupTable.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkWindowToImageFilter.h>
+
+#include "output/atomic_file.h"
+#include "output/display.h"
+#include "output/picture.h"
+#include "output/vtk_grid.h"
+#include "output/vtk_page.h"
+#include "thermal/error.h"
+
+namespace thermotwin::output {
+namespace {
+
+constexpr Colour edge_ink = {0.86, 0.88, 0.91};
+constexpr Colour faint_ink = {0.52, 0.55, 0.60};
+constexpr Colour sensor_red = {0.86, 0.15, 0.15};
+
+constexpr double largest_shown = 0.05;  // displacement, of the machine's diagonal
+constexpr int oversampling = 2;         // drawn so many times larger and averaged: smooth edges in software too
+
+/// The machine's skin at rest or deformed, coloured by temperature.
+class Skin {
+ public:
+  Skin(FieldMesh const& mesh, Frame const& frame)
+      : points_(mesh.points()),
+        displacements_(frame.displacement_m.cols() > 0 ? mesh.continued_to_points(frame.displacement_m)
+                                                       : Eigen::Matrix3Xd::Zero(3, mesh.points().cols())) {
+    set_mesh(*grid_, mesh);
+    vtkNew<vtkDoubleArray> temperature;
+    temperature->SetName("temperature");
+    for (double const value : mesh.mean_at_points(frame.temperature_degC)) temperature->InsertNextValue(value);
+    grid_->GetPointData()->SetScalars(temperature);
+  }
+
+  [[nodiscard]] double size() const { return (points_.rowwise().maxCoeff() - points_.rowwise().minCoeff()).norm(); }
+  [[nodiscard]] double largest_displacement() const { return displacements_.colwise().norm().maxCoeff(); }
+
+  [[nodiscard]] Eigen::Matrix3Xd points(double magnification) const { return points_ + magnification * displacements_; }
+
+  /// Of the point of the machine that is nearest.
+  [[nodiscard]] Eigen::Vector3d displacement_near(Eigen::Vector3d const& place) const {
+    Eigen::Index nearest = 0;
+    (points_.colwise() - place).colwise().squaredNorm().minCoeff(&nearest);
+    return displacements_.col(nearest);
+  }
+
+  [[nodiscard]] vtkNew<vtkPolyData> surface(double magnification) const {
+    Eigen::Matrix3Xd const moved = points(magnification);
+    vtkNew<vtkPoints> places;
+    places->SetDataTypeToDouble();
+    for (Eigen::Index i = 0; i < moved.cols(); ++i) places->InsertNextPoint(moved.col(i).data());
+    vtkNew<vtkUnstructuredGrid> shape;
+    shape->ShallowCopy(grid_);
+    shape->SetPoints(places);
+    vtkNew<vtkDataSetSurfaceFilter> skin;
+    skin->SetInputData(shape);
+    skin->Update();
+    vtkNew<vtkPolyData> surface;
+    surface->ShallowCopy(skin->GetOutput());
+    return surface;
+  }
+
+ private:
+  Eigen::Matrix3Xd points_;
+  Eigen::Matrix3Xd displacements_;
+  vtkNew<vtkUnstructuredGrid> grid_;
+};
+
+constexpr double edge_angle = 40;  // degrees; the sides of a ring's polygon meet at 15
+
+void add_faces(vtkRenderer& renderer, vtkPolyData* surface, vtkLookupTable* colours) {
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(surface);
+  normals->SetFeatureAngle(edge_angle);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(normals->GetOutputPort());
+  mapper->SetLookupTable(colours);
+  mapper->UseLookupTableScalarRangeOn();
+  mapper->InterpolateScalarsBeforeMappingOn();
+  mapper->SetResolveCoincidentTopologyToPolygonOffset();  // edges stand before faces
+  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(2, 4);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetAmbient(0.62);
+  actor->GetProperty()->SetDiffuse(0.45);
+  actor->GetProperty()->SetSpecular(0.0);
+  renderer.AddActor(actor);
+}
+
+void add_edges(vtkRenderer& renderer, vtkPolyData* surface, Colour const& colour, int width) {
+  vtkNew<vtkFeatureEdges> edges;
+  edges->SetInputData(surface);
+  edges->SetFeatureAngle(edge_angle);
+  edges->ColoringOff();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(edges->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
+  actor->GetProperty()->LightingOff();
+  renderer.AddActor(actor);
+}
+
+/// Parallel, from the front, right and above; the points fill the part of the picture that the texts leave free.
+void aim(vtkRenderer& renderer, Eigen::Matrix3Xd const& points, PictureOptions const& options) {
+  constexpr double left = 0.03, right = 0.84, bottom = 0.05, top = 0.86;
+  Eigen::Vector3d const towards_viewer = Eigen::Vector3d(0.75, -1.0, 0.62).normalized();
+  Eigen::Vector3d const across = Eigen::Vector3d::UnitZ().cross(towards_viewer).normalized();
+  Eigen::Vector3d const up = towards_viewer.cross(across);
+  Eigen::RowVectorXd const x = across.transpose() * points, y = up.transpose() * points;
+  double const aspect = static_cast<double>(options.width) / options.height;
+  double const scale = std::max((y.maxCoeff() - y.minCoeff()) / (top - bottom),
+                                (x.maxCoeff() - x.minCoeff()) / ((right - left) * aspect)) /
+                       2;
+  double const x_middle = (x.maxCoeff() + x.minCoeff()) / 2 - scale * aspect * (left + right - 1);
+  double const y_middle = (y.maxCoeff() + y.minCoeff()) / 2 - scale * (bottom + top - 1);
+  Eigen::Vector3d const focus = x_middle * across + y_middle * up;
+  double const distance = 10 * scale;  // in front of everything; parallel, so it changes nothing else
+  auto& camera = *renderer.GetActiveCamera();
+  camera.ParallelProjectionOn();
+  camera.SetParallelScale(scale);
+  camera.SetFocalPoint(focus.data());
+  camera.SetPosition(Eigen::Vector3d(focus + distance * towards_viewer).data());
+  camera.SetViewUp(0, 0, 1);
+  renderer.ResetCameraClippingRange();
+}
+
+void add_axes(vtkRenderWindow& window, vtkCamera& camera, int font_size) {
+  vtkNew<vtkRenderer> corner;
+  corner->SetViewport(0.0, 0.0, 0.11, 0.17);
+  corner->SetLayer(1);
+  corner->InteractiveOff();
+  vtkNew<vtkAxesActor> axes;
+  axes->SetConeRadius(0.3);
+  for (auto* shaft : {axes->GetXAxisShaftProperty(), axes->GetYAxisShaftProperty(), axes->GetZAxisShaftProperty(),
+                      axes->GetXAxisTipProperty(), axes->GetYAxisTipProperty(), axes->GetZAxisTipProperty()}) {
+    shaft->SetColor(faint_ink[0], faint_ink[1], faint_ink[2]);
+    shaft->SetLineWidth(3);
+  }
+  for (auto* caption :
+       {axes->GetXAxisCaptionActor2D(), axes->GetYAxisCaptionActor2D(), axes->GetZAxisCaptionActor2D()}) {
+    caption->GetTextActor()->SetTextScaleModeToNone();
+    set_style(*caption->GetCaptionTextProperty(), font_size, true);
+  }
+  corner->AddActor(axes);
+  corner->GetActiveCamera()->ParallelProjectionOn();
+  corner->GetActiveCamera()->SetPosition(camera.GetDirectionOfProjection()[0] * -1,
+                                         camera.GetDirectionOfProjection()[1] * -1,
+                                         camera.GetDirectionOfProjection()[2] * -1);
+  corner->GetActiveCamera()->SetFocalPoint(0, 0, 0);
+  corner->GetActiveCamera()->SetViewUp(0, 0, 1);
+  corner->ResetCamera();
+  corner->GetActiveCamera()->Zoom(0.9);
+  window.AddRenderer(corner);
+}
+
+/// On a layer of their own, so that no wall hides them.
+void add_sensors(vtkRenderWindow& window, vtkCamera* camera, Skin const& skin, double magnification,
+                 PictureOptions const& options, Page const& page) {
+  vtkNew<vtkRenderer> front;
+  front->SetLayer(1);
+  front->SetActiveCamera(camera);
+  vtkNew<vtkPoints> places;
+  vtkNew<vtkCellArray> dots;
+  for (auto const& [name, position] : options.sensors) {
+    Eigen::Vector3d const place = position + magnification * skin.displacement_near(position);
+    vtkIdType const point = places->InsertNextPoint(place.data());
+    dots->InsertNextCell(1, &point);
+    vtkNew<vtkBillboardTextActor3D> label;
+    label->SetInput(name.c_str());
+    label->SetPosition(place[0], place[1], place[2]);
+    label->SetDisplayOffset(page.scaled(12), page.scaled(8));
+    set_style(*label->GetTextProperty(), page.scaled(20), true);
+    label->GetTextProperty()->SetBackgroundColor(1, 1, 1);
+    label->GetTextProperty()->SetBackgroundOpacity(0.7);
+    front->AddActor(label);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(places);
+  data->SetVerts(dots);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(sensor_red[0], sensor_red[1], sensor_red[2]);
+  actor->GetProperty()->SetPointSize(static_cast<float>(page.scaled(16)));
+  actor->GetProperty()->RenderPointsAsSpheresOn();
+  actor->GetProperty()->SetAmbient(0.5);
+  front->AddActor(actor);
+  window.AddRenderer(front);
+}
+
+/// From the upper left in front: the top is brightest, then the front, then the right side.
+void add_light(vtkRenderer& renderer) {
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToSceneLight();
+  light->PositionalOff();
+  light->SetPosition(0.3, -0.55, 0.78);
+  light->SetFocalPoint(0, 0, 0);
+  renderer.AddLight(light);
+}
+
+std::string as_png(vtkRenderWindow* window) {
+  vtkNew<vtkWindowToImageFilter> image;
+  image->SetInput(window);
+  image->SetInputBufferTypeToRGB();
+  image->ReadFrontBufferOff();
+  vtkNew<vtkImageShrink3D> mean;
+  mean->SetInputConnection(image->GetOutputPort());
+  mean->SetShrinkFactors(oversampling, oversampling, 1);
+  mean->AveragingOn();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(mean->GetOutputPort());
+  writer->WriteToMemoryOn();
+  writer->Write();
+  auto* const bytes = writer->GetResult();
+  return {reinterpret_cast<char const*>(bytes->GetPointer(0)), static_cast<std::size_t>(bytes->GetNumberOfValues())};
+}
+
+double magnification_for(Skin const& skin, PictureOptions const& options) {
+  if (options.magnification) return *options.magnification;
+  double const largest = skin.largest_displacement();
+  return largest > 0 ? round_down(largest_shown * skin.size() / largest) : 1.0;
+}
+
+Ticks ticks_for(FieldMesh const& mesh, Frame const& frame) {
+  auto const shown = mesh.mean_at_points(frame.temperature_degC);
+  return round_ticks(shown.minCoeff(), shown.maxCoeff());
+}
+
+}  // namespace
+
+void render_picture(thermal::Geometry const& geometry, Frame const& frame, std::filesystem::path const& path,
+                    PictureOptions const& options) {
+  FieldMesh const mesh(geometry);
+  if (mesh.elements().empty())
+    throw thermal::InputError("a picture needs bodies with a place in space; the machine has none");
+  check(frame, mesh.n_nodes());
+  expect_display();
+  Skin const skin(mesh, frame);
+  double const magnification = magnification_for(skin, options);
+  auto const ticks = ticks_for(mesh, frame);
+  vtkNew<vtkLookupTable> colours;
+  set_viridis(*colours, ticks);
+
+  int const width = oversampling * options.width, height = oversampling * options.height;
+  vtkNew<vtkRenderer> scene;
+  scene->SetBackground(1, 1, 1);
+  auto const deformed = skin.surface(magnification);
+  add_faces(*scene, deformed, colours);
+  Page page(*scene, width, height);
+  add_edges(*scene, deformed, edge_ink, page.scaled(1.5));
+  add_light(*scene);
+  if (!options.title.empty()) page.add_line(options.title, 30, true);
+  page.add_line("t = " + time_text(options.time_s), 28, false);
+  if (skin.largest_displacement() > 0) {
+    add_edges(*scene, skin.surface(0.0), faint_ink, page.scaled(1.0));
+    page.add_line("deformation × " + magnification_text(magnification) + ", grey: at rest", 24, false);
+  }
+  page.add_colour_bar(*colours, ticks);
+
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(true);
+  window->SetMultiSamples(0);
+  window->SetSize(width, height);
+  window->SetNumberOfLayers(2);
+  window->AddRenderer(scene);
+  aim(*scene, skin.points(magnification), options);
+  if (!options.sensors.empty()) add_sensors(*window, scene->GetActiveCamera(), skin, magnification, options, page);
+  add_axes(*window, *scene->GetActiveCamera(), page.scaled(20));
+  window->Render();
+  write_atomically(path, as_png(window));
+}
+
+}  // namespace thermotwin::output
