@@ -211,6 +211,7 @@ struct InfluenceDescription {
   std::string body, fixed, loaded;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double weight = 1.0;
+  std::string solution = "solid";
 
   template <class Fields>
   static void fields(Fields& f) {
@@ -219,6 +220,8 @@ struct InfluenceDescription {
     f.name("loaded", &InfluenceDescription::loaded, "face by which the loop leaves it, to the tool");
     f("point", &InfluenceDescription::point, dimension::length, "that moves with the loaded face: tool tip or table point");
     f("weight", &InfluenceDescription::weight, dimension::dimensionless, "sign along the loop");
+    f.choice("solution", &InfluenceDescription::solution, {"solid", "beam"},
+             "solid: by CalculiX, see `thermotwin weights`; beam: sections between two opposite faces");
   }
 };
 

@@ -65,6 +65,17 @@ Eigen::Vector3d centre_of(thermal::Site const& face) {
   return sum;
 }
 
+Eigen::Matrix3d second_moment(thermal::Site const& face) {
+  Eigen::Vector3d const centre = centre_of(face);
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (auto const& contact : face.contacts) {
+    Eigen::Vector3d const r = contact.box.center() - centre, size = contact.box.sizes();
+    squares += contact.area * (r * r.transpose());
+    squares.diagonal() += contact.area / 12.0 * size.cwiseAbs2();
+  }
+  return squares.trace() * Eigen::Matrix3d::Identity() - squares;
+}
+
 Load unit_load(ElasticBlock const& block, Eigen::Vector3d const& direction, Eigen::Vector3d const& point,
                bool rotation) {
   Load load = Load::Zero();

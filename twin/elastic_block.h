@@ -46,6 +46,9 @@ using Load = Eigen::Matrix<double, 6, 1>;
 /// Centre of area of a face or a rectangle on it [m].
 [[nodiscard]] Eigen::Vector3d centre_of(thermal::Site const& face);
 
+/// J = ∫ (|r|² 1 − r rᵀ) dA about that centre [m⁴].
+[[nodiscard]] Eigen::Matrix3d second_moment(thermal::Site const& face);
+
 /// Sixteen digits that name a solution: FNV-1a of everything it depends on – edges and cells of the block, Poisson
 /// ratio, both faces, the unit load. Where the block stands, what it is made of otherwise and where the tool is do not
 /// matter.

@@ -7,7 +7,6 @@
 namespace thermotwin::twin {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// Where the nodes of an element are, in halves of a cell.
@@ -53,17 +52,6 @@ void integrate(Eigen::AlignedBox3d const& rectangle, Visit visit) {
     }
 }
 
-/// J = ∫ (|r|² 1 − r rᵀ) dA about the centre.
-Matrix3d second_moment(thermal::Site const& face, Vector3d const& centre) {
-  Matrix3d sum = Matrix3d::Zero();
-  for (auto const& contact : face.contacts)
-    integrate(contact.box, [&](Vector3d const& point, double area) {
-      Vector3d const r = point - centre;
-      sum += area * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
-    });
-  return sum;
-}
-
 }  // namespace
 
 ElasticMesh::ElasticMesh(thermal::Body const& block) : corner_(block.origin), edges_(block.edges) {
@@ -98,7 +86,7 @@ void ElasticMesh::add_traction(std::map<int, Vector3d>& forces, thermal::Site co
                                Load const& at_centre) const {
   Vector3d const centre = centre_of(face);
   Vector3d const mean = at_centre.head<3>() / face.area();
-  Vector3d const turn = second_moment(face, centre).inverse() * at_centre.tail<3>();
+  Vector3d const turn = second_moment(face).inverse() * at_centre.tail<3>();
   for (auto const& contact : face.contacts) {
     auto const& element = elements_[std::size_t(contact.node)];
     Vector3d const low = nodes_.at(element[0]), high = nodes_.at(element[6]);

@@ -1,10 +1,13 @@
 #include "twin/elastic_solution.h"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <fmt/format.h>
 #include <sstream>
 #include <stdexcept>
 
+#include "thermal/error.h"
 #include "twin/calculix.h"
 #include "twin/elastic_mesh.h"
 
@@ -85,6 +88,25 @@ std::vector<double> sum_stresses(thermal::Body const& body, std::string const& p
   return cells.sums();
 }
 
+/// Gauss point of a cell, numbered from 0, x fastest.
+Eigen::Vector3d gauss_point(thermal::Cell const& cell, int point) {
+  Eigen::Vector3d const side(point % 2 - 0.5, point / 2 % 2 - 0.5, point / 4 - 0.5);
+  return centre(cell) + std::get<thermal::BoxCell>(cell).edges * side / std::sqrt(3.0);
+}
+
+void require_beam(ElasticBlock const& block) {
+  Eigen::Vector3d const way = centre_of(block.loaded) - centre_of(block.fixed);
+  Eigen::Vector3d const n = block.loaded.normal;
+  auto const& edges = block.body.edges;
+  double const length = Eigen::Vector3d(edges[0].back(), edges[1].back(), edges[2].back()).dot(n.cwiseAbs());
+  double const section = edges[0].back() * edges[1].back() * edges[2].back() / length;
+  double const tolerance = 1e-9 * section;
+  if ((way - length * n).norm() > 1e-9 || std::abs(block.fixed.area() - section) > tolerance ||
+      std::abs(block.loaded.area() - section) > tolerance)
+    throw thermal::InputError(fmt::format("'{}' is no beam between {} and {}: two whole opposite faces are due",
+                                          block.body.name, block.fixed.place, block.loaded.place));
+}
+
 }  // namespace
 
 std::vector<double> solve_unit_load(ElasticBlock const& block, int load) {
@@ -92,6 +114,22 @@ std::vector<double> solve_unit_load(ElasticBlock const& block, int load) {
   std::string const deck = calculix_model(mesh, youngs_modulus, block.poisson_ratio, 0.0) + "*STEP\n*STATIC\n" +
                            calculix_loads(mesh.forces(block, Load::Unit(load))) + "*EL PRINT,ELSET=ALL\nS\n*END STEP\n";
   return sum_stresses(block.body, run_calculix(deck));
+}
+
+std::vector<double> beam_solution(ElasticBlock const& block, Load const& load) {
+  require_beam(block);
+  Eigen::Vector3d const n = block.loaded.normal, end = centre_of(block.loaded);
+  Eigen::Vector3d const force = load.head<3>(), moment = load.tail<3>();
+  Eigen::Matrix3d const stiffness = second_moment(block.loaded).inverse();
+  CellSums cells(block.body);
+  for (int cell = 0; cell < block.body.nodes(); ++cell)
+    for (int point = 0; point < 8; ++point) {
+      Eigen::Vector3d const from_end = gauss_point(block.body.cells[std::size_t(cell)], point) - end;
+      Eigen::Vector3d const back = from_end.dot(n) * n, across = from_end - back;
+      Eigen::Vector3d const turn = stiffness * (moment - back.cross(force));
+      cells.add(cell, point, n.dot(force / block.loaded.area() + turn.cross(across)));
+    }
+  return cells.sums();
 }
 
 }  // namespace thermotwin::twin

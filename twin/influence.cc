@@ -4,6 +4,7 @@
 
 #include "thermal/error.h"
 #include "twin/elastic_block.h"
+#include "twin/elastic_solution.h"
 #include "twin/influence_file.h"
 
 namespace thermotwin::twin {
@@ -28,6 +29,16 @@ std::vector<double> solution(std::filesystem::path const& machine_file, ElasticB
   return *std::move(found);
 }
 
+std::vector<double> stored(std::filesystem::path const& machine_file, ElasticBlock const& block, Load const& load) {
+  std::vector<double> sums(std::size_t(block.body.nodes()), 0.0);
+  for (int k = 0; k < 6; ++k) {
+    if (load[k] == 0.0) continue;
+    auto const part = solution(machine_file, block, k);
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += load[k] * part[i];
+  }
+  return sums;
+}
+
 }  // namespace
 
 void add_influence(std::vector<std::pair<int, double>>& weights, std::filesystem::path const& machine_file,
@@ -35,14 +46,9 @@ void add_influence(std::vector<std::pair<int, double>>& weights, std::filesystem
                    thermal::Material const& material, int first_node, bool rotation) {
   auto const block = elastic_block(body, material.poisson_ratio, influence.fixed, influence.loaded);
   Load const load = unit_load(block, direction_of(direction), influence.point, rotation);
-  std::vector<double> sum(std::size_t(body.nodes()), 0.0);
-  for (int k = 0; k < 6; ++k) {
-    if (load[k] == 0.0) continue;
-    auto const part = solution(machine_file, block, k);
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += load[k] * part[i];
-  }
+  auto const sums = influence.solution == "beam" ? beam_solution(block, load) : stored(machine_file, block, load);
   for (int i = 0; i < body.nodes(); ++i)
-    weights.emplace_back(first_node + i, influence.weight * material.expansion * sum[std::size_t(i)]);
+    weights.emplace_back(first_node + i, influence.weight * material.expansion * sums[std::size_t(i)]);
 }
 
 double closing_length(InfluenceDescription const& influence, std::string const& direction, thermal::Body const& body) {

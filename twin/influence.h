@@ -22,8 +22,8 @@ namespace thermotwin::twin {
 /// The loop is a chain of blocks from the table to the tool: each enters with what it does to the rest, which it
 /// carries like a rigid body; so the weights of different blocks add.
 ///
-/// The solutions come from the file that `thermotwin weights` has written beside the machine's. InputError that names
-/// that command when they are not there.
+/// The solutions come from the file that `thermotwin weights` has written beside the machine's, or are those of a beam.
+/// InputError that names that command when they are not there.
 void add_influence(std::vector<std::pair<int, double>>& weights, std::filesystem::path const& machine_file,
                    InfluenceDescription const& influence, std::string const& direction, thermal::Body const& body,
                    thermal::Material const& material, int first_node, bool rotation);

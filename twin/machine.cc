@@ -351,6 +351,8 @@ void MachineBuilder::check_closure(DisplacementDescription const& description) c
   double sum = 0.0;
   for (auto const& segment : description.segment)
     if (segment.rotation.empty() && segment.against.empty()) sum += segment.weight * segment_length(segment);
+  for (auto const& influence : description.influence)
+    sum += closing_length(influence, description.direction, assembly_->body(influence.body));
   if (std::abs(sum - *description.closure) > 1e-9)
     throw InputError(fmt::format("the loop of '{}' does not close: its signed lengths add up to {}, not to {}", description.name,
                                  thermal::format_quantity(sum, dimension::length),
@@ -362,7 +364,7 @@ void MachineBuilder::read_displacements() {
     for (auto const& [description, table] : read_list<DisplacementDescription>(rotation ? "rotation" : "displacement"))
       located(*table, [&, &d = description] {
         Displacement channel{d.name, d.title, rotation, {}, {}};
-        if (rotation && !d.base) throw InputError(fmt::format("rotation '{}': 'base' is missing", d.name));
+        if (rotation && !d.base && !d.segment.empty()) throw InputError(fmt::format("rotation '{}': 'base' is missing", d.name));
         for (auto const& segment : d.segment) add_segment(channel, d, segment);
         for (auto const& influence : d.influence)
           add_influence(channel.weights, document_.where.file, influence, d.direction,

@@ -69,6 +69,7 @@ class Collector {
   void add(DisplacementDescription const& channel, bool rotation) {
     Eigen::Vector3d const direction = LineDescription{.direction = channel.direction}.axis();
     for (auto const& influence : channel.influence) {
+      if (influence.solution != "solid") continue;
       auto const& description = find_block(blocks_, influence.body);
       auto const block = elastic_block(shape_of(description), poisson_ratio(materials_, description.material),
                                        influence.fixed, influence.loaded);

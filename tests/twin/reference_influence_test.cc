@@ -95,6 +95,24 @@ TEST(ReferenceInfluence, WeightsEqualADirectRunWhereCellsCarryTheFieldExactly) {
   }
 }
 
+TEST(ReferenceInfluence, BeamMeetsTheSolidWhereItIsSlenderAndNearlyWhereItIsStout) {
+  auto const worst = [](ElasticBlock const& block, auto const& field) {
+    double error = 0.0;
+    for (int d = 0; d < 3; ++d) {
+      Load const load = unit_load(block, Vector3d::Unit(d), centre_of(block.loaded) + Vector3d(0.1, 0.2, 0.1), false);
+      auto const beam = beam_solution(block, load);
+      double sum = 0.0;
+      for (int i = 0; i < block.body.nodes(); ++i)
+        sum += alpha * beam[std::size_t(i)] * field(centre(block.body.cells[std::size_t(i)]) - block.body.origin);
+      error = std::max(error, std::abs(sum / by_weights(block, load, field) - 1.0));
+    }
+    return error;
+  };
+  auto const warm = [](Vector3d const& x) { return 5.0 + 20.0 * std::exp(-x.squaredNorm() / 0.09); };
+  EXPECT_LT(worst(block_of({0.2, 0.25, 1.5}, {4, 4, 16}, "z_min", "z_max"), warm), 0.02);
+  EXPECT_LT(worst(block_of({0.4, 0.5, 1.0}, {6, 6, 12}, "z_min", "z_max"), warm), 0.1);
+}
+
 TEST(ReferenceInfluence, ErrorOfAStronglyCurvedFieldFallsWithTheCells) {
   auto const warm = [](Vector3d const& x) {
     return 20.0 * std::exp(-((x - Vector3d(0.4, 0.1, 0.6)).squaredNorm()) / 0.06) + 5.0 * std::sin(6.0 * x[2]);
