@@ -179,8 +179,14 @@ Port NetworkBuilder::add_average(Average average) {
   if (average.from_channel < 0)
     for (double& w : average.weights) w /= sum;
   average.weights.resize(average.nodes.size());
+  for (std::size_t i = 0; average.from_channel >= 0 && i < average.nodes.size(); ++i)
+    average.weight_channels.push_back(channel(fmt::format("{}.weight[{}]", average.name, i)));
   network_.averages_.push_back(std::move(average));
   return {Port::Kind::average, int(network_.averages_.size()) - 1};
+}
+
+int NetworkBuilder::weight_channel(Port average, int entry) const {
+  return network_.averages_.at(std::size_t(average.index)).weight_channels.at(std::size_t(entry));
 }
 
 int NetworkBuilder::channel(std::string const& name) { return find_or_add(network_.channels_, name); }
@@ -224,14 +230,16 @@ Network NetworkBuilder::build() {
   if (nodes() == 0) throw InputError("the machine has no body");
   check_paths();
 
-  // Relay states come last in the operating point.
-  std::vector<std::string> states;
-  for (auto const& relay : relays_) states.push_back(network_.channels_[std::size_t(relay.relay.state_channel)]);
+  // What the network fills itself comes last in the operating point: relay states, then weights.
+  std::vector<std::string> own;
+  for (auto const& relay : relays_) own.push_back(network_.channels_[std::size_t(relay.relay.state_channel)]);
+  for (auto const& average : network_.averages_)
+    for (int c : average.weight_channels) own.push_back(network_.channels_[std::size_t(c)]);
   std::vector<std::string> ordered;
   for (auto const& name : network_.channels_)
-    if (std::find(states.begin(), states.end(), name) == states.end()) ordered.push_back(name);
+    if (std::find(own.begin(), own.end(), name) == own.end()) ordered.push_back(name);
   network_.external_channels_ = int(ordered.size());
-  ordered.insert(ordered.end(), states.begin(), states.end());
+  ordered.insert(ordered.end(), own.begin(), own.end());
   auto const renumber = [&](int old) {
     auto const& name = network_.channels_[std::size_t(old)];
     return int(std::find(ordered.begin(), ordered.end(), name) - ordered.begin());
@@ -242,6 +250,7 @@ Network NetworkBuilder::build() {
     if (average.from_channel >= 0) {
       average.from_channel = renumber(average.from_channel);
       average.to_channel = renumber(average.to_channel);
+      for (int& c : average.weight_channels) c = renumber(c);
     }
   for (auto& pending : relays_) {
     pending.relay.measured = network_.index_of(pending.measured);

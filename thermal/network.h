@@ -47,6 +47,7 @@ struct Average {
   int from_channel = -1, to_channel = -1;
   double window = 0.0;
   std::vector<double> edges;
+  std::vector<int> weight_channels;  ///< of a moving average: one channel of the operating point per weight
 };
 
 /// Mean length of overlap of [low, high] with a window of length `window` whose centre is spread evenly over [from,
@@ -92,6 +93,8 @@ class Network {
   [[nodiscard]] int temperatures() const { return nodes() + int(boundaries_.size()) + int(averages_.size()); }
   [[nodiscard]] int channels() const { return int(channels_.size()); }
   [[nodiscard]] int external_channels() const { return external_channels_; }
+  /// Those that a caller of Evaluation fills: without the weights.
+  [[nodiscard]] int given_channels() const { return external_channels_ + int(relays_.size()); }
 
   /// Names of the operating point's channels: first those that a course must give, then the relays' states.
   [[nodiscard]] std::vector<std::string> const& channel_names() const { return channels_; }
@@ -151,6 +154,8 @@ class NetworkBuilder {
   Port add_signal(std::string const& name);
   Port add_boundary(Boundary boundary);
   Port add_average(Average average);
+  /// The channel that carries the weight of entry i of a moving average: the share of the moving part that is there.
+  [[nodiscard]] int weight_channel(Port average, int entry) const;
 
   /// Index of an input channel, created when first named.
   int channel(std::string const& name);

@@ -23,16 +23,17 @@ struct NutHeat {
   }
 };
 
-/// G = G₀ + G₁ √(ω/ω_ref). c = {G₀, G₁, ω_ref}, u = {ω}.
+/// q = w G (T₁ − T₀), G = G₀ + G₁ √(ω/ω_ref): port 0 nut, port 1 a cell of the screw, over which the nut stands for the
+/// share w of the time. c = {G₀, G₁, ω_ref}, u = {ω, w}.
 struct NutConductance {
   static constexpr std::string_view name = "conduction through the balls of a nut";
-  static constexpr int ports = 2, coefficients = 3, inputs = 1;
+  static constexpr int ports = 2, coefficients = 3, inputs = 2;
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     using std::sqrt;
     S const conductance = u[0] > 0.0 ? c[0] + c[1] * sqrt(S(u[0] / c[2])) : c[0];
-    q[0] = conductance * (T[1] - T[0]);
+    q[0] = u[1] * conductance * (T[1] - T[0]);
     q[1] = -q[0];
   }
 };
@@ -88,8 +89,11 @@ struct BallNut {
     assembly.announce(name, {{nut_port, screw_port}, torque});
     torque.push_back(nut_share);
     assembly.network().add<NutHeat>(assembly.part(), {nut_port, screw_port}, torque, {speed});
-    assembly.network().add<NutConductance>(assembly.part(), {nut_port, screw_port},
-                                           {conductance_rest, conductance_speed, reference_speed}, {speed});
+    for (int i = 0; i < track.nodes(); ++i)
+      assembly.network().add<NutConductance>(
+          assembly.part(), {nut_port, {thermal::Port::Kind::node, assembly.first_node(screw) + i}},
+          {conductance_rest, conductance_speed, reference_speed},
+          {speed, assembly.network().weight_channel(screw_port, i)});
   }
 };
 
