@@ -29,7 +29,7 @@ double response(ElasticBlock const& block, Load const& load, Field field) {
 TEST(BeamSolution, WarmBlockMovesItsEndByItsLengthAlongItselfOnly) {
   auto const block = beam({0.3, 1.2, 0.4}, {3, 6, 4}, "y_max", "y_min");
   for (int k = 0; k < 6; ++k)
-    EXPECT_NEAR(response(block, Load::Unit(k), [](auto const&) { return 1.0; }), k == 1 ? -1.2 : 0.0, 1e-14) << k;
+    EXPECT_NEAR(response(block, Load::Unit(k), [](auto const&) { return 1.0; }), k == 1 ? -1.2 : 0.0, 1e-13) << k;
 }
 
 TEST(BeamSolution, GradientBendsByHalfTheSquareOfTheLengthOverHeightInEitherPlane) {
