@@ -10,6 +10,81 @@ namespace thermotwin::thermal {
 using Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
+namespace {
+
+/// Incomplete LU without fill: L U = Aᵀ on the pattern of A, the columns of A taken as rows of Aᵀ, so that A ≈ UᵀLᵀ.
+/// Right for I − γJ of a conduction network, whose diagonal dominates. Source: Saad, Iterative Methods for Sparse
+/// Linear Systems, 2nd ed. 2003, §10.3.2.
+class IncompleteFactors {
+ public:
+  using StorageIndex = int;
+  enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic };
+
+  template <class Matrix>
+  IncompleteFactors& analyzePattern(Matrix const&) {
+    return *this;
+  }
+  template <class Matrix>
+  IncompleteFactors& compute(Matrix const& matrix) {
+    return factorize(matrix);
+  }
+  [[nodiscard]] Eigen::ComputationInfo info() const { return info_; }
+
+  template <class Matrix>
+  IncompleteFactors& factorize(Matrix const& matrix) {
+    factors_ = matrix;
+    int const n = int(factors_.rows());
+    int const* start = factors_.outerIndexPtr();
+    int const* column = factors_.innerIndexPtr();
+    double* value = factors_.valuePtr();
+    diagonal_.resize(std::size_t(n));
+    std::vector<int> slot(std::size_t(n), -1);
+    info_ = Eigen::Success;
+    for (int i = 0; i < n; ++i) {
+      for (int k = start[i]; k < start[i + 1]; ++k) slot[std::size_t(column[k])] = k;
+      for (int k = start[i]; k < start[i + 1] && column[k] < i; ++k) {
+        int const pivot = diagonal_[std::size_t(column[k])];
+        value[k] /= value[pivot];
+        for (int m = pivot + 1; m < start[column[k] + 1]; ++m)
+          if (int const target = slot[std::size_t(column[m])]; target >= 0) value[target] -= value[k] * value[m];
+      }
+      diagonal_[std::size_t(i)] = slot[std::size_t(i)];
+      if (slot[std::size_t(i)] < 0 || value[slot[std::size_t(i)]] == 0.0) return fail();
+      for (int k = start[i]; k < start[i + 1]; ++k) slot[std::size_t(column[k])] = -1;
+    }
+    return *this;
+  }
+
+  template <class Right>
+  [[nodiscard]] VectorXd solve(Right const& b) const {
+    VectorXd x = b;
+    int const n = int(x.size());
+    int const* start = factors_.outerIndexPtr();
+    int const* column = factors_.innerIndexPtr();
+    double const* value = factors_.valuePtr();
+    for (int i = 0; i < n; ++i) {
+      int const pivot = diagonal_[std::size_t(i)];
+      x[i] /= value[pivot];
+      for (int k = pivot + 1; k < start[i + 1]; ++k) x[column[k]] -= value[k] * x[i];
+    }
+    for (int i = n - 1; i >= 0; --i)
+      for (int k = start[i]; k < diagonal_[std::size_t(i)]; ++k) x[column[k]] -= value[k] * x[i];
+    return x;
+  }
+
+ private:
+  IncompleteFactors& fail() {
+    info_ = Eigen::NumericalIssue;
+    return *this;
+  }
+
+  SparseMatrix factors_;
+  std::vector<int> diagonal_;
+  Eigen::ComputationInfo info_ = Eigen::InvalidInput;
+};
+
+}  // namespace
+
 struct NewtonSystem::Factors {
   virtual ~Factors() = default;
   virtual bool factorise(SparseMatrix const& matrix) = 0;
@@ -62,11 +137,7 @@ struct NewtonSystem::SparseFactors final : Factors {
 };
 
 struct NewtonSystem::KrylovFactors final : Factors {
-  KrylovFactors() {
-    solver_.preconditioner().setDroptol(1e-3);
-    solver_.preconditioner().setFillfactor(2);
-    solver_.setMaxIterations(200);
-  }
+  KrylovFactors() { solver_.setMaxIterations(300); }
   bool factorise(SparseMatrix const& matrix) override {
     solver_.compute(matrix);
     return solver_.info() == Eigen::Success;
@@ -81,13 +152,14 @@ struct NewtonSystem::KrylovFactors final : Factors {
     x = solver_.solve(b);
     return solver_.info() == Eigen::Success;
   }
-  Eigen::BiCGSTAB<SparseMatrix, Eigen::IncompleteLUT<double>> solver_;
+  Eigen::BiCGSTAB<SparseMatrix, IncompleteFactors> solver_;
 };
 
 NewtonSystem::NewtonSystem(Network const& network, LinearSolver solver)
     : capacity_(network.nodes()), jacobian_(network.jacobian_pattern()), matrix_(jacobian_) {
   for (int i = 0; i < network.nodes(); ++i)
     capacity_[i] = network.signals()[std::size_t(i)] ? 0.0 : network.capacity()[std::size_t(i)];
+  has_heat_ = (capacity_.array() > 0.0).cast<double>();
   total_capacity_ = capacity_.sum();
   if (solver == LinearSolver::dense)
     factors_ = std::make_unique<DenseFactors>();
@@ -120,8 +192,8 @@ bool NewtonSystem::solve(std::span<double const> b, double tolerance, std::span<
   return true;
 }
 
-/// Energies of x, after the shift ε of all temperatures that makes Σ Cᵢ xᵢ + ΣC (lost + withdrawn − supplied) of x that
-/// of b: a shift by ε adds ε ΣC to the left side, since M keeps the sum.
+/// Energies of x, after the uniform shift of all temperatures that makes the balance Σ Cᵢ xᵢ/ΣC + lost + withdrawn −
+/// supplied of x that of b.
 void NewtonSystem::keep_balance(Eigen::Ref<VectorXd const> const& b, Eigen::Ref<VectorXd> x) const {
   Eigen::Index const n = capacity_.size();
   Eigen::Vector4d const sign(-1.0, 1.0, 1.0, 0.0);
@@ -129,8 +201,8 @@ void NewtonSystem::keep_balance(Eigen::Ref<VectorXd const> const& b, Eigen::Ref<
   x.tail<energies>() = b.tail<energies>() + gamma_ * (power_ * temperatures);
   double const defect =
       capacity_.dot(b.head(n) - temperatures) / total_capacity_ + sign.dot(b.tail<energies>() - x.tail<energies>());
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (capacity_[i] > 0.0) temperatures[i] += defect;
+  Eigen::Vector4d const power_of_shift = power_ * has_heat_;
+  temperatures += defect / (1.0 + gamma_ * sign.dot(power_of_shift)) * has_heat_;
   x.tail<energies>() = b.tail<energies>() + gamma_ * (power_ * temperatures);
 }
 

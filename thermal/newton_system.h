@@ -46,7 +46,7 @@ class NewtonSystem {
 
   void keep_balance(Eigen::Ref<Eigen::VectorXd const> const& b, Eigen::Ref<Eigen::VectorXd> x) const;
 
-  Eigen::VectorXd capacity_;  ///< 0 for a controller's state, which holds no heat
+  Eigen::VectorXd capacity_, has_heat_;  ///< 0 for a controller's state
   double total_capacity_;
   Eigen::SparseMatrix<double> jacobian_, matrix_;  ///< J; I − γJ
   PowerGradient power_;
