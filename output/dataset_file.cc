@@ -77,6 +77,11 @@ void DatasetWriter::set_positioning(std::vector<Positioning> measured, std::vect
   dataset_.truth_positioning = std::move(truth);
 }
 
+void DatasetWriter::set_measured(std::vector<Channel> readings, std::vector<Channel> displacements) {
+  dataset_.readings = std::move(readings);
+  dataset_.displacements = std::move(displacements);
+}
+
 Dataset DatasetWriter::finish(std::map<std::string, std::string> const& provenance) {
   Dataset whole = dataset_;
   resize_rows(whole, rows_);

@@ -64,6 +64,8 @@ class DatasetWriter {
   /// Time must be later than the last row's. thermal::InputError when a part has not as many values as channels.
   void append(Row const& row);
 
+  /// What the instruments showed, once the whole course is known; until then those channels are missing (NaN).
+  void set_measured(std::vector<Channel> readings, std::vector<Channel> displacements);
   void set_positioning(std::vector<Positioning> measured, std::vector<Positioning> truth);
 
   /// Writes the file with what became known at the end (solver summary, energy balance) and gives the data set back.

@@ -90,8 +90,10 @@ class MachineBuilder {
   void read_bodies();
   void read_parts();
   void read_sensors();
+  void check_terms() const;
   void read_displacements();
   void read_screws();
+  void read_displacement_instruments();
   void build_network();
   void add_body(Value const& table, std::string const& name, thermal::Body body);
   thermal::Material const& material(std::string const& name) const;
@@ -118,7 +120,7 @@ std::vector<std::string> const& own_tables() {
   static std::vector<std::string> const names = {
       "name",        "title",        "spindle",  "axis",  "material",           "lump",
       "bar",         "hollow_cylinder", "block", "channel", "temperature_sensor", "displacement",
-      "rotation",    "ball_screw"};
+      "rotation",    "ball_screw",   "displacement_probe", "five_probe_nest", "laser"};
   return names;
 }
 
@@ -266,11 +268,28 @@ void MachineBuilder::read_parts() {
     auto const part = entry->read(*table);
     unique(*table, entry->name, part->name());
     assembly_->begin_part(entry->name + "." + part->name());
-    located(*table, [&, &part_table = *table] {
-      (void)part_table;
+    located(*table, [&] {
       part->add_to(*assembly_);
+      check_terms();
     });
   }
+}
+
+/// What parts add to displacements must find one of that name.
+void MachineBuilder::check_terms() const {
+  std::vector<std::string> names;
+  for (auto const& kind : {"displacement", "rotation"})
+    for (auto const& table : list(kind))
+      if (Value const* name = table.is_table() ? table.find("name") : nullptr; name && name->is_text())
+        names.push_back(std::get<std::string>(name->content));
+  auto const check = [&](auto const& terms) {
+    for (auto const& term : terms)
+      if (std::find(names.begin(), names.end(), term.displacement) == names.end())
+        throw InputError(fmt::format("unknown displacement '{}'; {}", term.displacement,
+                                     thermal::did_you_mean(term.displacement, names)));
+  };
+  check(assembly_->input_terms());
+  check(assembly_->temperature_terms());
 }
 
 void MachineBuilder::read_sensors() {
@@ -373,6 +392,8 @@ void MachineBuilder::read_displacements() {
         check_closure(d);
         for (auto const& term : assembly_->input_terms())
           if (term.displacement == d.name) channel.input_terms.push_back(term);
+        for (auto const& term : assembly_->temperature_terms())
+          if (term.displacement == d.name) add_growth(channel.weights, term.place, term.coefficient);
         machine_.displacements.push_back(std::move(channel));
       });
 }
@@ -399,6 +420,20 @@ void MachineBuilder::read_screws() {
       screw.edges = body.edges[0];
       machine_.screws.push_back({d, screw, assembly_->first_node(d.body)});
     });
+}
+
+void MachineBuilder::read_displacement_instruments() {
+  std::vector<std::string> known;
+  for (auto const& channel : machine_.displacements)
+    if (!channel.rotation) known.push_back(channel.name);
+  for (auto& [probe, table] : read_list<ProbeDescription>("displacement_probe"))
+    located(*table, [&, &p = probe] {
+      if (std::find(known.begin(), known.end(), p.of) == known.end())
+        throw InputError(fmt::format("unknown displacement '{}'; {}", p.of, thermal::did_you_mean(p.of, known)));
+      machine_.probes.push_back(p);
+    });
+  if (Value const* table = document_.find("five_probe_nest")) read_fields(*table, machine_.nest.emplace());
+  if (Value const* table = document_.find("laser")) read_fields(*table, machine_.laser);
 }
 
 void MachineBuilder::build_network() {
@@ -433,6 +468,7 @@ Machine MachineBuilder::operator()() {
   read_sensors();
   read_displacements();
   read_screws();
+  read_displacement_instruments();
   build_network();
   return std::move(machine_);
 }
@@ -467,7 +503,10 @@ std::vector<TableRecord> describe_machine() {
       {"temperature_sensor", "an instrument at a place, or at the mean of several", list_fields<SensorDescription>()},
       {"rotation", "a rotation of the tool relative to the workpiece", list_fields<DisplacementDescription>()},
       {"displacement", "a displacement of the tool relative to the workpiece", list_fields<DisplacementDescription>()},
-      {"ball_screw", "error of position along a stroke", list_fields<BallScrewDescription>()}};
+      {"ball_screw", "error of position along a stroke", list_fields<BallScrewDescription>()},
+      {"displacement_probe", "an eddy-current or capacitive probe", list_fields<ProbeDescription>()},
+      {"five_probe_nest", "X1, Y1, X2, Y2 and Z about a test bar; one table", list_fields<FiveProbeNest>()},
+      {"laser", "laser interferometer along an axis; one table", list_fields<LaserInterferometer>()}};
   for (auto const& entry : effect_catalogue()) tables.push_back({entry.name, entry.meaning, entry.parameters});
   return tables;
 }

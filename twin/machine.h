@@ -13,6 +13,9 @@
 #include "twin/assembly.h"
 #include "twin/description.h"
 #include "twin/effect.h"
+#include "twin/instruments/displacement_probe.h"
+#include "twin/instruments/five_probe_nest.h"
+#include "twin/instruments/laser_interferometer.h"
 #include "twin/instruments/temperature_sensor.h"
 
 namespace thermotwin::twin {
@@ -30,6 +33,18 @@ struct SensorDescription : TemperatureSensor {
     f("at", &SensorDescription::at, "place on a body; several: their mean; \"ambient\": room air");
     f("component", &SensorDescription::component, "group that it belongs to when sensors are selected");
     TemperatureSensor::fields(f);
+  }
+};
+
+/// `[[displacement_probe]]`: measures one channel of displacement.
+struct ProbeDescription : DisplacementProbe {
+  std::string name, of;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("name", &ProbeDescription::name, "of the probe");
+    f.name("of", &ProbeDescription::of, "displacement that it measures");
+    DisplacementProbe::fields(f);
   }
 };
 
@@ -72,6 +87,9 @@ class Machine {
   std::vector<Sensor> sensors;
   std::vector<Displacement> displacements;
   std::vector<Screw> screws;
+  std::vector<ProbeDescription> probes;
+  std::optional<FiveProbeNest> nest;
+  LaserInterferometer laser;
 
   [[nodiscard]] thermal::Network const& network() const { return *network_; }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,12 @@
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
+
+/// The user stopped a run; what was computed is in the partial file that the message names.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// How a run is carried out and what it leaves behind.
 struct RunOptions {

@@ -1,0 +1,295 @@
+#include "twin/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/dataset_file.h"
+#include "output/fields.h"
+#include "output/picture.h"
+#include "scenarios/course.h"
+#include "thermal/error.h"
+#include "thermal/units.h"
+#include "twin/history.h"
+#include "twin/version.h"
+
+namespace thermotwin::twin {
+namespace {
+
+/// How a channel of the course is shown at the edge: rpm, °C, mm/min, mm.
+std::string edge_unit(thermal::InputChannel const& channel) {
+  if (channel.unit == "rad/s") return "rpm";
+  if (channel.unit == "K") return channel.name.ends_with("offset") ? "K" : "degC";
+  if (channel.unit == "m/s") return "mm/min";
+  return channel.unit == "m" ? "mm" : channel.unit;
+}
+
+double to_edge(double si, std::string const& unit) { return unit == "1" ? si : thermal::to_unit(si, unit); }
+
+/// Collects what the integrator shows and passes it on: history, partial file, fields.
+class Recorder {
+ public:
+  Recorder(Machine const& machine, scenarios::Experiment const& experiment, scenarios::ExperimentCourse const& course,
+           RunOptions const& options);
+  void operator()(thermal::Sample const& sample);
+  output::Dataset finish(std::map<std::string, std::string> const& provenance);
+
+ private:
+  output::Dataset make_head() const;
+  void record_history(thermal::Sample const& sample);
+  output::Row make_row(thermal::Sample const& sample);
+  void keep(output::Row const& row);
+  output::Frame make_frame(thermal::Sample const& sample);
+  void show_field(thermal::Sample const& sample);
+  [[nodiscard]] double seen(NodeWeights const& weights, std::span<double const> temperatures) const;
+  [[nodiscard]] double air_at(double height, thermal::Sample const& sample) const;
+  [[nodiscard]] double input_of(std::string const& name, double otherwise) const;
+
+  Machine const& machine_;
+  scenarios::Experiment const& experiment_;
+  scenarios::ExperimentCourse const& course_;
+  RunOptions const& options_;
+  thermal::Evaluation evaluation_;
+  History history_;
+  output::Dataset dataset_;
+  std::vector<output::Row> rows_;
+  std::unique_ptr<output::DatasetWriter> writer_;
+  std::unique_ptr<output::FieldSeries> fields_;
+  std::vector<double> first_temperatures_, first_inputs_, inputs_, watts_;
+  std::vector<std::size_t> shown_inputs_, shown_parts_;
+  std::optional<output::Frame> last_frame_;
+  double last_frame_time_ = 0.0;
+};
+
+Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experiment,
+                   scenarios::ExperimentCourse const& course, RunOptions const& options)
+    : machine_(machine),
+      experiment_(experiment),
+      course_(course),
+      options_(options),
+      evaluation_(machine.network()),
+      history_(machine),
+      inputs_(course.channels().size()),
+      watts_(machine.network().parts().size()) {
+  for (std::size_t i = 0; i < course.channels().size(); ++i)
+    if (course.channels()[i].name != "ambient.floor_temperature") shown_inputs_.push_back(i);
+  for (std::size_t p = 0; p < machine.network().parts().size(); ++p)
+    if (!machine.network().parts()[p].starts_with("joint.") && machine.network().parts()[p] != "conduction")
+      shown_parts_.push_back(p);
+  dataset_ = make_head();
+  if (options.dataset) writer_ = std::make_unique<output::DatasetWriter>(*options.dataset, dataset_);
+  if (options.fields)
+    fields_ = std::make_unique<output::FieldSeries>(
+        *options.fields, machine.geometry,
+        output::FieldOptions{experiment.ambient.mean - 273.15, {{"machine", machine.name}, {"experiment", experiment.title}}});
+}
+
+output::Dataset Recorder::make_head() const {
+  output::Dataset head;
+  head.title = fmt::format("{}: {}", machine_.name, experiment_.title);
+  for (std::size_t i : shown_inputs_) {
+    auto const& channel = course_.channels()[i];
+    head.inputs.push_back({channel.name, edge_unit(channel), channel.description, {}});
+  }
+  for (auto const& sensor : machine_.sensors)
+    head.readings.push_back({sensor.description.name, "degC", sensor.description.title, {}});
+  head.displacements = displacement_channels(machine_);
+  head.truth_readings = head.readings;
+  head.truth_displacements = head.displacements;
+  for (std::size_t p : shown_parts_)
+    head.heat.push_back({machine_.network().parts()[p], "W", "heat given to the bodies", {}});
+  if (options_.node_temperatures)
+    for (int i = 0; i < machine_.network().nodes(); ++i) head.node_names.push_back(machine_.network().node_name(i));
+  head.provenance = options_.provenance;
+  head.provenance["version"] = std::string(version());
+  head.provenance["commit"] = std::string(commit());
+  head.provenance["seed"] = std::to_string(experiment_.seed);
+  return head;
+}
+
+double Recorder::seen(NodeWeights const& weights, std::span<double const> temperatures) const {
+  double sum = 0.0;
+  for (auto const& [node, weight] : weights) sum += weight * temperatures[std::size_t(node)];
+  return sum;
+}
+
+double Recorder::input_of(std::string const& name, double otherwise) const {
+  auto const& channels = course_.channels();
+  auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
+  return it == channels.end() ? otherwise : inputs_[std::size_t(it - channels.begin())];
+}
+
+double Recorder::air_at(double height, thermal::Sample const&) const {
+  return input_of("ambient.floor_temperature", 293.15) + height * input_of("ambient.gradient", 0.0);
+}
+
+void Recorder::record_history(thermal::Sample const& sample) {
+  history_.time.push_back(sample.time);
+  auto& body = history_.sensor_body.emplace_back();
+  auto& air = history_.sensor_air.emplace_back();
+  for (auto const& sensor : machine_.sensors) {
+    air.push_back(air_at(sensor.position.z(), sample));
+    body.push_back(sensor.weights.empty() ? air.back() : seen(sensor.weights, sample.temperatures));
+  }
+  auto& displacement = history_.displacement.emplace_back();
+  for (auto const& channel : machine_.displacements) {
+    double value = seen(channel.weights, sample.temperatures) - seen(channel.weights, first_temperatures_);
+    for (auto const& term : channel.input_terms) {
+      auto const& channels = course_.channels();
+      auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == term.channel; });
+      if (it == channels.end()) continue;
+      auto const i = std::size_t(it - channels.begin());
+      value += term.coefficient * (std::pow(inputs_[i], term.power) - std::pow(first_inputs_[i], term.power));
+    }
+    displacement.push_back(value);
+  }
+  auto& rise = history_.screw_rise.emplace_back();
+  for (auto const& screw : machine_.screws)
+    for (std::size_t i = 0; i + 1 < screw.screw.edges.size(); ++i) {
+      auto const node = std::size_t(screw.first_node) + i;
+      rise.push_back(sample.temperatures[node] - first_temperatures_[node]);
+    }
+  history_.spindle_speed.push_back(input_of("spindle.speed", 0.0));
+  history_.air.push_back(air_at(1.0, sample));
+}
+
+output::Row Recorder::make_row(thermal::Sample const& sample) {
+  auto const row = history_.time.size() - 1;
+  output::Row out;
+  out.time_s = sample.time;
+  out.inputs.resize(Eigen::Index(shown_inputs_.size()));
+  for (std::size_t k = 0; k < shown_inputs_.size(); ++k)
+    out.inputs[Eigen::Index(k)] = to_edge(inputs_[shown_inputs_[k]], dataset_.inputs[k].unit);
+  auto const& body = history_.sensor_body[row];
+  out.truth_readings = Eigen::Map<Eigen::VectorXd const>(body.data(), Eigen::Index(body.size())).array() - 273.15;
+  out.truth_displacements = displacement_row(history_, row);
+  double const missing = std::nan("");
+  out.readings = Eigen::VectorXd::Constant(out.truth_readings.size(), missing);
+  out.displacements = Eigen::VectorXd::Constant(out.truth_displacements.size(), missing);
+  evaluation_.heat_of_parts(sample.state.data(), sample.input.data(), watts_);
+  out.heat.resize(Eigen::Index(shown_parts_.size()));
+  for (std::size_t k = 0; k < shown_parts_.size(); ++k) out.heat[Eigen::Index(k)] = watts_[shown_parts_[k]];
+  if (options_.node_temperatures) {
+    int const n = machine_.network().nodes();
+    out.node_temperatures = Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n).cast<float>().array() - 273.15F;
+  }
+  return out;
+}
+
+output::Frame Recorder::make_frame(thermal::Sample const& sample) {
+  int const n = machine_.network().nodes();
+  output::Frame frame;
+  frame.temperature_degC = Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n).array() - 273.15;
+  frame.heat_source_W.resize(n);
+  evaluation_.source_of_nodes(sample.state.data(), sample.input.data(), {frame.heat_source_W.data(), std::size_t(n)});
+  return frame;
+}
+
+void Recorder::show_field(thermal::Sample const& sample) {
+  bool const last = sample.time >= experiment_.duration - 1e-6;
+  bool const due = sample.time == 0.0 || last || sample.time >= last_frame_time_ + options_.field_interval - 1e-6;
+  if (!due || (!fields_ && !(options_.picture && last))) return;
+  last_frame_ = make_frame(sample);
+  last_frame_time_ = sample.time;
+  if (fields_) fields_->add(sample.time, *last_frame_);
+}
+
+void Recorder::operator()(thermal::Sample const& sample) {
+  course_.evaluate(sample.time, inputs_);
+  if (first_temperatures_.empty()) {
+    first_temperatures_.assign(sample.temperatures.begin(), sample.temperatures.end());
+    first_inputs_ = inputs_;
+  }
+  record_history(sample);
+  rows_.push_back(make_row(sample));
+  if (writer_) writer_->append(rows_.back());
+  show_field(sample);
+  if (options_.progress) options_.progress(experiment_.duration > 0.0 ? sample.time / experiment_.duration : 1.0);
+  if (options_.stop && *options_.stop)
+    throw Interrupted(fmt::format("stopped at t = {:.0f} s of {:.0f} s{}", sample.time, experiment_.duration,
+                                  writer_ ? "; the rows so far are in " + writer_->partial_path().string() : ""));
+}
+
+/// Turns the rows into the data set's courses.
+void Recorder::keep(output::Row const& row) {
+  auto const put = [&](std::vector<output::Channel>& channels, Eigen::VectorXd const& values, Eigen::Index r) {
+    for (std::size_t c = 0; c < channels.size(); ++c) channels[c].values[r] = values[Eigen::Index(c)];
+  };
+  auto const r = Eigen::Index(&row - rows_.data());
+  dataset_.time_s[r] = row.time_s;
+  put(dataset_.inputs, row.inputs, r);
+  put(dataset_.truth_readings, row.truth_readings, r);
+  put(dataset_.truth_displacements, row.truth_displacements, r);
+  put(dataset_.heat, row.heat, r);
+  if (options_.node_temperatures) dataset_.node_temperatures->row(r) = row.node_temperatures;
+}
+
+output::Dataset Recorder::finish(std::map<std::string, std::string> const& provenance) {
+  output::resize_rows(dataset_, Eigen::Index(rows_.size()));
+  for (auto const& row : rows_) keep(row);
+  measure(history_, experiment_, dataset_);
+  for (auto const& [key, text] : provenance) dataset_.provenance[key] = text;
+  if (writer_) {
+    writer_->set_measured(dataset_.readings, dataset_.displacements);
+    writer_->set_positioning(dataset_.positioning, dataset_.truth_positioning);
+    writer_->finish(dataset_.provenance);
+  }
+  if (options_.picture && last_frame_) {
+    output::PictureOptions picture;
+    picture.title = machine_.title;
+    picture.time_s = last_frame_time_;
+    for (auto const& sensor : machine_.sensors)
+      if (!sensor.weights.empty()) picture.sensors.push_back({sensor.description.name, sensor.position});
+    output::render_picture(machine_.geometry, *last_frame_, *options_.picture, picture);
+  }
+  return dataset_;
+}
+
+std::map<std::string, std::string> solver_provenance(thermal::IntegrationSummary const& summary) {
+  return {{"solver.linear", std::string(name_of(summary.solver))},
+          {"solver.steps", std::to_string(summary.steps)},
+          {"solver.rate_evaluations", std::to_string(summary.rate_evaluations)},
+          {"solver.jacobian_evaluations", std::to_string(summary.jacobian_evaluations)},
+          {"solver.restarts", std::to_string(summary.restarts)},
+          {"solver.relay_switches", std::to_string(summary.relay_switches)},
+          {"energy.supplied_J", thermal::format_number(summary.energy.supplied)},
+          {"energy.withdrawn_J", thermal::format_number(summary.energy.withdrawn)},
+          {"energy.lost_J", thermal::format_number(summary.energy.lost)},
+          {"energy.stored_J", thermal::format_number(summary.stored)},
+          {"energy.imbalance", thermal::format_number(summary.energy_imbalance())}};
+}
+
+}  // namespace
+
+std::vector<double> initial_temperatures(Machine const& machine, scenarios::Experiment const& experiment,
+                                         thermal::Course const& course) {
+  auto const& channels = course.channels();
+  std::vector<double> values(channels.size());
+  course.evaluate(0.0, values);
+  double floor = 293.15, gradient = 0.0;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (channels[i].name == "ambient.floor_temperature") floor = values[i];
+    if (channels[i].name == "ambient.gradient") gradient = values[i];
+  }
+  std::vector<double> temperatures(std::size_t(machine.network().nodes()), experiment.initial_temperature.value_or(floor));
+  if (experiment.initial_temperature) return temperatures;
+  for (auto const& body : machine.geometry)
+    for (std::size_t i = 0; i < body.cells.size(); ++i)
+      temperatures[std::size_t(body.first_node) + i] = floor + gradient * centre(body.cells[i]).z();
+  return temperatures;
+}
+
+RunResult run(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options) {
+  scenarios::ExperimentCourse const course(experiment, machine.limits);
+  auto const times = scenarios::sample_times(experiment);
+  auto const start = initial_temperatures(machine, experiment, course);
+  Recorder recorder(machine, experiment, course, options);
+  RunResult result;
+  result.summary = thermal::integrate(machine.network(), course, start, times, options.integration,
+                                      [&](thermal::Sample const& sample) { recorder(sample); });
+  result.dataset = recorder.finish(solver_provenance(result.summary));
+  return result;
+}
+
+}  // namespace thermotwin::twin
