@@ -38,6 +38,13 @@ struct InputTerm {
   double power = 1.0;
 };
 
+/// A term of a displacement channel that follows the mean temperature of a place: coefficient · (T(t) − T(0)).
+struct TemperatureTerm {
+  std::string displacement;
+  Place place;
+  double coefficient = 0.0;  ///< [m/K] or [rad/K]
+};
+
 /// What the parts of a machine file are added to: the network while it is built, and the names of everything in it.
 class Assembly {
  public:
@@ -70,7 +77,9 @@ class Assembly {
   [[nodiscard]] int first_node(std::string const& name) const;
 
   void displace(InputTerm term) { input_terms_.push_back(std::move(term)); }
+  void displace(TemperatureTerm term) { temperature_terms_.push_back(std::move(term)); }
   [[nodiscard]] std::vector<InputTerm> const& input_terms() const { return input_terms_; }
+  [[nodiscard]] std::vector<TemperatureTerm> const& temperature_terms() const { return temperature_terms_; }
 
   /// What one part tells those after it: the ports and coefficients of a friction torque, for the motor that drives it.
   struct Torque {
@@ -89,6 +98,7 @@ class Assembly {
   std::map<std::pair<std::string, double>, thermal::Port> boundaries_;
   std::map<std::string, Torque> torques_;
   std::vector<InputTerm> input_terms_;
+  std::vector<TemperatureTerm> temperature_terms_;
   double maximum_spindle_speed_ = 0.0;
   int part_ = 0;
 };

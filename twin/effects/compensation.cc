@@ -1,0 +1,32 @@
+#include "twin/assembly.h"
+#include "twin/effect.h"
+
+namespace thermotwin::twin {
+namespace {
+
+struct Compensation {
+  std::string name, displacement, at;
+  double gain = required;  ///< [m/K]
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("name", &Compensation::name, "unique among these");
+    f.name("displacement", &Compensation::displacement, "channel that the controller corrects");
+    f.name("at", &Compensation::at, "place of the sensor that the controller reads");
+    f("gain", &Compensation::gain, dimension::growth_per_kelvin, "taken off per kelvin", Range{-5e-6, 5e-6});
+  }
+
+  void add_to(Assembly& assembly) const { assembly.displace(TemperatureTerm{displacement, assembly.place(at), -gain}); }
+};
+
+}  // namespace
+
+Effect const& compensation_effect() {
+  static Effect const effect = make_effect<Compensation>(
+      {"compensation", "the controller's own thermal compensation was left on while the error was measured",
+       "ΔE = −k (T_s − T_s(0))", "deformation", "a displacement channel; place of the controller's sensor",
+       "the displacement alone: collinear with one temperature, and all temperatures agree", "physics.md §7 no. 34"});
+  return effect;
+}
+
+}  // namespace thermotwin::twin
