@@ -1,0 +1,235 @@
+// The only file that knows CLI11.
+#include "twin/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "output/csv.h"
+#include "output/dataset_file.h"
+#include "output/error.h"
+#include "scenarios/course.h"
+#include "thermal/error.h"
+#include "twin/effect_page.h"
+#include "twin/experiment_file.h"
+#include "twin/needed_solution.h"
+#include "twin/progress.h"
+#include "twin/run.h"
+#include "twin/summary.h"
+#include "twin/version.h"
+
+namespace thermotwin::twin {
+namespace {
+
+std::atomic<bool> stop_requested = false;
+
+struct RunCommand {
+  std::string experiment, machine, dataset, fields, picture, field_interval = "15 min";
+  std::vector<std::string> settings;
+  double tolerance = 1e-6;
+  bool nodes = false, json = false, quiet = false;
+
+  void add_to(CLI::App& app);
+  void operator()() const;
+};
+
+void RunCommand::add_to(CLI::App& app) {
+  auto* command = app.add_subcommand("run", "run an experiment on a machine");
+  command->add_option("experiment", experiment, "experiment file, or the name of one of the catalogue")->required();
+  command->add_option("--machine,-m", machine, "machine file or name; default: the one that the experiment names");
+  command->add_option("--output,-o", dataset, "data set to write (HDF5)");
+  command->add_option("--fields", fields, "folder for the fields (VTK), one frame per --field-interval");
+  command->add_option("--field-interval", field_interval, "time between two frames")->capture_default_str();
+  command->add_option("--picture", picture, "PNG of the last frame; needs a display, or xvfb-run");
+  command->add_option("--set", settings,
+                      "change a parameter: bearing.front.grease_factor=0.8, experiment.duration=\"2 h\"");
+  command->add_option("--tolerance", tolerance, "relative tolerance of the integration")->capture_default_str();
+  command->add_flag("--nodes", nodes, "keep every node's temperature in the data set");
+  command->add_flag("--json", json, "print the summary as JSON");
+  command->add_flag("--quiet,-q", quiet, "print nothing but errors");
+  command->callback([this] { (*this)(); });
+}
+
+std::string text_of(std::filesystem::path const& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Applies "path=value"; paths that begin with `experiment.` go to the experiment, the others to the machine.
+void apply(std::string const& setting, Value& machine, Value& experiment) {
+  auto const equals = setting.find('=');
+  if (equals == std::string::npos)
+    throw thermal::InputError(
+        fmt::format("--set {}: write it as path=value, for example bearing.front.grease_factor=0.8", setting));
+  std::string path = setting.substr(0, equals), value = setting.substr(equals + 1);
+  if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
+  constexpr std::string_view prefix = "experiment.";
+  if (path.starts_with(prefix))
+    set_parameter(experiment, path.substr(prefix.size()), value);
+  else
+    set_parameter(machine, path, value);
+}
+
+std::filesystem::path machine_path(scenarios::Experiment const& experiment,
+                                   std::filesystem::path const& experiment_path) {
+  if (experiment.machine.empty())
+    throw FileError({experiment_path.string(), 0, 0}, "the experiment names no machine; give one with --machine");
+  if (experiment.machine.ends_with(".toml")) return experiment.directory / experiment.machine;
+  return machine_file(experiment.machine);
+}
+
+void RunCommand::operator()() const {
+  auto const experiment_path = experiment_file(experiment);
+  Value experiment_document = read_toml(experiment_path);
+  Value machine_document{{}, Value::Table{}};
+  auto const preliminary = read_experiment(experiment_document, experiment_path);
+  auto const path = machine.empty() ? machine_path(preliminary, experiment_path) : machine_file(machine);
+  machine_document = read_toml(path);
+  for (auto const& setting : settings) apply(setting, machine_document, experiment_document);
+  auto const programme = read_experiment(experiment_document, experiment_path);
+  Machine const built = Machine::build(machine_document);
+
+  RunOptions options;
+  options.integration.relative_tolerance = tolerance;
+  options.integration.absolute_tolerance = tolerance;
+  if (!dataset.empty()) options.dataset = dataset;
+  if (!fields.empty()) options.fields = fields;
+  if (!picture.empty()) options.picture = picture;
+  options.field_interval = thermal::parse_value(field_interval, thermal::dimension::time);
+  options.node_temperatures = nodes;
+  options.provenance = {{"machine.file", text_of(path)},
+                        {"experiment.file", text_of(experiment_path)},
+                        {"settings", fmt::format("{}", fmt::join(settings, "\n"))}};
+  options.stop = &stop_requested;
+  std::optional<Progress> progress;
+  if (!quiet) {
+    progress.emplace(fmt::format("{} on {}", experiment_path.stem().string(), built.name));
+    options.progress = [&](double share) { progress->show(share); };
+  }
+  auto const result = run(built, programme, options);
+  progress.reset();
+  if (json)
+    fmt::print("{}", summary_json(built, result));
+  else if (!quiet)
+    fmt::print("{}", summary_table(built, result));
+}
+
+/// What a file is, from the tables that it has: an experiment has a duration.
+void check_file(std::string const& name) {
+  std::filesystem::path const path = name;
+  Value const document = read_toml(path);
+  if (document.find("duration")) {
+    auto const experiment = read_experiment(document, path);
+    auto const machine = Machine::read(machine_path(experiment, path));
+    scenarios::ExperimentCourse const course(experiment, machine.limits);
+    fmt::print("{}: an experiment of {:.2f} h on {}; no mistake found\n", name, experiment.duration / 3600.0,
+               machine.name);
+  } else {
+    auto const machine = Machine::build(document);
+    fmt::print("{}: the machine {}: {} nodes, {} parts, {} sensors, {} displacement channels; no mistake found\n", name,
+               machine.name, machine.network().nodes(), machine.network().parts().size(), machine.sensors.size(),
+               machine.displacements.size());
+  }
+}
+
+void describe(std::string const& what) {
+  if (what == "experiment") {
+    fmt::print("{}", table_page({"experiment", "what a machine is put through; the keys of its file",
+                                 list_fields<scenarios::Experiment>()}));
+    return;
+  }
+  for (auto const& table : describe_machine()) fmt::print("{}\n", table_page(table));
+}
+
+void add_other_commands(CLI::App& app) {
+  auto* describe_command = app.add_subcommand("describe", "print every key of a machine or experiment file");
+  auto what = std::make_shared<std::string>();
+  describe_command->add_option("what", *what, "machine or experiment")
+      ->required()
+      ->check(CLI::IsMember({"machine", "experiment"}));
+  describe_command->callback([what] { describe(*what); });
+
+  auto* check_command = app.add_subcommand("check", "look for mistakes in machine and experiment files");
+  auto files = std::make_shared<std::vector<std::string>>();
+  check_command->add_option("files", *files, "files")->required();
+  check_command->callback([files] {
+    for (auto const& file : *files) check_file(file);
+  });
+
+  auto* effects_command = app.add_subcommand("effects", "list the effects that the twin knows, or show one");
+  auto name = std::make_shared<std::string>();
+  auto markdown = std::make_shared<bool>(false);
+  effects_command->add_option("name", *name, "of an effect");
+  effects_command->add_flag("--markdown", *markdown, "all pages, for the documentation");
+  effects_command->callback([name, markdown] {
+    if (*markdown)
+      fmt::print("{}", effects_markdown());
+    else
+      fmt::print("{}", name->empty() ? effect_list() : effect_page(effect(*name)));
+  });
+
+  auto* export_command = app.add_subcommand("export", "write a data set as CSV");
+  auto input = std::make_shared<std::string>(), output = std::make_shared<std::string>();
+  auto groups = std::make_shared<output::CsvGroups>();
+  export_command->add_option("dataset", *input, "data set (HDF5)")->required();
+  export_command->add_option("--output,-o", *output, "CSV file; default: standard output");
+  export_command->add_flag("--truth", groups->truth, "noise-free readings and displacements, too");
+  export_command->add_flag("--heat", groups->heat, "heat of every part, too");
+  export_command->callback([input, output, groups] {
+    auto const data = output::read(*input);
+    if (output->empty())
+      output::export_csv(data, std::cout, *groups);
+    else
+      output::export_csv(data, std::filesystem::path(*output), *groups);
+  });
+
+  auto* weights_command =
+      app.add_subcommand("weights", "compute the influence weights of a machine's blocks with CalculiX");
+  auto machine = std::make_shared<std::string>();
+  weights_command->add_option("machine", *machine, "machine file")->required();
+  weights_command->callback([machine] {
+    int const solved = write_weights(machine_file(*machine), std::cerr);
+    fmt::print("{} solved; the others were there already\n", solved);
+  });
+}
+
+int fail(int code, std::string_view message) {
+  fmt::print(stderr, "thermotwin: {}\n", message);
+  return code;
+}
+
+}  // namespace
+
+int command_line(int argc, char** argv) {
+  CLI::App app("ThermoTwin: thermal digital twin of a machine tool, and generator of virtual experiments",
+               "thermotwin");
+  app.set_version_flag("--version", fmt::format("thermotwin {} ({})", version(), commit()));
+  app.require_subcommand(1);
+  RunCommand run_command;
+  run_command.add_to(app);
+  add_other_commands(app);
+  std::signal(SIGINT, [](int) { stop_requested = true; });
+  std::signal(SIGTERM, [](int) { stop_requested = true; });
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (CLI::ParseError const& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (Interrupted const& error) {
+    return fail(130, error.what());
+  } catch (thermal::InputError const& error) {
+    return fail(2, error.what());
+  } catch (output::OutputError const& error) {
+    return fail(2, error.what());
+  } catch (std::exception const& error) {
+    return fail(1, error.what());
+  }
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,92 @@
+#include "twin/summary.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace thermotwin::twin {
+namespace {
+
+struct Extremes {
+  double first = 0.0, last = 0.0, lowest = 0.0, highest = 0.0;
+};
+
+/// Of what is there: a reading may be missing.
+Extremes extremes(Eigen::VectorXd const& values) {
+  Extremes e{NAN, NAN, INFINITY, -INFINITY};
+  for (double v : values) {
+    if (std::isnan(v)) continue;
+    if (std::isnan(e.first)) e.first = v;
+    e.last = v;
+    e.lowest = std::min(e.lowest, v);
+    e.highest = std::max(e.highest, v);
+  }
+  return e;
+}
+
+}  // namespace
+
+std::string summary_table(Machine const& machine, RunResult const& result) {
+  auto const& data = result.dataset;
+  auto const& s = result.summary;
+  std::string text = fmt::format("\n{}, {:.2f} h, {} nodes\n\n", data.title,
+                                 data.time_s[data.time_s.size() - 1] / 3600.0, machine.network().nodes());
+  text += fmt::format("  {:<14} {:<34} {:>9} {:>9} {:>9}\n", "sensor", "", "start °C", "end °C", "largest rise K");
+  for (auto const& channel : data.readings) {
+    auto const e = extremes(channel.values);
+    text += fmt::format("  {:<14} {:<34} {:>8.2f} {:>8.2f} {:>13.2f}\n", channel.name, channel.long_name, e.first,
+                        e.last, e.highest - e.first);
+  }
+  text += fmt::format("\n  {:<14} {:<34} {:>9} {:>9} {:>9}\n", "displacement", "", "end", "lowest", "highest");
+  for (auto const& channel : data.displacements) {
+    auto const e = extremes(channel.values);
+    text += fmt::format("  {:<14} {:<34} {:>9.2f} {:>9.2f} {:>9.2f} {}\n", channel.name, channel.long_name, e.last,
+                        e.lowest, e.highest, channel.unit == "um" ? "µm" : "µrad");
+  }
+  text += fmt::format(
+      "\n  energy     {:.4g} kJ supplied = {:.4g} stored + {:.4g} to the air and coolant + {:.4g} withdrawn; balance "
+      "to {:.1e}\n",
+      s.energy.supplied / 1e3, s.stored / 1e3, s.energy.lost / 1e3, s.energy.withdrawn / 1e3, s.energy_imbalance());
+  text += fmt::format("  solver     {} steps, {} right-hand sides, {} Jacobians, {} restarts, {}, {:.2f} s\n", s.steps,
+                      s.rate_evaluations, s.jacobian_evaluations, s.restarts, name_of(s.solver), s.wall_time);
+  return text;
+}
+
+std::string summary_json(Machine const& machine, RunResult const& result) {
+  using Json = nlohmann::ordered_json;
+  auto const& data = result.dataset;
+  auto const& s = result.summary;
+  auto const channels = [](std::vector<output::Channel> const& list) {
+    Json json = Json::array();
+    for (auto const& channel : list) {
+      auto const e = extremes(channel.values);
+      json.push_back({{"name", channel.name},
+                      {"unit", channel.unit},
+                      {"start", e.first},
+                      {"end", e.last},
+                      {"lowest", e.lowest},
+                      {"highest", e.highest}});
+    }
+    return json;
+  };
+  Json json;
+  json["title"] = data.title;
+  json["nodes"] = machine.network().nodes();
+  json["duration_s"] = data.time_s[data.time_s.size() - 1];
+  json["readings"] = channels(data.readings);
+  json["displacements"] = channels(data.displacements);
+  json["energy"] = {{"supplied_J", s.energy.supplied},
+                    {"withdrawn_J", s.energy.withdrawn},
+                    {"lost_J", s.energy.lost},
+                    {"stored_J", s.stored},
+                    {"imbalance", s.energy_imbalance()}};
+  json["solver"] = {{"linear", name_of(s.solver)},
+                    {"steps", s.steps},
+                    {"rate_evaluations", s.rate_evaluations},
+                    {"jacobian_evaluations", s.jacobian_evaluations},
+                    {"restarts", s.restarts},
+                    {"wall_time_s", s.wall_time}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace thermotwin::twin

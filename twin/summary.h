@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "twin/machine.h"
+#include "twin/run.h"
+
+namespace thermotwin::twin {
+
+/// What a run prints at its end: rise of every sensor, drift of every channel, what the solver did, the energy balance.
+[[nodiscard]] std::string summary_table(Machine const& machine, RunResult const& result);
+
+/// The same for programs, as JSON.
+[[nodiscard]] std::string summary_json(Machine const& machine, RunResult const& result);
+
+}  // namespace thermotwin::twin
