@@ -160,7 +160,9 @@ void FieldMesh::find_neighbours(std::size_t first_element) {
   each_corner([&](int point, int node) { nodes_at[point].insert(node); });
   std::map<int, std::set<int>> touching;
   each_corner([&](int point, int node) { touching[node].insert(nodes_at[point].begin(), nodes_at[point].end()); });
-  for (auto const& [node, others] : touching) {
+  for (auto const& touch : touching) {
+    int const node = touch.first;
+    auto const& others = touch.second;
     Eigen::Matrix3d extent = Eigen::Matrix3d::Zero();
     auto const offset = [&](int other) -> Eigen::Vector3d {
       return node_centres_.col(other) - node_centres_.col(node);

@@ -39,7 +39,8 @@ std::string time_text(double time_s) {
 std::string magnification_text(double magnification) {
   if (magnification < 1000) return fmt::format("{:g}", magnification);
   auto const whole = std::llround(magnification);
-  return fmt::format("{},{:03}", magnification_text(static_cast<double>(whole / 1000)), whole % 1000);
+  auto const thousands = whole / 1000;
+  return fmt::format("{},{:03}", magnification_text(static_cast<double>(thousands)), whole % 1000);
 }
 
 }  // namespace thermotwin::output

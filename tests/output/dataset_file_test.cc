@@ -13,7 +13,6 @@
 namespace thermotwin::output {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -93,9 +92,8 @@ TEST(DatasetFile, GivesBackAMeasuredRunWithoutTruth) {
 TEST(DatasetFile, SameDataSameBytes) {
   Dataset const dataset = example_dataset();
   std::string const first = to_hdf5(dataset);
-  Dataset const again = dataset;
   static_cast<void>(to_hdf5(example_dataset(7)));
-  EXPECT_TRUE(first == to_hdf5(again));
+  EXPECT_TRUE(first == to_hdf5(dataset));
 }
 
 TEST(DatasetFile, StaysSmall) {

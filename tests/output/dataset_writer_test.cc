@@ -25,8 +25,10 @@ using tests::contents;
 using tests::put;
 using tests::TemporaryDirectory;
 using thermal::InputError;
-using std::chrono_literals::operator""h;
-using std::chrono_literals::operator""s;
+using Seconds = std::chrono::duration<double>;
+
+constexpr Seconds never(1e9);
+constexpr Seconds always(0);
 
 Dataset head() {
   Dataset dataset;
@@ -63,8 +65,8 @@ void expect_first_rows(Dataset const& dataset, Eigen::Index rows) {
 
 TEST(DatasetWriter, WritesTheSameBytesAsTheWholeAtOnce) {
   TemporaryDirectory const directory;
-  DatasetWriter seldom(directory / "seldom.h5", head(), 1h);
-  DatasetWriter often(directory / "often.h5", head(), 0s);
+  DatasetWriter seldom(directory / "seldom.h5", head(), never);
+  DatasetWriter often(directory / "often.h5", head(), always);
   for (int i = 0; i < 600; ++i) seldom.append(row_at(i));
   for (int i = 0; i < 600; ++i) often.append(row_at(i));
   Dataset const whole = seldom.finish({{"energy balance", "1e-12"}});
@@ -81,7 +83,7 @@ TEST(DatasetWriter, WritesTheSameBytesAsTheWholeAtOnce) {
 TEST(DatasetWriter, KeepsTheOldFileUntilFinished) {
   TemporaryDirectory const directory;
   put(directory / "run.h5", "old");
-  DatasetWriter writer(directory / "run.h5", head(), 0s);
+  DatasetWriter writer(directory / "run.h5", head(), always);
   writer.append(row_at(0));
   EXPECT_EQ(contents(directory / "run.h5"), "old");
   Dataset const partial = read(writer.partial_path());
@@ -94,7 +96,7 @@ TEST(DatasetWriter, KeepsTheOldFileUntilFinished) {
 TEST(DatasetWriter, LeavesTheRowsOfAFailedRun) {
   TemporaryDirectory const directory;
   {
-    DatasetWriter writer(directory / "run.h5", head(), 1h);
+    DatasetWriter writer(directory / "run.h5", head(), never);
     for (int i = 0; i < 300; ++i) writer.append(row_at(i));
   }
   EXPECT_THAT(directory.files(), ElementsAre("run.h5.partial"));
@@ -136,7 +138,7 @@ TEST(DatasetWriter, RefusesRowsThatDoNotFit) {
 pid_t start_endless_run(std::filesystem::path const& path) {
   pid_t const child = fork();
   if (child != 0) return child;
-  DatasetWriter writer(path, head(), 0s);
+  DatasetWriter writer(path, head(), always);
   for (int i = 0;; ++i) writer.append(row_at(i));
 }
 

@@ -7,8 +7,9 @@
 
 namespace thermotwin::tests {
 
-inline output::Channel example_channel(std::string name, std::string unit, Eigen::Index rows, double scale) {
-  output::Channel channel{name, std::move(unit), "example of " + name, Eigen::VectorXd(rows)};
+inline output::Channel example_channel(std::string const& name, std::string const& unit, Eigen::Index rows,
+                                       double scale) {
+  output::Channel channel{name, unit, "example of " + name, Eigen::VectorXd(rows)};
   for (Eigen::Index i = 0; i < rows; ++i)
     channel.values[i] = scale * std::sin(0.1 * static_cast<double>(i)) + 1.0 / static_cast<double>(3 + i);
   return channel;

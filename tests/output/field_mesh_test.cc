@@ -58,7 +58,7 @@ TEST(FieldMesh, ContinuesLinearFieldsExactlyToTheSurface) {
   BoxCell skew{origin, Eigen::Matrix3d{{0.1, 0.02, 0}, {0, 0.2, 0.01}, {0.01, 0, 0.3}}};
   thermal::BodyGeometry body{"skew", 0, {}};
   for (int i = 0; i < 27; ++i) {
-    skew.corner = skew.edges * Eigen::Vector3d(i % 3, i / 3 % 3, i / 9);
+    skew.corner = skew.edges * Eigen::Vector3i(i % 3, i / 3 % 3, i / 9).cast<double>();
     body.cells.push_back(skew);
   }
   FieldMesh const mesh({body});
