@@ -59,6 +59,7 @@ Evaluation::Evaluation(Network const& network)
       temperature_rate_(temperature_.size()),
       heat_rate_(temperature_.size()) {
   for (auto const& average : network.averages()) weights_.push_back(average.weights);
+  input_.resize(std::size_t(network.channels()));
 }
 
 /// A window that hangs over the end of its track is cut there.
@@ -73,13 +74,15 @@ void Evaluation::weigh_moving_averages(double const* input) {
     for (std::size_t i = 0; i < average.nodes.size(); ++i)
       sum += weights_[a][i] = mean_overlap(average.edges[i], average.edges[i + 1], average.window, from, to);
     if (!(sum > 0.0)) throw InputError("the moving part '" + average.name + "' has left its track");
-    for (double& w : weights_[a]) w /= sum;
+    for (std::size_t i = 0; i < average.nodes.size(); ++i)
+      input_[std::size_t(average.weight_channels[i])] = weights_[a][i] /= sum;
   }
 }
 
 std::span<double const> Evaluation::temperatures(double const* state, double const* input) {
   auto const& net = *network_;
   int const n = net.nodes();
+  std::copy_n(input, net.given_channels(), input_.begin());
   for (int i = 0; i < n; ++i) temperature_[std::size_t(i)] = net.temperature_of_state(i, state[i]);
   double* next = temperature_.data() + n;
   for (auto const& boundary : net.boundaries()) {
@@ -128,76 +131,66 @@ double Evaluation::heat_made(ElementGroup const& group, int element, double cons
   return made;
 }
 
-template <class Add>
-void Evaluation::for_nodes_behind(int port, Add add) const {
-  int const n = network_->nodes(), first_average = n + int(network_->boundaries().size());
-  if (port < n) add(port, 1.0);
-  if (port < first_average) return;
-  auto const a = std::size_t(port - first_average);
-  auto const& nodes = network_->averages()[a].nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i) add(nodes[i], weights_[a][i]);
-}
-
-/// From the blocks of a group; heat_ holds the flows into the boundaries.
-void Evaluation::add_power_gradient(ElementGroup const& group, double const* input, PowerGradient& power) {
-  auto const& net = *network_;
-  int const p = group.law->ports(), n = net.nodes(), first_average = n + int(net.boundaries().size());
-  bool const makes_heat = !group.law->conservative();
-  if (makes_heat) {
-    flows_.resize(group.ports.size());
-    group.law->heat_flows(group.batch(), temperature_.data(), input, flows_.data());
-  }
+/// From the blocks of a group that makes or takes heat.
+void Evaluation::add_made_gradient(ElementGroup const& group, Linearisation& result) {
+  int const p = group.law->ports(), n = network_->nodes();
+  flows_.resize(group.ports.size());
+  group.law->heat_flows(group.batch(), temperature_.data(), input_.data(), flows_.data());
   for (int e = 0; e < group.count(); ++e) {
-    int const made_row = makes_heat && heat_made(group, e, flows_.data()) < 0.0 ? 1 : 0;
+    bool const makes = heat_made(group, e, flows_.data()) >= 0.0;
+    int const* port = group.ports.data() + std::size_t(e * p);
     for (int k = 0; k < p; ++k) {
-      int const port = group.ports[std::size_t(e * p + k)];
-      bool const border = port >= n && port < first_average;
-      bool const signal = port < n && net.signals()[std::size_t(port)];
-      if (!border && !(makes_heat && !signal)) continue;
+      if (port[k] < n && network_->signals()[std::size_t(port[k])]) continue;
       for (int r = 0; r < p; ++r) {
         double const slope = blocks_[std::size_t((e * p + k) * p + r)];
-        double const sense = border && heat_[std::size_t(port)] < 0.0 ? -1.0 : 1.0;
-        for_nodes_behind(group.ports[std::size_t(e * p + r)], [&](int node, double weight) {
-          if (makes_heat) power(made_row, node) += (made_row == 0 ? 1.0 : -1.0) * slope * weight;
-          if (border) power(2, node) += slope * weight;
-          if (border) power(3, node) += sense * slope * weight;
-        });
+        result.power(makes ? 0 : 1, port[r]) += makes ? slope : -slope;
       }
     }
   }
 }
 
-void Evaluation::jacobian(double const* state, double const* input, Eigen::SparseMatrix<double>& matrix,
-                          PowerGradient* gradient) {
+void Evaluation::linearise(double const* state, double const* input, Linearisation& result) {
   auto const& net = *network_;
-  if (gradient) {
-    power(state, input);
-    gradient->setZero(4, net.nodes());
-  } else {
-    temperatures(state, input);
-  }
-  double* values = matrix.valuePtr();
-  std::fill(values, values + matrix.nonZeros(), 0.0);
+  int const n = net.nodes(), boundaries = int(net.boundaries().size());
+  power(state, input);  // fills heat_ with the flows into the boundaries
+  if (result.coupling.rows() == 0) result.coupling = net.port_pattern();
+  result.coupling.coeffs().setZero();
+  result.power.setZero(4, net.temperatures());
+  double* values = result.coupling.valuePtr();
   for (std::size_t g = 0; g < net.groups().size(); ++g) {
     auto const& group = net.groups()[g];
-    int const p = group.law->ports();
-    blocks_.resize(std::size_t(group.count()) * std::size_t(p * p));
-    group.law->jacobian_blocks(group.batch(), temperature_.data(), input, blocks_.data());
-    for (auto const& s : net.scatter_[g]) {
-      double value = blocks_[std::size_t(s.source)];
-      if (s.row_average >= 0) value *= weights_[std::size_t(s.row_average)][std::size_t(s.row_entry)];
-      if (s.column_average >= 0) value *= weights_[std::size_t(s.column_average)][std::size_t(s.column_entry)];
-      values[s.slot] += value;
-    }
-    if (gradient) add_power_gradient(group, input, *gradient);
+    blocks_.resize(net.slots_[g].size());
+    group.law->jacobian_blocks(group.batch(), temperature_.data(), input_.data(), blocks_.data());
+    for (std::size_t i = 0; i < blocks_.size(); ++i) values[net.slots_[g][i]] += blocks_[i];
+    if (!group.law->conservative()) add_made_gradient(group, result);
   }
-  for (int column = 0; column < matrix.outerSize(); ++column) {
-    double const slope = net.capacity_slope()[std::size_t(column)];
-    double const dT_dy = 1.0 / (1.0 + slope * (temperature_[std::size_t(column)] - T20));
-    if (gradient) gradient->col(column) *= dT_dy;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
-      it.valueRef() *= dT_dy / net.capacity()[std::size_t(it.row())];
-  }
+  for (int column = 0; column < net.temperatures(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(result.coupling, column); it; ++it)
+      if (it.row() >= n && it.row() < n + boundaries) {
+        result.power(2, column) += it.value();
+        result.power(3, column) += heat_[std::size_t(it.row())] < 0.0 ? -it.value() : it.value();
+      }
+  result.slope.resize(n);
+  for (int i = 0; i < n; ++i)
+    result.slope[i] = 1.0 / (1.0 + net.capacity_slope()[std::size_t(i)] * (temperature_[std::size_t(i)] - T20));
+  result.weights = weights_;
+}
+
+Eigen::SparseMatrix<double> Evaluation::jacobian(double const* state, double const* input) {
+  auto const& net = *network_;
+  Linearisation at;
+  linearise(state, input, at);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < net.nodes(); ++i) entries.emplace_back(i, i, 1.0);
+  int const first_average = net.nodes() + int(net.boundaries().size());
+  for (int a = 0; a < int(net.averages().size()); ++a)
+    for (std::size_t i = 0; i < at.weights[std::size_t(a)].size(); ++i)
+      entries.emplace_back(first_average + a, net.averages()[std::size_t(a)].nodes[i], at.weights[std::size_t(a)][i]);
+  Eigen::SparseMatrix<double> spread(net.temperatures(), net.nodes());
+  spread.setFromTriplets(entries.begin(), entries.end());
+  Eigen::Map<Eigen::VectorXd const> const capacity(net.capacity().data(), net.nodes());
+  Eigen::SparseMatrix<double> const coupling = spread.transpose() * at.coupling * spread;
+  return capacity.cwiseInverse().asDiagonal() * coupling * at.slope.asDiagonal();
 }
 
 std::span<double const> Evaluation::temperature_derivatives(double const* state, double const* state_derivative,
@@ -238,8 +231,8 @@ void Evaluation::rate_derivative(double const* state, double const* state_deriva
     auto const& group = net.groups()[g];
     flows_.assign(group.coefficients.size(), 0.0);
     double const* rates = derivative.coefficients[g].empty() ? flows_.data() : derivative.coefficients[g].data();
-    group.law->add_heat_flows(group.batch(), temperature_.data(), input, heat_.data());
-    group.law->add_directional(group.batch(), temperature_.data(), temperature_rate_.data(), rates, input,
+    group.law->add_heat_flows(group.batch(), temperature_.data(), input_.data(), heat_.data());
+    group.law->add_directional(group.batch(), temperature_.data(), temperature_rate_.data(), rates, input_.data(),
                                heat_rate_.data());
   }
   int const first_average = net.nodes() + int(net.boundaries().size());
@@ -262,11 +255,11 @@ Energy Evaluation::power(double const* state, double const* input) {
   Energy energy;
   for (auto const& group : net.groups()) {
     if (group.law->conservative()) {
-      group.law->add_heat_flows(group.batch(), temperature_.data(), input, heat_.data());
+      group.law->add_heat_flows(group.batch(), temperature_.data(), input_.data(), heat_.data());
       continue;
     }
     flows_.resize(group.ports.size());
-    group.law->heat_flows(group.batch(), temperature_.data(), input, flows_.data());
+    group.law->heat_flows(group.batch(), temperature_.data(), input_.data(), flows_.data());
     for (std::size_t i = 0; i < flows_.size(); ++i) heat_[std::size_t(group.ports[i])] += flows_[i];
     for (int e = 0; e < group.count(); ++e) {
       double const made = heat_made(group, e, flows_.data());
@@ -288,7 +281,7 @@ void Evaluation::heat_of_parts(double const* state, double const* input, std::sp
   for (auto const& group : net.groups()) {
     int const p = group.law->ports();
     flows_.resize(group.ports.size());
-    group.law->heat_flows(group.batch(), temperature_.data(), input, flows_.data());
+    group.law->heat_flows(group.batch(), temperature_.data(), input_.data(), flows_.data());
     for (int e = 0; e < group.count(); ++e)
       for (int k = 0; k < p; ++k) {
         int const port = group.ports[std::size_t(e * p + k)];
@@ -302,7 +295,8 @@ void Evaluation::source_of_nodes(double const* state, double const* input, std::
   temperatures(state, input);
   std::fill(heat_.begin(), heat_.end(), 0.0);
   for (auto const& group : network_->groups())
-    if (!group.law->conservative()) group.law->add_heat_flows(group.batch(), temperature_.data(), input, heat_.data());
+    if (!group.law->conservative())
+      group.law->add_heat_flows(group.batch(), temperature_.data(), input_.data(), heat_.data());
   share_averages(heat_);
   std::copy_n(heat_.begin(), watts.size(), watts.begin());
 }

@@ -33,8 +33,16 @@ struct Energy {
   double exchanged = 0.0;  ///< with boundaries, both ways added up, ≥ 0
 };
 
-/// d(power)/dy [W/K]: one column per node; rows supplied, withdrawn, lost, exchanged.
-using PowerGradient = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+/// A network's right-hand side linearised at one state and operating point, kept sparse: with S the matrix that makes
+/// the port temperatures of the node temperatures (one for a node, weights for an average, nothing for a boundary),
+///
+///   ∂(dy/dt)/∂y = C⁻¹ Sᵀ G S dT/dy,   ∂(power)/∂y = P S dT/dy.
+struct Linearisation {
+  Eigen::SparseMatrix<double> coupling;            ///< G = ∂(heat into port)/∂(temperature of port) [W/K]
+  Eigen::Matrix<double, 4, Eigen::Dynamic> power;  ///< P = ∂(supplied, withdrawn, lost, exchanged)/∂(port) [W/K]
+  Eigen::VectorXd slope;                           ///< dT/dy of the nodes
+  std::vector<std::vector<double>> weights;        ///< of the averages
+};
 
 /// Evaluates one network; holds the scratch memory, so one per thread.
 class Evaluation {
@@ -52,10 +60,10 @@ class Evaluation {
   /// dy/dt [K/s], and the powers [W] at this instant.
   Energy rate_and_power(double const* state, double const* input, double* state_rate);
 
-  /// ∂(dy/dt)/∂y with the pattern of network().jacobian_pattern(); if asked, the gradient of the powers too. Exact:
-  /// Σ Cᵢ ∂(dyᵢ/dt)/∂y = supplied − withdrawn − lost, row by row, whatever the point.
-  void jacobian(double const* state, double const* input, Eigen::SparseMatrix<double>& matrix,
-                PowerGradient* power = nullptr);
+  /// Exact, term by term: Σ Cᵢ ∂(dyᵢ/dt)/∂y = ∂(supplied − withdrawn − lost)/∂y at every point.
+  void linearise(double const* state, double const* input, Linearisation& result);
+  /// ∂(dy/dt)/∂y [1/s], condensed on the nodes: dense where averages are.
+  [[nodiscard]] Eigen::SparseMatrix<double> jacobian(double const* state, double const* input);
 
   /// d(dy/dt)/dθ = (∂f/∂y) dy/dθ + ∂f/∂θ.
   void rate_derivative(double const* state, double const* state_derivative, NetworkDerivative const& derivative,
@@ -76,11 +84,10 @@ class Evaluation {
   void weigh_moving_averages(double const* input);
   void share_averages(std::vector<double>& heat) const;
   double heat_made(ElementGroup const& group, int element, double const* flows) const;
-  void add_power_gradient(ElementGroup const& group, double const* input, PowerGradient& power);
-  template <class Add>
-  void for_nodes_behind(int port, Add add) const;
+  void add_made_gradient(ElementGroup const& group, Linearisation& result);
 
   Network const* network_;
+  std::vector<double> input_;  ///< the operating point, completed by the weights of moving averages
   std::vector<double> temperature_, heat_, temperature_rate_, heat_rate_, flows_, blocks_;
   std::vector<std::vector<double>> weights_;  ///< of the averages, at the present operating point
 };

@@ -98,26 +98,16 @@ double Network::state_of_temperature(int node, double temperature) const {
   return temperature + 0.5 * capacity_slope_[std::size_t(node)] * rise * rise;
 }
 
-/// Every pair of ports of an element couples all nodes behind one with all nodes behind the other.
 void Network::build_pattern() {
-  int const n = nodes();
-  int const first_average = n + int(boundaries_.size());
-  auto const nodes_behind = [&](int port) -> std::vector<int> {
-    if (port < n) return {port};
-    if (port < first_average) return {};
-    return averages_[std::size_t(port - first_average)].nodes;
-  };
   std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 1.0);
   for (auto const& group : groups_) {
     int const p = group.law->ports();
     for (int e = 0; e < group.count(); ++e)
       for (int a = 0; a < p; ++a)
         for (int b = 0; b < p; ++b)
-          for (int row : nodes_behind(group.ports[std::size_t(e * p + a)]))
-            for (int column : nodes_behind(group.ports[std::size_t(e * p + b)])) entries.emplace_back(row, column, 1.0);
+          entries.emplace_back(group.ports[std::size_t(e * p + a)], group.ports[std::size_t(e * p + b)], 0.0);
   }
-  pattern_.resize(n, n);
+  pattern_.resize(temperatures(), temperatures());
   pattern_.setFromTriplets(entries.begin(), entries.end());
   pattern_.makeCompressed();
 
@@ -126,23 +116,13 @@ void Network::build_pattern() {
     int const* end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column + 1];
     return int(std::lower_bound(begin, end, row) - pattern_.innerIndexPtr());
   };
-  scatter_.resize(groups_.size());
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    auto const& group = groups_[g];
+  for (auto const& group : groups_) {
+    auto& slots = slots_.emplace_back();
     int const p = group.law->ports();
     for (int e = 0; e < group.count(); ++e)
       for (int a = 0; a < p; ++a)
-        for (int b = 0; b < p; ++b) {
-          int const row_port = group.ports[std::size_t(e * p + a)], column_port = group.ports[std::size_t(e * p + b)];
-          auto const rows = nodes_behind(row_port), columns = nodes_behind(column_port);
-          int const source = (e * p + a) * p + b;
-          int const row_average = row_port >= first_average ? row_port - first_average : -1;
-          int const column_average = column_port >= first_average ? column_port - first_average : -1;
-          for (int i = 0; i < int(rows.size()); ++i)
-            for (int j = 0; j < int(columns.size()); ++j)
-              scatter_[g].push_back(
-                  {slot(rows[std::size_t(i)], columns[std::size_t(j)]), source, row_average, i, column_average, j});
-        }
+        for (int b = 0; b < p; ++b)
+          slots.push_back(slot(group.ports[std::size_t(e * p + a)], group.ports[std::size_t(e * p + b)]));
   }
 }
 

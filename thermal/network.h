@@ -118,8 +118,9 @@ class Network {
   [[nodiscard]] double temperature_of_state(int node, double y) const;
   [[nodiscard]] double state_of_temperature(int node, double temperature) const;
 
-  /// Nonzero pattern of ∂(dy/dt)/∂y, by node.
-  [[nodiscard]] Eigen::SparseMatrix<double> const& jacobian_pattern() const { return pattern_; }
+  /// Nonzero pattern of ∂(heat into a port)/∂(temperature of a port): square, one row per entry of the temperature
+  /// vector. What an average couples is one row and one column here, however many nodes it has.
+  [[nodiscard]] Eigen::SparseMatrix<double> const& port_pattern() const { return pattern_; }
 
  private:
   friend class NetworkBuilder;
@@ -137,12 +138,7 @@ class Network {
   std::vector<std::string> channels_, parts_;
   int external_channels_ = 0;
   Eigen::SparseMatrix<double> pattern_;
-  /// One addend of the Jacobian: values[slot] += block[source] · w, with w the product of the averages' weights.
-  struct Scatter {
-    int slot, source;
-    int row_average, row_entry, column_average, column_entry;  ///< −1 where the port is a node
-  };
-  std::vector<std::vector<Scatter>> scatter_;  ///< per group
+  std::vector<std::vector<int>> slots_;  ///< per group: where ∂q_p/∂T_r of each element goes in the pattern's values
 };
 
 /// Collects bodies and elements, checks them by name, and makes the network. Short-lived; `build` empties it.

@@ -3,6 +3,7 @@
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/LU>
+#include <algorithm>
 #include <klu.h>
 
 namespace thermotwin::thermal {
@@ -156,11 +157,16 @@ struct NewtonSystem::KrylovFactors final : Factors {
 };
 
 NewtonSystem::NewtonSystem(Network const& network, LinearSolver solver)
-    : capacity_(network.nodes()), jacobian_(network.jacobian_pattern()), matrix_(jacobian_) {
-  for (int i = 0; i < network.nodes(); ++i)
-    capacity_[i] = network.signals()[std::size_t(i)] ? 0.0 : network.capacity()[std::size_t(i)];
+    : network_(network),
+      nodes_(network.nodes()),
+      averages_(int(network.averages().size())),
+      capacity_(Eigen::Map<VectorXd const>(network.capacity().data(), nodes_)) {
+  for (int i = 0; i < nodes_; ++i)
+    if (network.signals()[std::size_t(i)]) capacity_[i] = 0.0;
   has_heat_ = (capacity_.array() > 0.0).cast<double>();
   total_capacity_ = capacity_.sum();
+  unit_capacity_ = total_capacity_ / nodes_;
+  lay_out();
   if (solver == LinearSolver::dense)
     factors_ = std::make_unique<DenseFactors>();
   else if (solver == LinearSolver::sparse_direct)
@@ -171,24 +177,107 @@ NewtonSystem::NewtonSystem(Network const& network, LinearSolver solver)
 
 NewtonSystem::~NewtonSystem() = default;
 
-void NewtonSystem::linearise(Evaluation& evaluation, double const* state, double const* input) {
-  evaluation.jacobian(state, input, jacobian_, &power_);
-  power_ /= total_capacity_;
+void NewtonSystem::lay_out() {
+  auto const& net = network_;
+  auto const& coupling = net.port_pattern();
+  int const first_average = nodes_ + int(net.boundaries().size()), size = nodes_ + 2 * averages_;
+  // Of a port: the row in which its heat is balanced, the column in which its temperature stands; −1 for a boundary.
+  auto const column_of = [&](int port) {
+    return port < nodes_ ? port : port < first_average ? -1 : nodes_ + port - first_average;
+  };
+  auto const row_of = [&](int port) { return port < first_average ? column_of(port) : column_of(port) + averages_; };
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < size; ++i) entries.emplace_back(i, i, 1.0);
+  for (int a = 0; a < averages_; ++a) {
+    int const mean = nodes_ + a, share = mean + averages_;
+    entries.emplace_back(mean, share, 0.0);  // where incomplete factors keep what the nodes carry between the two
+    entries.emplace_back(share, mean, 0.0);
+    for (int node : net.averages()[std::size_t(a)].nodes) {
+      entries.emplace_back(mean, node, 0.0);
+      entries.emplace_back(node, share, 0.0);
+    }
+  }
+  auto const for_couplings = [&](auto visit) {
+    for (int port = 0; port < coupling.outerSize(); ++port)
+      for (SparseMatrix::InnerIterator it(coupling, port); it; ++it) visit(row_of(int(it.row())), column_of(port));
+  };
+  for_couplings([&](int row, int column) {
+    if (row >= 0 && column >= 0) entries.emplace_back(row, column, 0.0);
+  });
+  matrix_.resize(size, size);
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  matrix_.makeCompressed();
+
+  auto const slot = [&](int row, int column) {
+    int const* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
+    int const* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
+    return int(std::lower_bound(begin, end, row) - matrix_.innerIndexPtr());
+  };
+  for (int i = 0; i < size; ++i) diagonal_slots_.push_back(slot(i, i));
+  for_couplings(
+      [&](int row, int column) { coupling_slots_.push_back(row >= 0 && column >= 0 ? slot(row, column) : -1); });
+  for (int a = 0; a < averages_; ++a) {
+    auto& slots = weight_slots_.emplace_back();
+    for (int node : net.averages()[std::size_t(a)].nodes)
+      slots.push_back({slot(nodes_ + a, node), slot(node, nodes_ + averages_ + a)});
+  }
 }
 
-bool NewtonSystem::factorise(double gamma) {
+void NewtonSystem::linearise(Evaluation& evaluation, double const* state, double const* input) {
+  evaluation.linearise(state, input, at_);
+  auto const& net = network_;
+  int const first_average = nodes_ + int(net.boundaries().size());
+  rate_.setZero(matrix_.nonZeros());
+  fixed_.setZero(matrix_.nonZeros());
+  auto const* slot = coupling_slots_.data();
+  for (int port = 0; port < at_.coupling.outerSize(); ++port) {
+    double const slope = port < nodes_ ? at_.slope[port] : 1.0;
+    for (SparseMatrix::InnerIterator it(at_.coupling, port); it; ++it, ++slot)
+      if (*slot >= 0)
+        rate_[*slot] +=
+            it.value() * slope / (it.row() < nodes_ ? net.capacity()[std::size_t(it.row())] : unit_capacity_);
+  }
+  power_ = at_.power.leftCols(nodes_);
+  for (int a = 0; a < averages_; ++a) {
+    auto const& nodes = net.averages()[std::size_t(a)].nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      double const weight = at_.weights[std::size_t(a)][i];
+      auto const& slots = weight_slots_[std::size_t(a)][i];
+      fixed_[slots.mean] -= weight * at_.slope[nodes[i]];
+      fixed_[slots.share] -= weight * unit_capacity_ / net.capacity()[std::size_t(nodes[i])];
+      power_.col(nodes[i]) += weight * at_.power.col(first_average + a);
+    }
+  }
+  for (int i = nodes_; i < nodes_ + 2 * averages_; ++i) fixed_[diagonal_slots_[std::size_t(i)]] += 1.0;
+  power_ = power_ * at_.slope.asDiagonal() / total_capacity_;
+}
+
+bool NewtonSystem::factorise(double identity, double gamma) {
   gamma_ = gamma;
-  matrix_.coeffs() = -gamma * jacobian_.coeffs();
-  for (Eigen::Index i = 0; i < matrix_.rows(); ++i) matrix_.coeffRef(i, i) += 1.0;
+  matrix_.coeffs() = fixed_ - gamma * rate_;
+  for (int i = 0; i < nodes_; ++i) matrix_.valuePtr()[diagonal_slots_[std::size_t(i)]] += identity;
   return factors_->factorise(matrix_);
 }
 
+bool NewtonSystem::factorise(double gamma) { return factorise(1.0, gamma); }
+
+bool NewtonSystem::factorise_steady() { return factorise(0.0, 1.0); }
+
+bool NewtonSystem::solve_nodes(VectorXd const& b, double tolerance, VectorXd& x) {
+  VectorXd right = VectorXd::Zero(matrix_.rows()), all(matrix_.rows());
+  right.head(nodes_) = b;
+  if (!factors_->solve(right, tolerance, all)) return false;
+  x = all.head(nodes_);
+  return true;
+}
+
 bool NewtonSystem::solve(std::span<double const> b, double tolerance, std::span<double> x) {
-  Eigen::Map<VectorXd const> const right(b.data(), Eigen::Index(b.size()));
+  VectorXd const right = Eigen::Map<VectorXd const>(b.data(), Eigen::Index(b.size()));
   Eigen::Map<VectorXd> all(x.data(), Eigen::Index(x.size()));
-  VectorXd const copy = right;
-  if (!factors_->solve(copy.head(capacity_.size()), tolerance, all.head(capacity_.size()))) return false;
-  keep_balance(copy, all);
+  VectorXd nodes;
+  if (!solve_nodes(right.head(nodes_), tolerance, nodes)) return false;
+  all.head(nodes_) = nodes;
+  keep_balance(right, all);
   return true;
 }
 
@@ -204,6 +293,25 @@ void NewtonSystem::keep_balance(Eigen::Ref<VectorXd const> const& b, Eigen::Ref<
   Eigen::Vector4d const power_of_shift = power_ * has_heat_;
   temperatures += defect / (1.0 + gamma_ * sign.dot(power_of_shift)) * has_heat_;
   x.tail<energies>() = b.tail<energies>() + gamma_ * (power_ * temperatures);
+}
+
+/// Of KLU for one factorisation: multiplications per nonzero of the matrix.
+static double factorisation_effort(SparseMatrix const& pattern) {
+  auto* outer = const_cast<int*>(pattern.outerIndexPtr());
+  auto* inner = const_cast<int*>(pattern.innerIndexPtr());
+  klu_common common;
+  klu_defaults(&common);
+  klu_symbolic* symbolic = klu_analyze(int(pattern.rows()), outer, inner, &common);
+  double const flops = symbolic ? symbolic->est_flops : 0.0;
+  klu_free_symbolic(&symbolic, &common);
+  return flops / double(pattern.nonZeros());
+}
+
+LinearSolver choose_solver(Network const& network) {
+  if (network.nodes() <= 12) return LinearSolver::dense;
+  NewtonSystem const system(network, LinearSolver::sparse_direct);
+  bool const fills_in = factorisation_effort(system.pattern()) > 100.0;
+  return fills_in ? LinearSolver::preconditioned_krylov : LinearSolver::sparse_direct;
 }
 
 }  // namespace thermotwin::thermal

@@ -3,6 +3,7 @@
 #include <Eigen/SparseCore>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "thermal/evaluation.h"
 #include "thermal/integrate.h"
@@ -15,6 +16,11 @@ namespace thermotwin::thermal {
 ///
 ///   M = | J  0 |   J = ∂(dy/dt)/∂y,
 ///       | P  0 |   P = ∂(powers)/∂y / ΣC.
+///
+/// J is never formed: every average brings two unknowns of its own, its temperature T̄ and the heat Q̂ into it, so that
+/// the matrix stays as sparse as the network,
+///
+///   yᵢ − γ/Cᵢ (Σ G T + Σ wᵢ Q) = bᵢ,   T̄ − Σ wᵢ Tᵢ = 0,   Q − Σ G T = 0.
 ///
 /// As Σ Cᵢ yᵢ + lost + withdrawn − supplied has derivative zero, and M holds the same sum rule exactly, every Newton
 /// correction keeps the balance to round-off, converged or not, however old M is: the energy rows are solved exactly,
@@ -31,12 +37,20 @@ class NewtonSystem {
   /// J/K of the whole network: the unit of the energies.
   [[nodiscard]] double energy_unit() const { return total_capacity_; }
 
-  /// Takes J and P at a state and an operating point.
+  /// Takes G and P at a state and an operating point.
   void linearise(Evaluation& evaluation, double const* state, double const* input);
   /// Factorises I − γM; false if it is singular.
   [[nodiscard]] bool factorise(double gamma);
-  /// `tolerance` bounds the 2-norm of the residual of an iterative solver; x may be b. False if it does not converge.
+  /// −J instead, for a step of Newton's method to the steady state.
+  [[nodiscard]] bool factorise_steady();
+  /// `tolerance` bounds the 2-norm of the residual of an iterative solver; b and x: nodes and energies. False if it
+  /// does not converge.
   [[nodiscard]] bool solve(std::span<double const> b, double tolerance, std::span<double> x);
+  /// The nodes alone.
+  [[nodiscard]] bool solve_nodes(Eigen::VectorXd const& b, double tolerance, Eigen::VectorXd& x);
+
+  /// Pattern of the matrix that is factorised.
+  [[nodiscard]] Eigen::SparseMatrix<double> const& pattern() const { return matrix_; }
 
  private:
   struct Factors;
@@ -44,13 +58,26 @@ class NewtonSystem {
   struct SparseFactors;
   struct KrylovFactors;
 
+  [[nodiscard]] bool factorise(double identity, double gamma);
+  void lay_out();
   void keep_balance(Eigen::Ref<Eigen::VectorXd const> const& b, Eigen::Ref<Eigen::VectorXd> x) const;
 
+  Network const& network_;
+  int nodes_, averages_;
   Eigen::VectorXd capacity_, has_heat_;  ///< 0 for a controller's state
-  double total_capacity_;
-  Eigen::SparseMatrix<double> jacobian_, matrix_;  ///< J; I − γJ
-  PowerGradient power_;
+  double total_capacity_, unit_capacity_;
+  Linearisation at_;
+  Eigen::Matrix<double, energies, Eigen::Dynamic> power_;  ///< P
   double gamma_ = 0.0;
+
+  /// I·identity + fixed − γ·rate, on the nodes, the averages' T̄ and their Q̂ = γ Q/unit_capacity.
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::VectorXd fixed_, rate_;
+  std::vector<int> diagonal_slots_, coupling_slots_;
+  struct WeightSlots {
+    int mean, share;
+  };
+  std::vector<std::vector<WeightSlots>> weight_slots_;
   std::unique_ptr<Factors> factors_;
 };
 

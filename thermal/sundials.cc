@@ -435,7 +435,7 @@ void Run::fail(int flag) {
     text += fmt::format(" {} at {:.6g} °C;", network_.node_name(*it), data(y_.get())[*it] - 273.15);
   text += " inputs:";
   double const* values = point_.at(t);
-  for (int i = 0; i < network_.channels(); ++i)
+  for (int i = 0; i < network_.given_channels(); ++i)
     text += fmt::format(" {} = {:.6g};", network_.channel_names()[std::size_t(i)], values[i]);
   throw IntegrationError(text);
 }
@@ -470,17 +470,11 @@ std::string_view name_of(LinearSolver solver) {
     case LinearSolver::sparse_direct:
       return "sparse LU (KLU)";
     case LinearSolver::preconditioned_krylov:
-      return "GMRES with incomplete LU";
+      return "BiCGSTAB with incomplete LU";
     case LinearSolver::automatic:
       break;
   }
   return "automatic";
-}
-
-LinearSolver choose_solver(Network const& network) {
-  if (network.nodes() <= 24) return LinearSolver::dense;
-  if (network.nodes() <= 1000) return LinearSolver::sparse_direct;
-  return LinearSolver::preconditioned_krylov;
 }
 
 double IntegrationSummary::energy_imbalance() const {
