@@ -78,6 +78,11 @@ void DatasetWriter::set_positioning(std::vector<Positioning> measured, std::vect
 }
 
 void DatasetWriter::set_measured(std::vector<Channel> readings, std::vector<Channel> displacements) {
+  for (auto const* channels : {&readings, &displacements})
+    for (auto const& channel : *channels)
+      if (channel.values.size() != rows_)
+        throw thermal::InputError(
+            fmt::format("'{}' has {} values for {} rows", channel.name, channel.values.size(), rows_));
   dataset_.readings = std::move(readings);
   dataset_.displacements = std::move(displacements);
 }

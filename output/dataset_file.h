@@ -65,6 +65,7 @@ class DatasetWriter {
   void append(Row const& row);
 
   /// What the instruments showed, once the whole course is known; until then those channels are missing (NaN).
+  /// Every channel must have a value for each row so far; thermal::InputError otherwise.
   void set_measured(std::vector<Channel> readings, std::vector<Channel> displacements);
   void set_positioning(std::vector<Positioning> measured, std::vector<Positioning> truth);
 

@@ -134,6 +134,19 @@ TEST(DatasetWriter, RefusesRowsThatDoNotFit) {
               ThrowsMessage<InputError>(HasSubstr("0 node temperatures for 2 nodes")));
 }
 
+TEST(DatasetWriter, TakesWhatTheInstrumentsShowedAtTheEnd) {
+  TemporaryDirectory const directory;
+  DatasetWriter writer(directory / "run.h5", head());
+  for (int i = 0; i < 3; ++i) writer.append(row_at(i));
+  Channel measured{"T1", "degC", "front", Eigen::Vector2d(20.0, 21.0)};
+  EXPECT_THAT([&] { writer.set_measured({measured}, {}); },
+              ThrowsMessage<InputError>(HasSubstr("'T1' has 2 values for 3 rows")));
+  measured.values = Eigen::Vector3d(20.0, 21.0, 22.0);
+  writer.set_measured({measured}, {});
+  writer.finish();
+  EXPECT_EQ(read(directory / "run.h5").readings[0].values, measured.values);
+}
+
 /// Appends rows until it is killed.
 pid_t start_endless_run(std::filesystem::path const& path) {
   pid_t const child = fork();
