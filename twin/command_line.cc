@@ -112,7 +112,15 @@ void RunCommand::operator()() const {
     progress.emplace(fmt::format("{} on {}", experiment_path.stem().string(), built.name));
     options.progress = [&](double share) { progress->show(share); };
   }
-  auto const result = run(built, programme, options);
+  auto const result = [&] {
+    try {
+      return run(built, programme, options);
+    } catch (FileError const&) {
+      throw;
+    } catch (thermal::InputError const& error) {
+      throw located_in(experiment_document, error);
+    }
+  }();
   progress.reset();
   if (json)
     fmt::print("{}", summary_json(built, result));
@@ -127,7 +135,11 @@ void check_file(std::string const& name) {
   if (document.find("duration")) {
     auto const experiment = read_experiment(document, path);
     auto const machine = Machine::read(machine_path(experiment, path));
-    scenarios::ExperimentCourse const course(experiment, machine.limits);
+    try {
+      scenarios::ExperimentCourse const course(experiment, machine.limits);
+    } catch (thermal::InputError const& error) {
+      throw located_in(document, error);
+    }
     fmt::print("{}: an experiment of {:.2f} h on {}; no mistake found\n", name, experiment.duration / 3600.0,
                machine.name);
   } else {

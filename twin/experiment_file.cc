@@ -1,12 +1,40 @@
 #include "twin/experiment_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "thermal/nearest_name.h"
 
 namespace thermotwin::twin {
+namespace {
+
+/// The first of a path's parts, "axes[0]" of "axes[0].feed", as key and index (−1: none); takes it off the path.
+std::pair<std::string, int> take_step(std::string& path) {
+  auto const dot = path.find('.');
+  std::string step = path.substr(0, dot);
+  path = dot == std::string::npos ? "" : path.substr(dot + 1);
+  auto const bracket = step.find('[');
+  if (bracket == std::string::npos) return {step, -1};
+  return {step.substr(0, bracket), std::atoi(step.c_str() + bracket + 1)};
+}
+
+}  // namespace
+
+thermal::InputError located_in(Value const& document, thermal::InputError const& error) {
+  std::string const message = error.what();
+  std::string path = message.substr(0, message.find(": "));
+  if (path.find_first_of("/: ") != std::string::npos) return error;  // it names a file of its own
+  Value const* here = &document;
+  while (!path.empty() && here->is_table()) {
+    auto const [key, index] = take_step(path);
+    Value const* next = here->find(key);
+    if (next && index >= 0 && next->is_list() && std::size_t(index) < std::get<Value::List>(next->content).size())
+      next = &std::get<Value::List>(next->content)[std::size_t(index)];
+    if (!next) break;
+    here = next;
+  }
+  return FileError(here->where, message);
+}
 
 scenarios::Experiment read_experiment(Value const& document, std::filesystem::path const& file) {
   scenarios::Experiment experiment;
@@ -17,7 +45,7 @@ scenarios::Experiment read_experiment(Value const& document, std::filesystem::pa
   } catch (FileError const&) {
     throw;
   } catch (thermal::InputError const& error) {
-    throw FileError({file.string(), 0, 0}, error.what());
+    throw located_in(document, error);
   }
   return experiment;
 }

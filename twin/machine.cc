@@ -1,8 +1,7 @@
 #include "twin/machine.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <fmt/format.h>
 #include <set>
 
 #include "thermal/bar.h"
@@ -39,10 +38,12 @@ Location place_of(Value const& table, std::string const& message) {
   auto const mentioned = [&](Value const& value) {
     if (!value.is_text()) return false;
     auto const& text = std::get<std::string>(value.content);
-    return std::any_of(words.begin(), words.end(), [&](auto const& word) { return text.find(word) == 0; });
+    return std::any_of(words.begin(), words.end(), [&](auto const& word) {
+      return text == word || text.starts_with(word + "[") || text.starts_with(word + ".");
+    });
   };
   for (auto const& entry : std::get<Value::Table>(table.content)) {
-    if (entry.key == "name") continue;
+    if (entry.key == "name" || entry.key == "title" || entry.key == "component") continue;
     if (mentioned(entry.value)) return entry.value.where;
     if (entry.value.is_list())
       for (auto const& item : std::get<Value::List>(entry.value.content)) {
@@ -117,10 +118,23 @@ class MachineBuilder {
 namespace {
 
 std::vector<std::string> const& own_tables() {
-  static std::vector<std::string> const names = {
-      "name",        "title",        "spindle",  "axis",  "material",           "lump",
-      "bar",         "hollow_cylinder", "block", "channel", "temperature_sensor", "displacement",
-      "rotation",    "ball_screw",   "displacement_probe", "five_probe_nest", "laser"};
+  static std::vector<std::string> const names = {"name",
+                                                 "title",
+                                                 "spindle",
+                                                 "axis",
+                                                 "material",
+                                                 "lump",
+                                                 "bar",
+                                                 "hollow_cylinder",
+                                                 "block",
+                                                 "channel",
+                                                 "temperature_sensor",
+                                                 "displacement",
+                                                 "rotation",
+                                                 "ball_screw",
+                                                 "displacement_probe",
+                                                 "five_probe_nest",
+                                                 "laser"};
   return names;
 }
 
@@ -136,7 +150,8 @@ void MachineBuilder::check_keys() const {
   auto const known = known_keys();
   for (auto const& entry : std::get<Value::Table>(document_.content))
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
-      throw FileError(entry.where, fmt::format("unknown key '{}'; {}", entry.key, thermal::did_you_mean(entry.key, known)));
+      throw FileError(entry.where,
+                      fmt::format("unknown key '{}'; {}", entry.key, thermal::did_you_mean(entry.key, known)));
 }
 
 Value::List const& MachineBuilder::list(std::string const& key) const {
@@ -164,13 +179,15 @@ std::vector<Tabled<T>> MachineBuilder::read_list(std::string const& key) {
 void MachineBuilder::unique(Value const& table, std::string const& kind, std::string const& name) {
   if (names_.insert({kind, name}).second) return;
   Value const* place = table.find("name");
-  throw FileError(place ? place->where : table.where, fmt::format("the name '{}' is taken by another [[{}]]", name, kind));
+  throw FileError(place ? place->where : table.where,
+                  fmt::format("the name '{}' is taken by another [[{}]]", name, kind));
 }
 
 void MachineBuilder::read_head() {
   for (auto const& [key, target] : {std::pair{"name", &machine_.name}, std::pair{"title", &machine_.title}})
     if (Value const* value = document_.find(key)) {
-      if (!value->is_text()) throw FileError(value->where, fmt::format("'{}' is {}; a text is due", key, value->kind()));
+      if (!value->is_text())
+        throw FileError(value->where, fmt::format("'{}' is {}; a text is due", key, value->kind()));
       *target = std::get<std::string>(value->content);
     }
   if (machine_.name.empty()) throw FileError(document_.where, "'name' is missing; write for example name = \"v450\"");
@@ -221,7 +238,8 @@ void MachineBuilder::read_bodies() {
   for (auto const& [d, table] : read_list<LumpDescription>("lump"))
     located(*table, [&, &d = d, table = table] {
       thermal::Lump lump;
-      if (!d.heat_capacity && d.material.empty()) throw InputError(fmt::format("'{}' needs a material or a heat_capacity", d.name));
+      if (!d.heat_capacity && (!d.mass || d.material.empty()))
+        throw InputError(fmt::format("lump '{}' needs a mass and a material, or a heat_capacity", d.name));
       if (!d.material.empty()) lump.material = material(d.material), material_of_[d.name] = d.material;
       lump.capacity = d.heat_capacity;
       lump.mass = d.mass;
@@ -231,7 +249,8 @@ void MachineBuilder::read_bodies() {
     });
   for (auto const& [d, table] : read_list<BarDescription>("bar"))
     located(*table, [&, &d = d, table = table] {
-      thermal::Bar bar{material(d.material), d.origin, d.axis(), d.length, d.outer_diameter, d.inner_diameter, {}, d.cells};
+      thermal::Bar bar{material(d.material), d.origin,         d.axis(), d.length,
+                       d.outer_diameter,     d.inner_diameter, {},       d.cells};
       if (d.section_diameter) bar.section_area = M_PI / 4.0 * *d.section_diameter * *d.section_diameter;
       material_of_[d.name] = d.material;
       add_body(*table, d.name, thermal::make_body(d.name, bar));
@@ -245,14 +264,16 @@ void MachineBuilder::read_bodies() {
     });
   for (auto const& [d, table] : read_list<BlockDescription>("block"))
     located(*table, [&, &d = d, table = table] {
-      if (d.cells.size() != 3) throw InputError(fmt::format("'{}': cells has {} entries; three are due", d.name, d.cells.size()));
+      if (d.cells.size() != 3)
+        throw InputError(fmt::format("'{}': cells has {} entries; three are due", d.name, d.cells.size()));
       thermal::Block const block{
           material(d.material), d.corner, d.size, {int(d.cells[0]), int(d.cells[1]), int(d.cells[2])}, d.solidity};
       material_of_[d.name] = d.material;
       add_body(*table, d.name, thermal::make_body(d.name, block));
     });
   for (auto const& [d, table] : read_list<ChannelDescription>("channel"))
-    located(*table, [&, &d = d, table = table] { add_body(*table, d.name, thermal::make_body(d.name, channel_of(d))); });
+    located(*table,
+            [&, &d = d, table = table] { add_body(*table, d.name, thermal::make_body(d.name, channel_of(d))); });
 }
 
 /// Parts are added in the order of the file, whatever their kind: a motor finds the torques that stand before it.
@@ -261,7 +282,8 @@ void MachineBuilder::read_parts() {
   for (auto const& entry : effect_catalogue())
     for (auto const& table : list(entry.name)) tables.emplace_back(&table, &entry);
   std::stable_sort(tables.begin(), tables.end(), [](auto const& a, auto const& b) {
-    return std::pair(a.first->where.line, a.first->where.column) < std::pair(b.first->where.line, b.first->where.column);
+    return std::pair(a.first->where.line, a.first->where.column) <
+           std::pair(b.first->where.line, b.first->where.column);
   });
   for (auto const& [table, entry] : tables) {
     if (!table->is_table()) throw FileError(table->where, fmt::format("write each one as [[{}]]", entry->name));
@@ -327,7 +349,8 @@ double MachineBuilder::segment_length(LoopSegment const& segment) const {
   Place const place = assembly_->place(segment.of);
   if (segment.length) return *segment.length;
   if (place.body->shape != thermal::Body::Shape::axial)
-    throw InputError(fmt::format("segment of '{}': 'length' is missing; only a stretch of a bar or cylinder has its own", segment.of));
+    throw InputError(fmt::format(
+        "segment of '{}': 'length' is missing; only a stretch of a bar or cylinder has its own", segment.of));
   double low = INFINITY, high = -INFINITY;
   for (auto const& contact : place.site.contacts) {
     low = std::min(low, contact.low);
@@ -337,14 +360,16 @@ double MachineBuilder::segment_length(LoopSegment const& segment) const {
   if (open == std::string::npos) return high - low;
   auto const dots = segment.of.find("..");
   auto const length = [&](std::string const& text) { return thermal::parse_value(text, dimension::length); };
-  return length(segment.of.substr(dots + 2, segment.of.size() - dots - 3)) - length(segment.of.substr(open + 1, dots - open - 1));
+  return length(segment.of.substr(dots + 2, segment.of.size() - dots - 3)) -
+         length(segment.of.substr(open + 1, dots - open - 1));
 }
 
 void MachineBuilder::add_segment(Displacement& channel, DisplacementDescription const& description,
                                  LoopSegment const& segment) {
   if (!segment.rotation.empty()) {
     auto const& known = machine_.displacements;
-    auto const it = std::find_if(known.begin(), known.end(), [&](auto const& d) { return d.rotation && d.name == segment.rotation; });
+    auto const it = std::find_if(known.begin(), known.end(),
+                                 [&](auto const& d) { return d.rotation && d.name == segment.rotation; });
     if (it == known.end()) throw InputError(fmt::format("unknown rotation '{}'", segment.rotation));
     if (!segment.lever) throw InputError(fmt::format("the lever of rotation '{}' is missing", segment.rotation));
     for (auto const& [node, weight] : it->weights)
@@ -358,7 +383,8 @@ void MachineBuilder::add_segment(Displacement& channel, DisplacementDescription 
     add_growth(channel.weights, of, segment.weight * alpha * length / description.base.value_or(1.0));
     return;
   }
-  if (!segment.height) throw InputError(fmt::format("bending of '{}' against '{}' needs a height", segment.of, segment.against));
+  if (!segment.height)
+    throw InputError(fmt::format("bending of '{}' against '{}' needs a height", segment.of, segment.against));
   double const factor = segment.weight * 0.5 * alpha * length * length / *segment.height;
   add_growth(channel.weights, of, factor);
   add_growth(channel.weights, assembly_->place(segment.against), -factor);
@@ -373,9 +399,9 @@ void MachineBuilder::check_closure(DisplacementDescription const& description) c
   for (auto const& influence : description.influence)
     sum += closing_length(influence, description.direction, assembly_->body(influence.body));
   if (std::abs(sum - *description.closure) > 1e-9)
-    throw InputError(fmt::format("the loop of '{}' does not close: its signed lengths add up to {}, not to {}", description.name,
-                                 thermal::format_quantity(sum, dimension::length),
-                                 thermal::format_quantity(*description.closure, dimension::length)));
+    throw InputError(
+        fmt::format("the loop of '{}' does not close: its signed lengths add up to {:.6g} mm, not to {:.6g} mm",
+                    description.name, sum * 1e3, *description.closure * 1e3));
 }
 
 void MachineBuilder::read_displacements() {
@@ -383,12 +409,12 @@ void MachineBuilder::read_displacements() {
     for (auto const& [description, table] : read_list<DisplacementDescription>(rotation ? "rotation" : "displacement"))
       located(*table, [&, &d = description] {
         Displacement channel{d.name, d.title, rotation, {}, {}};
-        if (rotation && !d.base && !d.segment.empty()) throw InputError(fmt::format("rotation '{}': 'base' is missing", d.name));
+        if (rotation && !d.base && !d.segment.empty())
+          throw InputError(fmt::format("rotation '{}': 'base' is missing", d.name));
         for (auto const& segment : d.segment) add_segment(channel, d, segment);
         for (auto const& influence : d.influence)
-          add_influence(channel.weights, document_.where.file, influence, d.direction,
-                        assembly_->body(influence.body), material(material_of_.at(influence.body)),
-                        assembly_->first_node(influence.body), rotation);
+          add_influence(channel.weights, document_.where.file, influence, d.direction, assembly_->body(influence.body),
+                        material(material_of_.at(influence.body)), assembly_->first_node(influence.body), rotation);
         check_closure(d);
         for (auto const& term : assembly_->input_terms())
           if (term.displacement == d.name) channel.input_terms.push_back(term);
@@ -406,11 +432,12 @@ void MachineBuilder::read_screws() {
       thermal::Material const& metal = material(material_of_.at(d.body));
       using Support = thermal::BallScrew::Support;
       thermal::BallScrew screw;
-      screw.support = d.support == "fixed-free" ? Support::fixed_free
+      screw.support = d.support == "fixed-free"    ? Support::fixed_free
                       : d.support == "fixed-fixed" ? Support::fixed_fixed
                                                    : Support::fixed_supported;
       screw.expansion = metal.expansion;
-      screw.section_area = body.capacities[0] / (metal.density * metal.specific_heat * (body.edges[0][1] - body.edges[0][0]));
+      screw.section_area =
+          body.capacities[0] / (metal.density * metal.specific_heat * (body.edges[0][1] - body.edges[0][0]));
       screw.youngs_modulus = d.youngs_modulus;
       screw.stiffness_fixed = d.stiffness_fixed;
       screw.stiffness_far = d.stiffness_far;
@@ -487,7 +514,8 @@ std::filesystem::path machine_file(std::string const& name_or_path) {
   for (auto const& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
-  throw InputError(fmt::format("there is no machine '{}'; {}", name_or_path, thermal::did_you_mean(name_or_path, names)));
+  throw InputError(
+      fmt::format("there is no machine '{}'; {}", name_or_path, thermal::did_you_mean(name_or_path, names)));
 }
 
 std::vector<TableRecord> describe_machine() {
@@ -497,7 +525,8 @@ std::vector<TableRecord> describe_machine() {
       {"material", "a solid of this machine", list_fields<MaterialDescription>()},
       {"lump", "a body of one temperature", list_fields<LumpDescription>()},
       {"bar", "a body whose temperature varies along it; faces: surface, start, end", list_fields<BarDescription>()},
-      {"hollow_cylinder", "axial × radial cells; faces: outer, inner, start, end", list_fields<HollowCylinderDescription>()},
+      {"hollow_cylinder", "axial × radial cells; faces: outer, inner, start, end",
+       list_fields<HollowCylinderDescription>()},
       {"block", "a box of cells; faces: x_min, x_max, y_min, y_max, z_min, z_max", list_fields<BlockDescription>()},
       {"channel", "a fluid that moves along a line; face: surface", list_fields<ChannelDescription>()},
       {"temperature_sensor", "an instrument at a place, or at the mean of several", list_fields<SensorDescription>()},

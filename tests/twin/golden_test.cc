@@ -1,8 +1,7 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include <Eigen/Core>
 #include <filesystem>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "scenarios/course.h"
 #include "tests/twin/golden_tables.h"
@@ -79,8 +78,9 @@ TEST(GoldenTableB, WarmUpAndCoolDown) {
     char const* body;
     int cell;
   };
-  constexpr Column columns[] = {{"shaft", 2},    {"front_ring", 0}, {"cartridge", 0},  {"cartridge", 6}, {"cartridge", 12},
-                                {"test_bar", 0}, {"head_front", 0}, {"head_rear", 0},  {"motor", 0},     {"column_front", 0}};
+  constexpr Column columns[] = {{"shaft", 2},      {"front_ring", 0},  {"cartridge", 0},  {"cartridge", 6},
+                                {"cartridge", 12}, {"test_bar", 0},    {"head_front", 0}, {"head_rear", 0},
+                                {"motor", 0},      {"column_front", 0}};
   constexpr Column cooling[] = {{"shaft", 2}, {"front_ring", 0}, {"cartridge", 0}, {"head_front", 0}, {"motor", 0}};
   for (double rpm : {2000.0, 4000.0, 6000.0}) {
     auto const course = simulate("v450", spindle_run(rpm, 295.15, 4 * 3600.0, 4 * 3600.0));
@@ -107,8 +107,8 @@ TEST(GoldenTableB, WarmUpAndCoolDown) {
 }
 
 TEST(GoldenTableC, Spindle) {
-  constexpr char const* bodies[] = {"shaft_front", "shaft_rear",     "ring_front",    "ring_rear", "stator",   "oil",
-                                    "headstock_front", "headstock_rear", "bed_top", "bed_base",  "tank", "slide"};
+  constexpr char const* bodies[] = {"shaft_front",     "shaft_rear",     "ring_front", "ring_rear", "stator", "oil",
+                                    "headstock_front", "headstock_rear", "bed_top",    "bed_base",  "tank",   "slide"};
   for (double rpm : {1500.0, 3000.0, 4500.0}) {
     auto experiment = spindle_run(rpm, 295.15, 6 * 3600.0, 0.0);
     experiment.coolant.on = true;
@@ -117,7 +117,8 @@ TEST(GoldenTableC, Spindle) {
       if (row[0] != rpm) continue;
       int const minute = int(row[1]);
       for (std::size_t c = 0; c < std::size(bodies); ++c)
-        expect_rise(course.rise(bodies[c], minute), row[2 + c], fmt::format("{} rpm, {} min, {}", rpm, minute, bodies[c]));
+        expect_rise(course.rise(bodies[c], minute), row[2 + c],
+                    fmt::format("{} rpm, {} min, {}", rpm, minute, bodies[c]));
       expect_um(course.displacement("E_X", minute), row[14], fmt::format("{} rpm, {} min, E_X", rpm, minute));
       expect_um(course.displacement("E_Z", minute), row[15], fmt::format("{} rpm, {} min, E_Z", rpm, minute));
       expect_um(course.displacement("B", minute), row[16], fmt::format("{} rpm, {} min, B", rpm, minute));
@@ -137,8 +138,8 @@ TEST(GoldenTableA, FeedAxis) {
     char const* body;
     int cell;
   };
-  constexpr Column columns[] = {{"motor", 0},   {"flange", 0},  {"coupling", 0},   {"upper_ring", 0},
-                                {"upper_cap", 0}, {"screw", 21}, {"nut", 0},        {"bracket", 0},
+  constexpr Column columns[] = {{"motor", 0},      {"flange", 0},    {"coupling", 0},   {"upper_ring", 0},
+                                {"upper_cap", 0},  {"screw", 21},    {"nut", 0},        {"bracket", 0},
                                 {"lower_ring", 0}, {"lower_cap", 0}, {"column_top", 0}, {"head", 0}};
   for (double feed : {8000.0, 12000.0, 16000.0}) {
     scenarios::Experiment experiment;

@@ -198,6 +198,7 @@ class FieldReader {
       if (std::find(known_.begin(), known_.end(), entry.key) == known_.end())
         throw FileError(entry.where,
                         fmt::format("unknown key '{}'; {}", entry.key, thermal::did_you_mean(entry.key, known_)));
+    if (!missing_.empty()) throw FileError(table_.where, missing_);
   }
 
  private:
@@ -205,8 +206,9 @@ class FieldReader {
     known_.emplace_back(key);
     return table_.find(key);
   }
-  [[noreturn]] void missing(std::string_view key, std::string_view example) const {
-    throw FileError(table_.where, fmt::format("'{}' is missing; write for example {} = \"{}\"", key, key, example));
+  /// Told at the end, after the unknown keys: a misspelt key is both, and the misspelling is what helps.
+  void missing(std::string_view key, std::string_view example) {
+    if (missing_.empty()) missing_ = fmt::format("'{}' is missing; write for example {} = \"{}\"", key, key, example);
   }
   [[noreturn]] static void wrong(Value const& value, std::string_view key, std::string_view due) {
     throw FileError(value.where, fmt::format("'{}' is {} ({}); {} is due", key, value.text(), value.kind(), due));
@@ -247,10 +249,10 @@ class FieldReader {
       result = double(*i);
     else
       wrong(value, key, "a quantity, for example \"" + thermal::example_of(dimension) + "\",");
-    if (!value.is_text() && !(dimension == thermal::dimension::dimensionless))
-      throw FileError(value.where, fmt::format("'{}': {}", key, thermal::missing_unit(value.text(), dimension)));
     if (!std::isfinite(result))
       throw FileError(value.where, fmt::format("'{}' is {}; it must be finite", key, value.text()));
+    if (!value.is_text() && !(dimension == thermal::dimension::dimensionless))
+      throw FileError(value.where, fmt::format("'{}': {}", key, thermal::missing_unit(value.text(), dimension)));
     if (range.low >= 0.0 && result < 0.0)
       throw FileError(value.where, fmt::format("'{}' is {}; it must not be negative (plausible: {})", key, value.text(),
                                                range_text(range, dimension)));
@@ -269,6 +271,7 @@ class FieldReader {
   Value const& table_;
   T& object_;
   std::vector<std::string> known_;
+  std::string missing_;
 };
 
 /// Lists the fields of a struct, with the defaults of a default-constructed object.
