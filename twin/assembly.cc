@@ -1,8 +1,7 @@
 #include "twin/assembly.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <fmt/format.h>
 #include <optional>
 
 #include "thermal/error.h"
@@ -98,10 +97,12 @@ Site axial_site(Body const& body, PlaceText const& place) {
 /// Extents of a block count from its corner: three of them for the inside, two for a face (its own two directions).
 Site block_site(Body const& body, PlaceText const& place) {
   int normal = -1;
-  if (!place.face.empty()) normal = std::string("xyz").find(place.face[0]) == std::string::npos ? -1 : place.face[0] - 'x';
+  if (!place.face.empty())
+    normal = std::string("xyz").find(place.face[0]) == std::string::npos ? -1 : place.face[0] - 'x';
   std::size_t const due = normal < 0 ? 3 : 2;
   if (place.extents.size() != due)
-    throw InputError(fmt::format("the place on '{}' names {} extents; {} are due", body.name, place.extents.size(), due));
+    throw InputError(
+        fmt::format("the place on '{}' names {} extents; {} are due", body.name, place.extents.size(), due));
   Eigen::AlignedBox3d box;
   Eigen::Vector3d low, high;
   bool is_point = true;
@@ -200,10 +201,10 @@ thermal::Port Assembly::port(Place const& place) {
 thermal::Port Assembly::air(double height) {
   auto const it = airs_.find(height);
   if (it != airs_.end()) return it->second;
-  return airs_[height] = builder_.add_boundary({fmt::format("air at {:g} m", height),
-                                                0.0,
-                                                {{builder_.channel("ambient.floor_temperature"), 1.0},
-                                                 {builder_.channel("ambient.gradient"), height}}});
+  return airs_[height] = builder_.add_boundary(
+             {fmt::format("air at {:g} m", height),
+              0.0,
+              {{builder_.channel("ambient.floor_temperature"), 1.0}, {builder_.channel("ambient.gradient"), height}}});
 }
 
 thermal::Port Assembly::boundary(std::string const& channel, double offset) {

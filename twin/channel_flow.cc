@@ -16,8 +16,8 @@ thermal::FluidProperties<double> properties_at_20(ChannelDescription const& desc
 thermal::Channel channel_of(ChannelDescription const& description) {
   auto const fluid = properties_at_20(description);
   double const d = description.diameter;
-  return {description.origin,    description.axis(), description.length,  M_PI / 4.0 * d * d,
-          M_PI * d, fluid.density,      fluid.specific_heat, description.cells};
+  return {description.origin, description.axis(), description.length,  M_PI / 4.0 * d * d,
+          M_PI * d,           fluid.density,      fluid.specific_heat, description.cells};
 }
 
 void add_channel_flow(Assembly& assembly, ChannelDescription const& description) {

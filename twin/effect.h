@@ -25,8 +25,8 @@ class Part {
 
 /// What the catalogue says about an effect, for people; the numbers come from the fields of its struct.
 struct EffectText {
-  std::string name;       ///< of its tables in a machine file: `[[joint]]`
-  std::string meaning;    ///< one line
+  std::string name;     ///< of its tables in a machine file: `[[joint]]`
+  std::string meaning;  ///< one line
   std::string equation;
   std::string changes;    ///< source, link, film, boundary, sensor, deformation or input
   std::string places;     ///< where it can act

@@ -1,8 +1,7 @@
 #include "twin/history.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "scenarios/feed_program.h"
 #include "thermal/error.h"
@@ -30,8 +29,9 @@ void measure_temperatures(History const& history, InstrumentChannel channel, out
   auto const& sensors = history.machine->sensors;
   for (std::size_t s = 0; s < sensors.size(); ++s) {
     channel.name = sensors[s].description.name;
-    auto const readings = read(sensors[s].description, channel,
-                               {times, history.column(history.sensor_body, s), history.column(history.sensor_air, s)}, times);
+    auto const readings =
+        read(sensors[s].description, channel,
+             {times, history.column(history.sensor_body, s), history.column(history.sensor_air, s)}, times);
     note(dataset, channel.name, readings.drawn);
     dataset.readings[s].values = readings.values;
   }
@@ -95,8 +95,8 @@ void measure_positions(History const& history, scenarios::Experiment const& expe
   auto const screw = std::find_if(machine.screws.begin(), machine.screws.end(),
                                   [&](auto const& s) { return s.description.axis == experiment.laser->axis; });
   if (screw == machine.screws.end())
-    throw thermal::InputError(fmt::format("the laser measures axis '{}', but the machine has no ball_screw on it",
-                                          experiment.laser->axis));
+    throw thermal::InputError(
+        fmt::format("the laser measures axis '{}', but the machine has no ball_screw on it", experiment.laser->axis));
   auto const limits = std::find_if(machine.limits.axes.begin(), machine.limits.axes.end(),
                                    [&](auto const& a) { return a.name == experiment.laser->axis; });
   double const start = limits == machine.limits.axes.end() ? 0.0 : limits->stroke_from;
@@ -106,7 +106,8 @@ void measure_positions(History const& history, scenarios::Experiment const& expe
   Eigen::MatrixXd error(times.size(), positions.size());
   for (Eigen::Index r = 0; r < error.rows(); ++r)
     for (Eigen::Index p = 0; p < error.cols(); ++p)
-      error(r, p) = history.position_error(std::size_t(screw - machine.screws.begin()), start + positions[p], std::size_t(r));
+      error(r, p) =
+          history.position_error(std::size_t(screw - machine.screws.begin()), start + positions[p], std::size_t(r));
   LaserCourse course;
   course.error = error_table(times, positions, error);
   course.time = times;
@@ -120,7 +121,9 @@ void measure_positions(History const& history, scenarios::Experiment const& expe
 
 }  // namespace
 
-Eigen::VectorXd History::times() const { return Eigen::Map<Eigen::VectorXd const>(time.data(), Eigen::Index(time.size())); }
+Eigen::VectorXd History::times() const {
+  return Eigen::Map<Eigen::VectorXd const>(time.data(), Eigen::Index(time.size()));
+}
 
 Eigen::VectorXd History::column(std::vector<std::vector<double>> const& rows, std::size_t index) const {
   Eigen::VectorXd values(Eigen::Index(rows.size()));
@@ -131,7 +134,7 @@ Eigen::VectorXd History::column(std::vector<std::vector<double>> const& rows, st
 double History::position_error(std::size_t screw, double x, std::size_t row) const {
   auto const& built = machine->screws[screw].screw;
   std::span<double const> const rise(screw_rise[row].data() + first_cell(*machine, screw), built.edges.size() - 1);
-  return built.position_error(x, rise);
+  return built.position_error(x, rise, screw_seats[row][screw]) - screw_reference[row][screw] * x;
 }
 
 std::vector<output::Channel> displacement_channels(Machine const& machine) {
@@ -139,8 +142,10 @@ std::vector<output::Channel> displacement_channels(Machine const& machine) {
   for (auto const& d : machine.displacements) channels.push_back({d.name, d.rotation ? "urad" : "um", d.title, {}});
   for (auto const& s : machine.screws)
     for (double x : s.description.positions)
-      channels.push_back({fmt::format("{}_{:g}mm", s.description.name, x * 1e3), "um",
-                          fmt::format("position error of axis {} at {:g} mm of the screw", s.description.axis, x * 1e3), {}});
+      channels.push_back({fmt::format("{}_{:g}mm", s.description.name, x * 1e3),
+                          "um",
+                          fmt::format("position error of axis {} at {:g} mm of the screw", s.description.axis, x * 1e3),
+                          {}});
   return channels;
 }
 

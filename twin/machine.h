@@ -54,7 +54,7 @@ using NodeWeights = std::vector<std::pair<int, double>>;
 /// A sensor as built: what it sees.
 struct Sensor {
   SensorDescription description;
-  NodeWeights weights;            ///< Σ = 1; empty: it hangs in the air
+  NodeWeights weights;                      ///< Σ = 1; empty: it hangs in the air
   Eigen::Vector3d position{0.0, 0.0, 0.0};  ///< [m]
 };
 
@@ -70,6 +70,8 @@ struct Displacement {
 struct Screw {
   BallScrewDescription description;
   thermal::BallScrew screw;
+  NodeWeights seat_growth;       ///< by how much the bearings' seats part [m/K]
+  NodeWeights reference_strain;  ///< of what the position is measured against [1/K]
   int first_node = 0;
 };
 

@@ -1,9 +1,8 @@
 #include "twin/run.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "output/dataset_file.h"
 #include "output/fields.h"
@@ -82,7 +81,8 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
   if (options.fields)
     fields_ = std::make_unique<output::FieldSeries>(
         *options.fields, machine.geometry,
-        output::FieldOptions{experiment.ambient.mean - 273.15, {{"machine", machine.name}, {"experiment", experiment.title}}});
+        output::FieldOptions{experiment.ambient.mean - 273.15,
+                             {{"machine", machine.name}, {"experiment", experiment.title}}});
 }
 
 output::Dataset Recorder::make_head() const {
@@ -132,12 +132,16 @@ void Recorder::record_history(thermal::Sample const& sample) {
     air.push_back(air_at(sensor.position.z(), sample));
     body.push_back(sensor.weights.empty() ? air.back() : seen(sensor.weights, sample.temperatures));
   }
+  auto const since_start = [&](NodeWeights const& weights) {
+    return seen(weights, sample.temperatures) - seen(weights, first_temperatures_);
+  };
   auto& displacement = history_.displacement.emplace_back();
   for (auto const& channel : machine_.displacements) {
-    double value = seen(channel.weights, sample.temperatures) - seen(channel.weights, first_temperatures_);
+    double value = since_start(channel.weights);
     for (auto const& term : channel.input_terms) {
       auto const& channels = course_.channels();
-      auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == term.channel; });
+      auto const it =
+          std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == term.channel; });
       if (it == channels.end()) continue;
       auto const i = std::size_t(it - channels.begin());
       value += term.coefficient * (std::pow(inputs_[i], term.power) - std::pow(first_inputs_[i], term.power));
@@ -145,11 +149,16 @@ void Recorder::record_history(thermal::Sample const& sample) {
     displacement.push_back(value);
   }
   auto& rise = history_.screw_rise.emplace_back();
-  for (auto const& screw : machine_.screws)
+  auto& seats = history_.screw_seats.emplace_back();
+  auto& reference = history_.screw_reference.emplace_back();
+  for (auto const& screw : machine_.screws) {
+    seats.push_back(since_start(screw.seat_growth));
+    reference.push_back(since_start(screw.reference_strain));
     for (std::size_t i = 0; i + 1 < screw.screw.edges.size(); ++i) {
       auto const node = std::size_t(screw.first_node) + i;
       rise.push_back(sample.temperatures[node] - first_temperatures_[node]);
     }
+  }
   history_.spindle_speed.push_back(input_of("spindle.speed", 0.0));
   history_.air.push_back(air_at(1.0, sample));
 }
@@ -172,7 +181,8 @@ output::Row Recorder::make_row(thermal::Sample const& sample) {
   for (std::size_t k = 0; k < shown_parts_.size(); ++k) out.heat[Eigen::Index(k)] = watts_[shown_parts_[k]];
   if (options_.node_temperatures) {
     int const n = machine_.network().nodes();
-    out.node_temperatures = Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n).cast<float>().array() - 273.15F;
+    out.node_temperatures =
+        Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n).cast<float>().array() - 273.15F;
   }
   return out;
 }
@@ -272,7 +282,8 @@ std::vector<double> initial_temperatures(Machine const& machine, scenarios::Expe
     if (channels[i].name == "ambient.floor_temperature") floor = values[i];
     if (channels[i].name == "ambient.gradient") gradient = values[i];
   }
-  std::vector<double> temperatures(std::size_t(machine.network().nodes()), experiment.initial_temperature.value_or(floor));
+  std::vector<double> temperatures(std::size_t(machine.network().nodes()),
+                                   experiment.initial_temperature.value_or(floor));
   if (experiment.initial_temperature) return temperatures;
   for (auto const& body : machine.geometry)
     for (std::size_t i = 0; i < body.cells.size(); ++i)

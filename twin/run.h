@@ -25,12 +25,12 @@ class Interrupted : public std::runtime_error {
 /// How a run is carried out and what it leaves behind.
 struct RunOptions {
   thermal::IntegrationOptions integration;
-  std::optional<std::filesystem::path> dataset;  ///< HDF5 file
-  std::optional<std::filesystem::path> fields;   ///< folder of the VTK series
-  std::optional<std::filesystem::path> picture;  ///< PNG of the last frame
-  double field_interval = 900.0;                 ///< between two frames [s]
-  bool node_temperatures = false;                ///< keep every node's course in the data set
-  std::map<std::string, std::string> provenance; ///< echo of the input files and the command
+  std::optional<std::filesystem::path> dataset;   ///< HDF5 file
+  std::optional<std::filesystem::path> fields;    ///< folder of the VTK series
+  std::optional<std::filesystem::path> picture;   ///< PNG of the last frame
+  double field_interval = 900.0;                  ///< between two frames [s]
+  bool node_temperatures = false;                 ///< keep every node's course in the data set
+  std::map<std::string, std::string> provenance;  ///< echo of the input files and the command
   /// Called now and then with the share done, 0…1.
   std::function<void(double)> progress;
   /// Set from outside (Ctrl-C) to stop at the next output time; the data set is then marked as partial.

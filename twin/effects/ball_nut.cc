@@ -62,7 +62,8 @@ struct BallNut {
     f("efficiency", &BallNut::efficiency, dimension::dimensionless, "of the screw under load", Range{0.88, 0.95});
     f("viscous_share", &BallNut::viscous_share, dimension::dimensionless, "of the preload torque", Range{0.4, 0.8});
     f("oil", &BallNut::oil, "ISO viscosity grade of the base oil", Range{10, 100});
-    f("reference_speed", &BallNut::reference_speed, dimension::angular_speed, "for which the torque is stated", positive);
+    f("reference_speed", &BallNut::reference_speed, dimension::angular_speed, "for which the torque is stated",
+      positive);
     f("nut_share", &BallNut::nut_share, dimension::dimensionless, "of the heat, into the nut", Range{0.0, 1.0});
     f("conductance_rest", &BallNut::conductance_rest, dimension::conductance, "nut to screw at standstill",
       Range{0.5, 3.0});
@@ -90,10 +91,10 @@ struct BallNut {
     torque.push_back(nut_share);
     assembly.network().add<NutHeat>(assembly.part(), {nut_port, screw_port}, torque, {speed});
     for (int i = 0; i < track.nodes(); ++i)
-      assembly.network().add<NutConductance>(
-          assembly.part(), {nut_port, {thermal::Port::Kind::node, assembly.first_node(screw) + i}},
-          {conductance_rest, conductance_speed, reference_speed},
-          {speed, assembly.network().weight_channel(screw_port, i)});
+      assembly.network().add<NutConductance>(assembly.part(),
+                                             {nut_port, {thermal::Port::Kind::node, assembly.first_node(screw) + i}},
+                                             {conductance_rest, conductance_speed, reference_speed},
+                                             {speed, assembly.network().weight_channel(screw_port, i)});
   }
 };
 
@@ -102,10 +103,13 @@ struct BallNut {
 Effect const& ball_nut_effect() {
   static Effect const effect = make_effect<BallNut>(
       {"ball_nut", "friction of a ball nut that travels along its screw, and conduction between the two",
-       "Q = T_nut |ω|;  T_nut = T_pre (1 − φ + φ √(νn/(ν40 n_r))) + |F_ax| l/2π (1/η − 1);  T_pre = 0.05 (tan β)^(−1/2) F_a0 "
+       "Q = T_nut |ω|;  T_nut = T_pre (1 − φ + φ √(νn/(ν40 n_r))) + |F_ax| l/2π (1/η − 1);  T_pre = 0.05 (tan "
+       "β)^(−1/2) F_a0 "
        "l/2π;  G = G0 + G1 √(n/n_r);  spread over the screw by the exact overlap with the nut along its stroke",
-       "source, link", "nut and screw", "power of feed 1 to 1.5; first seen at screw and nut, 10…14 min; slope of the "
-       "position error; ends at stop", "physics.md 1.8, 2.4, (2.10); catalogues of NSK, THK, HIWIN"});
+       "source, link", "nut and screw",
+       "power of feed 1 to 1.5; first seen at screw and nut, 10…14 min; slope of the "
+       "position error; ends at stop",
+       "physics.md 1.8, 2.4, (2.10); catalogues of NSK, THK, HIWIN"});
   return effect;
 }
 

@@ -64,11 +64,10 @@ struct Bearing {
   void add_to(Assembly& assembly) const {
     auto const viscosity = thermal::mineral_oil_viscosity(oil);
     Place const shaft = assembly.place(inner), housing = assembly.place(outer);
-    assembly.network().add<PalmgrenHeat>(
-        assembly.part(), {assembly.port(shaft), assembly.port(housing)},
-        {count, grease_factor, viscosity.scale, viscosity.temperature, pitch_diameter, load_factor, load_exponent,
-         load_ratio, torque_load, inner_share},
-        {assembly.channel("spindle.speed")});
+    assembly.network().add<PalmgrenHeat>(assembly.part(), {assembly.port(shaft), assembly.port(housing)},
+                                         {count, grease_factor, viscosity.scale, viscosity.temperature, pitch_diameter,
+                                          load_factor, load_exponent, load_ratio, torque_load, inner_share},
+                                         {assembly.channel("spindle.speed")});
     for (auto const& a : shaft.site.contacts)
       for (auto const& b : housing.site.contacts)
         assembly.network().connect(assembly.part(), assembly.node(shaft, a.node), assembly.node(housing, b.node),
@@ -79,13 +78,15 @@ struct Bearing {
 }  // namespace
 
 Effect const& bearing_effect() {
-  static Effect const effect = make_effect<Bearing>(
-      {"bearing", "friction of a set of spindle bearings, and conduction through its balls",
-       "Q = n (M0 + M1) |ω|;  M0 = 4500.9 f0 (νω)^(2/3) d_m³ (νω ≥ 2.0944e-4 m²/s², else 16 f0 d_m³);  M1 = z (P0/C0)^y P1 "
-       "d_m;  ν = A exp(B/(T[°C] + 95)) at the mean of both rings;  q = G (T_outer − T_inner)",
-       "source, link", "shaft and outer ring", "power of speed 1.67, falling to 1.0…1.2 in the steady state by the "
-       "viscosity's feedback; first seen at the rings; ends at stop",
-       "physics.md 1.1, 1.3, 2.4; Palmgren 1957; Harris & Kotzalas 2006"});
+  static Effect const effect =
+      make_effect<Bearing>({"bearing", "friction of a set of spindle bearings, and conduction through its balls",
+                            "Q = n (M0 + M1) |ω|;  M0 = 4500.9 f0 (νω)^(2/3) d_m³ (νω ≥ 2.0944e-4 m²/s², else 16 f0 "
+                            "d_m³);  M1 = z (P0/C0)^y P1 "
+                            "d_m;  ν = A exp(B/(T[°C] + 95)) at the mean of both rings;  q = G (T_outer − T_inner)",
+                            "source, link", "shaft and outer ring",
+                            "power of speed 1.67, falling to 1.0…1.2 in the steady state by the "
+                            "viscosity's feedback; first seen at the rings; ends at stop",
+                            "physics.md 1.1, 1.3, 2.4; Palmgren 1957; Harris & Kotzalas 2006"});
   return effect;
 }
 

@@ -1,4 +1,5 @@
 #include "thermal/evaporation.h"
+
 #include "twin/assembly.h"
 #include "twin/effect.h"
 

@@ -46,8 +46,8 @@ struct FeedMotor {
     f("torque_constant", &FeedMotor::torque_constant, dimension::torque_constant, "per effective phase current",
       Range{0.1, 5});
     f("constant_torque", &FeedMotor::constant_torque, dimension::torque, "weight of a hanging axis and other friction");
-    f("peak_factor", &FeedMotor::peak_factor, dimension::dimensionless, "mean square of the torque over its squared mean",
-      Range{1.0, 4.0});
+    f("peak_factor", &FeedMotor::peak_factor, dimension::dimensionless,
+      "mean square of the torque over its squared mean", Range{1.0, 4.0});
     f("hysteresis", &FeedMotor::hysteresis, dimension::power, "iron loss at reference speed, proportional to it",
       Range{0, 100});
     f("eddy", &FeedMotor::eddy, dimension::power, "iron loss at reference speed, with its square", Range{0, 100});
@@ -78,8 +78,8 @@ struct FeedMotor {
 Effect const& feed_motor_effect() {
   static Effect const effect = make_effect<FeedMotor>(
       {"feed_motor", "copper and iron loss of a feed motor that overcomes the friction of its axis",
-       "P = k_p 3R(1 + 0.0039 (T − 20 °C)) (M/k_T)² + Ph r + Pe r²;  M = M_nut + Σ M_bearing + M_0,  r = n/n_r", "source",
-       "feed motor", "power of feed 1 to 2; first seen at the motor, 36…39 min; ends at stop",
+       "P = k_p 3R(1 + 0.0039 (T − 20 °C)) (M/k_T)² + Ph r + Pe r²;  M = M_nut + Σ M_bearing + M_0,  r = n/n_r",
+       "source", "feed motor", "power of feed 1 to 2; first seen at the motor, 36…39 min; ends at stop",
        "physics.md 1.7, 2.11"});
   return effect;
 }

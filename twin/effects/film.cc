@@ -25,15 +25,15 @@ struct FilmLaw {
   }
 };
 
-#define THERMOTWIN_CORRELATION(Name, title, expression)                                                               \
-  struct Name {                                                                                                       \
-    static constexpr std::string_view name = title;                                                                   \
-    template <class S>                                                                                                \
-    static S film(S const& surface, S const& fluid, S const& size, S const& coefficient, S const& emissivity,         \
-                  double speed) {                                                                                     \
-      (void)surface, (void)fluid, (void)size, (void)coefficient, (void)emissivity, (void)speed;                       \
-      return expression;                                                                                              \
-    }                                                                                                                 \
+#define THERMOTWIN_CORRELATION(Name, title, expression)                                                       \
+  struct Name {                                                                                               \
+    static constexpr std::string_view name = title;                                                           \
+    template <class S>                                                                                        \
+    static S film(S const& surface, S const& fluid, S const& size, S const& coefficient, S const& emissivity, \
+                  double speed) {                                                                             \
+      (void)surface, (void)fluid, (void)size, (void)coefficient, (void)emissivity, (void)speed;               \
+      return expression;                                                                                      \
+    }                                                                                                         \
   };
 THERMOTWIN_CORRELATION(Constant, "constant film", coefficient)
 THERMOTWIN_CORRELATION(Room, "room film", (thermal::room_film<S>(surface, fluid, emissivity)))
@@ -97,7 +97,8 @@ struct Film {
   void add_to(Assembly& assembly) const {
     Place place = assembly.surface(on);
     if (area) place.site = thermal::with_area(place.site, *area);
-    if (!(place.area() > 0.0)) throw thermal::InputError("film '" + name + "': '" + on + "' has no area of its own; give one");
+    if (!(place.area() > 0.0))
+      throw thermal::InputError("film '" + name + "': '" + on + "' has no area of its own; give one");
     bool const rotating = correlation.starts_with("rotating") || correlation == "fan";
     // The speed of a film that does not rotate is asked from a channel that every course has.
     int const input = assembly.channel(rotating ? speed : "ambient.floor_temperature");
@@ -130,14 +131,17 @@ struct Film {
 }  // namespace
 
 Effect const& film_effect() {
-  static Effect const effect = make_effect<Film>(
-      {"film", "convection and radiation from a surface to the room or to a fluid",
-       "q = h A (T_fluid − T_surface), in series with the half cell of a discretised body. room: h = 1.7·1.3 |ΔT|^(1/3) + "
-       "0.8 ε 4σ T_m³;  rotating cylinder: Nu = (Nu_f³ + Nu_n³)^(1/3), Nu_f = 0.133 Re^(2/3) Pr^(1/3), Nu_n Churchill & "
-       "Chu;  fan: constant while it runs, room film otherwise",
-       "film", "any surface", "sink proportional to T − T_air; sets the slow time constants; a rotating surface cools with "
-       "speed^0.67 and stops cooling when it stops",
-       "physics.md 2.5, 2.6 (2.6), (2.8); Becker 1963; Churchill & Chu 1975; Jungnickel 2010"});
+  static Effect const effect =
+      make_effect<Film>({"film", "convection and radiation from a surface to the room or to a fluid",
+                         "q = h A (T_fluid − T_surface), in series with the half cell of a discretised body. room: h = "
+                         "1.7·1.3 |ΔT|^(1/3) + "
+                         "0.8 ε 4σ T_m³;  rotating cylinder: Nu = (Nu_f³ + Nu_n³)^(1/3), Nu_f = 0.133 Re^(2/3) "
+                         "Pr^(1/3), Nu_n Churchill & "
+                         "Chu;  fan: constant while it runs, room film otherwise",
+                         "film", "any surface",
+                         "sink proportional to T − T_air; sets the slow time constants; a rotating surface cools with "
+                         "speed^0.67 and stops cooling when it stops",
+                         "physics.md 2.5, 2.6 (2.6), (2.8); Becker 1963; Churchill & Chu 1975; Jungnickel 2010"});
   return effect;
 }
 

@@ -15,8 +15,9 @@ struct Heat {
     f.name("name", &Heat::name, "unique among these");
     f.name("at", &Heat::at, "place that receives it");
     f("power", &Heat::power, dimension::power, "while the flag is up; negative: cooling");
-    f("while_on", &Heat::while_on, "input channel between 0 and 1 that scales it: machine.on, servo.on, coolant.on, "
-                                   "spindle.running, heater1.duty");
+    f("while_on", &Heat::while_on,
+      "input channel between 0 and 1 that scales it: machine.on, servo.on, coolant.on, "
+      "spindle.running, heater1.duty");
   }
 
   void add_to(Assembly& assembly) const {

@@ -1,7 +1,8 @@
+#include "thermal/joint.h"
+
 #include <optional>
 
 #include "thermal/error.h"
-#include "thermal/joint.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
 

@@ -1,4 +1,5 @@
 #include "thermal/motor_loss.h"
+
 #include "twin/assembly.h"
 #include "twin/effect.h"
 
@@ -29,7 +30,8 @@ struct MotorLoss {
   static void fields(Fields& f) {
     f.name("name", &MotorLoss::name, "unique among these");
     f.name("at", &MotorLoss::at, "place that receives it: stator, rotor");
-    f("constant", &MotorLoss::constant, dimension::power, "P0, magnetising and copper loss without load", Range{0, 300});
+    f("constant", &MotorLoss::constant, dimension::power, "P0, magnetising and copper loss without load",
+      Range{0, 300});
     f("hysteresis", &MotorLoss::hysteresis, dimension::power, "Ph at rated speed, proportional to it", Range{0, 600});
     f("eddy", &MotorLoss::eddy, dimension::power, "Pe at rated speed, with its square", Range{0, 600});
     f("rated_speed", &MotorLoss::rated_speed, dimension::angular_speed, "default: the spindle's maximum", positive);
@@ -52,7 +54,8 @@ Effect const& motor_loss_effect() {
   static Effect const effect = make_effect<MotorLoss>(
       {"motor_loss", "no-load loss of the spindle motor: magnetising, hysteresis and eddy currents",
        "P = P0 + Ph r + Pe r²,  r = ω/ω_rated; above the base speed Ph r_b²/r and Pe r_b²", "source", "stator or rotor",
-       "power of speed 0 to 2 below the base speed; first seen at the motor, 20…40 min; ends when the motor is disabled",
+       "power of speed 0 to 2 below the base speed; first seen at the motor, 20…40 min; ends when the motor is "
+       "disabled",
        "physics.md 1.7, §7 nos. 6, 7"});
   return effect;
 }

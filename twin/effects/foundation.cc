@@ -1,0 +1,39 @@
+#include "twin/assembly.h"
+#include "twin/effect.h"
+#include "twin/effects/given_temperature.h"
+
+namespace thermotwin::twin {
+namespace {
+
+struct Foundation : GivenTemperature {
+  std::string name, at;
+  double conductance = required;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("name", &Foundation::name, "unique among these");
+    f.name("at", &Foundation::at, "place that stands on the ground");
+    GivenTemperature::fields_of<Foundation>(f);
+    f("conductance", &Foundation::conductance, dimension::conductance, "to the soil", Range{5, 50});
+  }
+
+  void add_to(Assembly& assembly) const {
+    Place const place = assembly.place(at);
+    auto const soil = port(assembly, "foundation '" + name + "'");
+    for (auto const& contact : place.site.contacts)
+      assembly.network().connect(assembly.part(), assembly.node(place, contact.node), soil,
+                                 conductance * contact.share);
+  }
+};
+
+}  // namespace
+
+Effect const& foundation_effect() {
+  static Effect const effect = make_effect<Foundation>(
+      {"foundation", "conduction through feet and foundation into soil of its own temperature",
+       "q = G (T_soil − T)", "boundary", "underside of the bed",
+       "drift over days and weeks, bottom of the bed first; does not follow spindle or room", "physics.md §7 no. 40"});
+  return effect;
+}
+
+}  // namespace thermotwin::twin

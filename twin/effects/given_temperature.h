@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "thermal/error.h"
+#include "twin/assembly.h"
+
+namespace thermotwin::twin {
+
+/// A temperature that the machine does not make: constant, or that of an input channel plus an offset.
+struct GivenTemperature {
+  std::optional<double> temperature;  ///< [K]
+  std::string follows;
+  double offset = 0.0;  ///< [K]
+
+  template <class Owner, class Fields>
+  static void fields_of(Fields& f) {
+    f.temperature("temperature", &Owner::temperature, "of the other side, where it is constant");
+    f("follows", &Owner::follows, "instead: input channel with that temperature");
+    f("offset", &Owner::offset, dimension::temperature_difference, "added to the temperature of that channel",
+      Range{-20, 20});
+  }
+
+  /// InputError that begins with `owner` where neither or both are given.
+  [[nodiscard]] thermal::Port port(Assembly& assembly, std::string const& owner) const {
+    if (temperature.has_value() == !follows.empty())
+      throw thermal::InputError(owner + " needs either a temperature or an input channel that it follows");
+    if (!temperature) return assembly.boundary(follows, offset);
+    return assembly.network().add_boundary({owner, *temperature, {}});
+  }
+};
+
+}  // namespace thermotwin::twin
