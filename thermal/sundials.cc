@@ -131,6 +131,7 @@ class Run {
   void set_tolerances();
   void set_up_sensitivities(std::span<double const> initial);
   void restart(double t);
+  void set_initial_step(double t);
   void advance(double target);
   void emit(double t, Observer const& observe);
   void settle_relays(double t);
@@ -283,6 +284,7 @@ void Run::set_up(std::span<double const> initial, double t0) {
   CVodeSetUserData(cvode, this);
   set_tolerances();
   CVodeSetMaxNumSteps(cvode, 10'000'000);
+  CVodeSetMinStep(cvode, 1e-9);  // less than that and a temperature runs away
   if (options_.maximum_step > 0.0) CVodeSetMaxStep(cvode, options_.maximum_step);
   attach_linear_solver();
   if (!network_.relays().empty()) CVodeRootInit(cvode, int(network_.relays().size()), roots);
@@ -390,8 +392,20 @@ void Run::restart(double t) {
   collect_counters();
   void* cvode = cvode_.get();
   CVodeReInit(cvode, t, y_.get());
+  set_initial_step(t);
   if (!sensitivity_view_.empty()) CVodeSensReInit(cvode, CV_STAGGERED, sensitivity_view_.data());
   ++summary_.restarts;
+}
+
+/// The first step after a start changes no temperature by more than its tolerance; it must not depend on when the next
+/// output is due, or watching a run would change it.
+void Run::set_initial_step(double t) {
+  constexpr double shortest = 1e-6, longest = 10.0;
+  std::vector<double> rates(std::size_t(network_.nodes()));
+  evaluation_.rate(data(y_.get()), input(t), rates.data());
+  double fastest = 0.0;
+  for (double rate : rates) fastest = std::max(fastest, std::abs(rate));
+  CVodeSetInitStep(cvode_.get(), std::clamp(data(tolerance_.get())[0] / std::max(fastest, 1e-300), shortest, longest));
 }
 
 /// Integrates to `target`, through jumps and relay switches on the way.
@@ -448,6 +462,7 @@ IntegrationSummary Run::operator()(std::span<double const> initial, std::span<do
   if (times.empty()) throw InputError("there is no output time");
   set_up(initial, times.front());
   settle_relays(t_);
+  set_initial_step(t_);
   emit(t_, observe);
   for (double time : times.subspan(1)) {
     advance(time);
