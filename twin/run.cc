@@ -99,8 +99,10 @@ output::Dataset Recorder::make_head() const {
   head.truth_displacements = head.displacements;
   for (std::size_t p : shown_parts_)
     head.heat.push_back({machine_.network().parts()[p], "W", "heat given to the bodies", {}});
-  if (options_.node_temperatures)
+  if (options_.node_temperatures) {
+    head.node_temperatures.emplace(0, machine_.network().nodes());
     for (int i = 0; i < machine_.network().nodes(); ++i) head.node_names.push_back(machine_.network().node_name(i));
+  }
   head.provenance = options_.provenance;
   head.provenance["version"] = std::string(version());
   head.provenance["commit"] = std::string(commit());
@@ -193,6 +195,9 @@ output::Frame Recorder::make_frame(thermal::Sample const& sample) {
   frame.temperature_degC = Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n).array() - 273.15;
   frame.heat_source_W.resize(n);
   evaluation_.source_of_nodes(sample.state.data(), sample.input.data(), {frame.heat_source_W.data(), std::size_t(n)});
+  Eigen::VectorXd const rise = Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n) -
+                               Eigen::Map<Eigen::VectorXd const>(first_temperatures_.data(), n);
+  frame.displacement_m = thermal::growth_field(machine_.growing, {rise.data(), std::size_t(n)});
   return frame;
 }
 

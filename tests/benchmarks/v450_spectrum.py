@@ -1,0 +1,200 @@
+#!/usr/bin/python3
+"""v450 through 8 h of spectrum: thermotwin beside SciPy's BDF on the same network.
+
+The network is read from the same machine file by code of its own, so that agreement of the two answers is a check of
+both. The right-hand side is vectorised NumPy. Both integrate to a relative tolerance of 1e-6; prints medians of five
+runs, their ratio, and the largest difference of any sensor between the two.
+"""
+import json
+import math
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SPECTRUM = [(25, 3600), (50, 3600), (75, 3600), (100, 3600), (0, 1800), (75, 5400), (50, 3600), (100, 3600), (0, 3600)]
+AIR = 295.15
+UNITS = {"mm": 1e-3, "mm2": 1e-6, "m2": 1.0, "kg": 1.0, "W/K": 1.0, "W": 1.0, "J/K": 1.0, "N": 1.0, "rpm": 2 * math.pi / 60,
+         "W/(m2 K)": 1.0, "W/(m K)": 1.0, "kg/m3": 1.0, "J/(kg K)": 1.0, "1/K": 1.0, "": 1.0}
+OIL22 = (0.087e-6, 748.0)
+
+
+def number(text):
+    if not isinstance(text, str):
+        return float(text)
+    match = re.match(r"([-+0-9.e]+) ?(.*)", text)
+    return float(match[1]) * UNITS[match[2]]
+
+
+class Network:
+    """Nodes in the order of the file; places like `shaft[40 mm .. 80 mm]` become weighted nodes."""
+
+    def __init__(self, machine):
+        self.materials = {m["name"]: m for m in machine["material"]}
+        self.speed_limit = number(machine["spindle"]["maximum_speed"])
+        self.capacity, self.bodies, self.links = [], {}, []
+        for body in machine["lump"]:
+            heat = body.get("heat_capacity")
+            c = number(heat) if heat else number(body["mass"]) * number(self.materials[body["material"]]["specific_heat"])
+            self.bodies[body["name"]] = (len(self.capacity), 1, 0.0, 0.0)
+            self.capacity.append(c)
+        for bar in machine["bar"]:
+            self.add_bar(bar)
+        for joint in machine["joint"]:
+            g = number(joint["conductance"]) if "conductance" in joint else number(joint["coefficient"]) * number(joint["area"])
+            self.connect(joint["from"], joint["to"], g)
+        self.films = {kind: [] for kind in ("room", "fan", "rotating_cylinder")}
+        for film in machine["film"]:
+            places = self.place(film["on"])
+            area = number(film["area"]) if "area" in film else self.area(film["on"])
+            size = number(film.get("diameter", 1.0))
+            for node, share in places:
+                self.films[film["correlation"]].append((node, share * area, size, number(film.get("coefficient", 0.0))))
+        self.films = {k: np.array(v).T for k, v in self.films.items()}
+        self.bearings = [self.bearing(b) for b in machine["bearing"]]
+        self.motors = [(self.place(m["at"])[0][0], number(m.get("constant", 0)), number(m.get("hysteresis", 0)),
+                        number(m.get("eddy", 0))) for m in machine["motor_loss"]]
+        self.belts = [(self.place(b["pulley"]), self.place(b["motor"]), number(b["loss"])) for b in machine["belt"]]
+        n = len(self.capacity)
+        self.capacity = np.array(self.capacity)
+        self.matrix = np.zeros((n, n))
+        for a, b, g in self.links:
+            self.matrix[a, b] += g
+            self.matrix[b, a] += g
+            self.matrix[a, a] -= g
+            self.matrix[b, b] -= g
+
+    def add_bar(self, bar):
+        metal, cells, length = self.materials[bar["material"]], bar["cells"], number(bar["length"])
+        section = math.pi / 4 * (number(bar["outer_diameter"]) ** 2 - number(bar.get("inner_diameter", 0.0)) ** 2)
+        step, first = length / cells, len(self.capacity)
+        self.bodies[bar["name"]] = (first, cells, length, number(bar["outer_diameter"]))
+        self.capacity += [number(metal["density"]) * number(metal["specific_heat"]) * section * step] * cells
+        g = number(metal["conductivity"]) * section / step
+        self.links += [(first + i, first + i + 1, g) for i in range(cells - 1)]
+
+    def stretch(self, text):
+        inside = re.search(r"\[(.*)\]", text)
+        first, cells, length, diameter = self.bodies[text.split("[")[0]]
+        if not inside:
+            return first, cells, length, 0.0, length
+        ends = [number(part.strip()) for part in inside[1].split("..")]
+        return first, cells, length, ends[0], ends[-1]
+
+    def place(self, text):
+        first, cells, length, low, high = self.stretch(text)
+        if cells == 1:
+            return [(first, 1.0)]
+        step = length / cells
+        if low == high:
+            return [(first + int(low / step), 1.0)]
+        overlap = [max(0.0, min(high, (i + 1) * step) - max(low, i * step)) for i in range(cells)]
+        return [(first + i, o / (high - low)) for i, o in enumerate(overlap) if o > 1e-12]
+
+    def area(self, text):
+        _, _, _, low, high = self.stretch(text)
+        return math.pi * self.bodies[text.split("[")[0]][3] * (high - low)
+
+    def connect(self, a, b, g):
+        for i, share_i in self.place(a):
+            for j, share_j in self.place(b):
+                self.links.append((i, j, g * share_i * share_j))
+
+    def bearing(self, b):
+        self.connect(b["inner"], b["outer"], number(b["conductance"]))
+        load = 5e-4 * 0.003**0.38 * number(b["torque_load"]) * number(b["pitch_diameter"])
+        inner, outer = (np.array(list(zip(*self.place(b[k])))) for k in ("inner", "outer"))
+        return inner, outer, b["count"], b["grease_factor"], number(b["pitch_diameter"]), load
+
+    def rate(self, T, speed):
+        q = self.matrix @ T
+        ratio = speed / self.speed_limit
+        for kind, (node, area, size, coefficient) in self.films.items():
+            node = node.astype(int)
+            dT = T[node] - AIR
+            if kind == "rotating_cylinder":
+                h = rotating_cylinder(T[node], size, speed)
+            elif kind == "fan" and speed > 0:
+                h = coefficient
+            else:
+                h = 1.7 * 1.3 * (dT * dT + 1e-4) ** (1 / 6) + 0.9 * 0.8 * 4 * 5.670374419e-8 * (0.5 * (T[node] + AIR)) ** 3
+            np.add.at(q, node, -h * area * dT)
+        if speed > 0:
+            for (i, wi), (o, wo), count, f0, d, load in self.bearings:
+                i, o = i.astype(int), o.astype(int)
+                mean = 0.5 * (wi @ T[i] + wo @ T[o]) - 273.15
+                viscosity = OIL22[0] * math.exp(OIL22[1] / (mean + 95))
+                heat = count * (4500.9 * f0 * (viscosity * speed) ** (2 / 3) * d**3 + load) * speed
+                q[i] += 0.5 * heat * wi
+                q[o] += 0.5 * heat * wo
+            for node, constant, hysteresis, eddy in self.motors:
+                q[node] += constant + hysteresis * ratio + eddy * ratio**2
+            for pulley, motor, loss in self.belts:
+                for places, share in ((pulley, 0.35), (motor, 0.325)):
+                    for node, weight in places:
+                        q[node] += share * weight * loss * ratio
+        return q / self.capacity
+
+
+def rotating_cylinder(T, diameter, speed):
+    film = 0.5 * (T + AIR) - 273.15
+    k = 0.02425 + (0.02987 - 0.02425) / 75 * film
+    nu = 1.35e-5 + (2.078e-5 - 1.35e-5) / 75 * film
+    Pr = 0.71
+    forced = 0.133 * (speed * diameter**2 / (2 * nu)) ** (2 / 3) * Pr ** (1 / 3)
+    dT = np.sqrt((T - AIR) ** 2 + 1e-4)
+    Ra = 9.80665 / (film + 273.15) * dT * diameter**3 / nu**2 * Pr
+    free = (0.6 + 0.387 * Ra ** (1 / 6) / (1 + (0.559 / Pr) ** (9 / 16)) ** (8 / 27)) ** 2
+    return (forced**3 + free**3) ** (1 / 3) * k / diameter
+
+
+def integrate(network):
+    T, t = np.full(len(network.capacity), AIR), 0.0
+    for share, duration in SPECTRUM:
+        speed = share / 100 * network.speed_limit
+        grid = np.arange(t, t + duration + 1, 60.0)
+        # Temperatures count from the room, so that the relative tolerance is that of the rise.
+        answer = solve_ivp(lambda _, rise: network.rate(AIR + rise, speed), (t, t + duration), T - AIR, "BDF", t_eval=grid,
+                           rtol=1e-6, atol=1e-5)
+        T, t = AIR + answer.y[:, -1], t + duration
+    return T
+
+
+def experiment():
+    blocks = ", ".join(f'{{duration = "{d} s", of_maximum = "{s} %"}}' for s, d in SPECTRUM)
+    total = sum(d for _, d in SPECTRUM)
+    return f'machine = "v450"\nduration = "{total} s"\n[ambient]\nmean = "22 degC"\n[spindle]\nblocks = [{blocks}]\n'
+
+
+def main():
+    network = Network(tomllib.loads((ROOT / "twin/machines/v450.toml").read_text()))
+    scipy_times = []
+    for _ in range(5):
+        start = time.perf_counter()
+        T = integrate(network)
+        scipy_times.append(time.perf_counter() - start)
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "spectrum.toml"
+        file.write_text(experiment())
+        program = [str(ROOT / "build/thermotwin"), "run", str(file), "--nodes", "-o", str(pathlib.Path(folder) / "run.h5"), "--json"]
+        ours = [json.loads(subprocess.run(program, check=True, capture_output=True, text=True).stdout) for _ in range(5)]
+        import h5py
+        with h5py.File(pathlib.Path(folder) / "run.h5") as data:
+            final = data["nodes/temperature"][-1]
+    our_time = statistics.median(run["solver"]["wall_time_s"] for run in ours)
+    scipy_time = statistics.median(scipy_times)
+    print(f"SciPy BDF, NumPy right-hand side   {scipy_time * 1e3:9.1f} ms")
+    print(f"thermotwin, integration only       {our_time * 1e3:9.2f} ms   {scipy_time / our_time:.0f} times as fast")
+    print(f"largest difference of any node at the end   {np.abs(T - 273.15 - final).max():.1e} K")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
