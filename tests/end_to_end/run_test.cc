@@ -1,0 +1,158 @@
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "output/dataset_file.h"
+#include "tests/output/temporary_directory.h"
+
+/// The program as its users meet it.
+namespace thermotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using tests::TemporaryDirectory;
+
+std::string answer(std::string const& command, int expected_code = 0) {
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  std::string text;
+  std::array<char, 4096> buffer{};
+  while (std::size_t const n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
+  int const status = pclose(pipe);
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, expected_code) << command << "\n" << text;
+  return text;
+}
+
+std::string const program = THERMOTWIN_PROGRAM;
+
+output::Channel const& channel(std::vector<output::Channel> const& group, std::string const& name) {
+  for (auto const& c : group)
+    if (c.name == name) return c;
+  throw std::runtime_error("no channel " + name);
+}
+
+TEST(Run, LeavesReadingsTruthHeatAndProvenance) {
+  TemporaryDirectory const directory;
+  answer(program + " run golden_b_6000 -q -o " + (directory / "run.h5").string());
+  auto const data = output::read(directory / "run.h5");
+  EXPECT_TRUE(data.complete);
+  ASSERT_EQ(data.time_s.size(), 481);
+  EXPECT_EQ(data.time_s[480], 8 * 3600.0);
+  // Golden table B: 25.38 K above the room at the front bearing; the sensor of the cartridge's nose rises 23.11 K.
+  EXPECT_NEAR(channel(data.truth_readings, "T1").values[240] - 22.0, 23.11, 0.02);
+  EXPECT_NEAR(channel(data.truth_displacements, "E_Z").values[240], 44.8, 0.1);
+  EXPECT_NEAR(channel(data.inputs, "spindle.speed").values[100], 6000.0, 1e-9);
+  EXPECT_EQ(channel(data.inputs, "spindle.speed").unit, "rpm");
+  // A DS18B20 shows multiples of 1/16 K.
+  double const reading = channel(data.readings, "T1").values[240];
+  EXPECT_EQ(reading * 16.0, std::round(reading * 16.0));
+  // physics.md 6.2: the front set makes 113 W after four hours, nothing at standstill.
+  EXPECT_NEAR(channel(data.heat, "bearing.front").values[240], 113.0, 0.5);
+  EXPECT_EQ(channel(data.heat, "bearing.front").values[300], 0.0);
+  EXPECT_LT(std::stod(data.provenance.at("energy.imbalance")), 1e-9);
+  EXPECT_NE(data.provenance.at("machine.file").find("[[bearing]]"), std::string::npos);
+  EXPECT_NE(data.provenance.at("experiment.file").find("[spindle]"), std::string::npos);
+}
+
+TEST(Run, SameSeedSameBytes) {
+  TemporaryDirectory const directory;
+  for (std::string const& name : {"a.h5", "b.h5"})
+    answer(program + " run golden_b_4000 -q -o " + (directory / name).string());
+  EXPECT_TRUE(tests::contents(directory / "a.h5") == tests::contents(directory / "b.h5"));
+  answer(program + " run golden_b_4000 -q --set experiment.seed=2 -o " + (directory / "c.h5").string());
+  EXPECT_FALSE(tests::contents(directory / "a.h5") == tests::contents(directory / "c.h5"));
+}
+
+TEST(Run, SettingAParameterChangesTheRun) {
+  TemporaryDirectory const directory;
+  auto const rise = [&](std::string const& setting) {
+    answer(program + " run golden_b_4000 -q " + setting + " -o " + (directory / "run.h5").string());
+    return channel(output::read(directory / "run.h5").truth_readings, "T4").values[240];
+  };
+  EXPECT_GT(rise("--set bearing.front.grease_factor=0.8"), rise("") + 1.0);
+  EXPECT_LT(rise("--set experiment.ambient.mean='\"20 degC\"'"), rise(""));
+}
+
+TEST(Run, OpensInXarrayWithDimensionsAndUnits) {
+  if (std::system("/usr/bin/python3 -c 'import xarray, h5netcdf' 2>/dev/null") != 0)
+    GTEST_SKIP() << "no python3-xarray";
+  TemporaryDirectory const directory;
+  answer(program + " run golden_b_2000 -q --nodes -o " + (directory / "run.h5").string());
+  std::ofstream(directory / "look.py") << "import sys, xarray\n"
+                                          "r = xarray.open_dataset(sys.argv[1], group='readings', engine='h5netcdf')\n"
+                                          "assert r.T1.dims == ('time',) and r.T1.attrs['units'] == 'degC', r\n"
+                                          "assert r.time.attrs['units'] == 's' and float(r.time[-1]) == 28800.0, r\n"
+                                          "n = xarray.open_dataset(sys.argv[1], group='nodes', engine='h5netcdf')\n"
+                                          "assert n.temperature.dims == ('time', 'node'), n\n"
+                                          "assert abs(float(n.temperature[0, 0]) - 22.0) < 1e-4, n\n"
+                                          "print('good')\n";
+  EXPECT_NE(answer("/usr/bin/python3 -W error::UserWarning " + (directory / "look.py").string() + " " +
+                   (directory / "run.h5").string())
+                .find("good"),
+            std::string::npos);
+}
+
+TEST(Run, ExportsCsv) {
+  TemporaryDirectory const directory;
+  answer(program + " run golden_b_2000 -q -o " + (directory / "run.h5").string());
+  answer(program + " export " + (directory / "run.h5").string() + " -o " + (directory / "run.csv").string());
+  std::ifstream csv(directory / "run.csv");
+  std::string header;
+  std::getline(csv, header);
+  EXPECT_TRUE(header.starts_with("time_s,")) << header;
+  EXPECT_NE(header.find("T1_degC"), std::string::npos);
+  EXPECT_NE(header.find("E_Z_um"), std::string::npos);
+}
+
+TEST(Run, JsonSummaryForPrograms) {
+  auto const text = answer(program + " run golden_b_2000 --json --quiet");
+  EXPECT_EQ(text.front(), '{');
+  EXPECT_NE(text.find("\"imbalance\""), std::string::npos);
+}
+
+TEST(Run, StoppedByTheUserKeepsThePartialFileAndTheOldOne) {
+  TemporaryDirectory const directory;
+  std::ofstream(directory / "run.h5") << "what the user had";
+  pid_t const child = fork();
+  if (child == 0) {
+    std::string const path = (directory / "run.h5").string();
+    execl(program.c_str(), "thermotwin", "run", "etve", "-q", "-m", "v450", "--set", "experiment.duration=2000 h", "-o",
+          path.c_str(), nullptr);
+    _exit(127);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(tests::contents(directory / "run.h5"), "what the user had");
+  EXPECT_FALSE(output::read(directory / "run.h5.partial").complete);
+}
+
+TEST(Commands, CheckEveryShippedFile) {
+  fs::path const source = THERMOTWIN_SOURCE_DIR;
+  for (auto const& folder : {source / "twin/machines", source / "scenarios/catalogue"})
+    for (auto const& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".toml" &&
+          tests::contents(entry.path()).find("MEASURED_DATA") == std::string::npos)
+        EXPECT_NE(answer(program + " check " + entry.path().string()).find("no mistake found"), std::string::npos);
+}
+
+TEST(Commands, DescribeAndEffectsReadTheCatalogue) {
+  auto const machine = answer(program + " describe machine");
+  for (std::string const& word : {"hollow_cylinder", "grease_factor", "temperature_sensor", "closure"})
+    EXPECT_NE(machine.find(word), std::string::npos) << word;
+  EXPECT_NE(answer(program + " describe experiment").find("of_maximum"), std::string::npos);
+  EXPECT_NE(answer(program + " effects").find("ball_nut"), std::string::npos);
+  EXPECT_NE(answer(program + " effects bearing").find("Palmgren"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace thermotwin

@@ -1,0 +1,98 @@
+#include "twin/sensitivity.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+#include "scenarios/course.h"
+#include "thermal/error.h"
+#include "thermal/integrate.h"
+
+namespace thermotwin::twin {
+namespace {
+
+Value v450() { return read_toml(std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "twin/machines/v450.toml"); }
+
+scenarios::Experiment spectrum() {
+  scenarios::Experiment experiment;
+  experiment.duration = 2 * 3600.0;
+  experiment.ambient.mean = 295.15;
+  experiment.spindle.emplace();
+  experiment.spindle->blocks = {{3600.0, 600.0, {}}, {1800.0, 200.0, {}}, {1800.0, {}, {}}};
+  return experiment;
+}
+
+/// Final node temperatures, and their forward sensitivities.
+struct Outcome {
+  std::vector<double> temperatures;
+  std::vector<std::vector<double>> sensitivities;
+};
+
+Outcome outcome(Value const& document, std::vector<thermal::NetworkDerivative> parameters) {
+  Machine const machine = Machine::build(document);
+  auto const experiment = spectrum();
+  scenarios::ExperimentCourse const course(experiment, machine.limits);
+  std::vector<double> const start(std::size_t(machine.network().nodes()), 295.15);
+  thermal::IntegrationOptions options;
+  options.relative_tolerance = options.absolute_tolerance = 1e-9;
+  options.parameters = std::move(parameters);
+  Outcome result;
+  std::vector<double> const times = {0.0, experiment.duration};
+  thermal::integrate(machine.network(), course, start, times, options, [&](thermal::Sample const& sample) {
+    result.temperatures.assign(sample.temperatures.begin(), sample.temperatures.begin() + std::ptrdiff_t(start.size()));
+    if (sample.sensitivities) result.sensitivities = *sample.sensitivities;
+  });
+  return result;
+}
+
+class SensitivityTo : public testing::TestWithParam<char const*> {};
+
+/// Forward sensitivities against central differences of whole runs, to 1e-4 of the largest one.
+TEST_P(SensitivityTo, AgreesWithCentralDifferences) {
+  auto const document = v450();
+  auto const derivative = differentiate(document, GetParam());
+  auto const forward = outcome(document, {derivative.network}).sensitivities.at(0);
+  double const step = 1e-3 * derivative.parameter.value;
+  auto const plus =
+      outcome(with_number(document, derivative.parameter, derivative.parameter.value + step), {}).temperatures;
+  auto const minus =
+      outcome(with_number(document, derivative.parameter, derivative.parameter.value - step), {}).temperatures;
+  double largest = 0.0, error = 0.0;
+  for (std::size_t i = 0; i < forward.size(); ++i) {
+    double const difference = (plus[i] - minus[i]) / (2.0 * step);
+    largest = std::max(largest, std::abs(difference));
+    error = std::max(error, std::abs(forward[i] - difference));
+  }
+  EXPECT_GT(largest * std::abs(derivative.parameter.value), 1e-6) << "the parameter does nothing here";
+  EXPECT_LT(error, 1e-4 * largest);
+}
+
+/// A source, a viscosity-fed friction, a joint, a film, a mass, a material, a length: any number of the file.
+INSTANTIATE_TEST_SUITE_P(AnyNumber, SensitivityTo,
+                         testing::Values("bearing.front.grease_factor", "bearing.front.pitch_diameter",
+                                         "bearing.rear.torque_load", "joint.front_seat.coefficient",
+                                         "joint.guide.conductance", "film.head_front.area", "film.test_bar.diameter",
+                                         "motor_loss.stator.eddy", "belt.belt.loss", "lump.head_front.mass",
+                                         "material.spindle steel.conductivity", "material.casting.specific_heat",
+                                         "bar.shaft.outer_diameter"));
+
+TEST(Sensitivity, OfADisplacementWeightIsTheLength) {
+  auto const derivative = differentiate(v450(), "material.casting.expansion");
+  auto const machine = Machine::build(v450());
+  for (std::size_t d = 0; d < machine.displacements.size(); ++d) {
+    if (machine.displacements[d].name != "E_X") continue;
+    ASSERT_EQ(derivative.displacements[d].size(), 1U);
+    EXPECT_NEAR(derivative.displacements[d][0].second, 0.015, 1e-9);
+  }
+}
+
+TEST(Sensitivity, RefusesWhatIsNoNumber) {
+  auto const document = v450();
+  EXPECT_THROW((void)differentiate(document, "bearing.front.oil"), thermal::InputError);
+  EXPECT_THROW((void)differentiate(document, "bearing.front.inner"), thermal::InputError);
+  EXPECT_THROW((void)differentiate(document, "bearing.front.inner_share"), thermal::InputError);
+  EXPECT_THROW((void)differentiate(document, "bearing.middle.oil"), thermal::InputError);
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

@@ -1,0 +1,67 @@
+#include "twin/sensitivity.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "thermal/error.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double relative_step = 1e-4;
+
+NodeWeights difference(NodeWeights const& plus, NodeWeights const& minus, double step) {
+  std::map<int, double> sum;
+  for (auto const& [node, weight] : plus) sum[node] += weight / (2.0 * step);
+  for (auto const& [node, weight] : minus) sum[node] -= weight / (2.0 * step);
+  return {sum.begin(), sum.end()};
+}
+
+}  // namespace
+
+Parameter find_number(Value const& document, std::string_view path) {
+  Value copy = document;
+  auto const [table, key] = find_parameter(copy, path);
+  Value const* value = table->find(key);
+  if (!value)
+    throw thermal::InputError(
+        fmt::format("parameter '{}': '{}' is not given in the file; give it there or with --set", path, key));
+  if (double const* number = std::get_if<double>(&value->content)) return {std::string(path), *number, {}, false};
+  if (!value->is_text())
+    throw thermal::InputError(fmt::format(
+        "parameter '{}' is {}; only a number, with or without unit, has a sensitivity", path, value->kind()));
+  auto const quantity = thermal::parse_quantity(std::get<std::string>(value->content));
+  return {std::string(path), quantity.value, quantity.dimension, quantity.absolute_temperature};
+}
+
+Value with_number(Value document, Parameter const& parameter, double number) {
+  auto const [table, key] = find_parameter(document, parameter.path);
+  auto& content = table->find(key)->content;
+  if (parameter.absolute_temperature)
+    content = thermal::format_temperature(number);
+  else if (std::holds_alternative<double>(content))
+    content = number;
+  else
+    content = thermal::format_quantity(number, parameter.dimension);
+  return document;
+}
+
+MachineDerivative differentiate(Value const& document, std::string_view path) {
+  MachineDerivative derivative;
+  derivative.parameter = find_number(document, path);
+  double const value = derivative.parameter.value;
+  double const step = relative_step * (value != 0.0 ? std::abs(value) : 1.0);
+  Machine const plus = Machine::build(with_number(document, derivative.parameter, value + step));
+  Machine const minus = Machine::build(with_number(document, derivative.parameter, value - step));
+  derivative.network = thermal::difference(plus.network(), minus.network(), step);
+  derivative.network.name = derivative.parameter.path;
+  derivative.network.scale = value != 0.0 ? std::abs(value) : 1.0;
+  for (std::size_t s = 0; s < plus.sensors.size(); ++s)
+    derivative.sensors.push_back(difference(plus.sensors[s].weights, minus.sensors[s].weights, step));
+  for (std::size_t d = 0; d < plus.displacements.size(); ++d)
+    derivative.displacements.push_back(difference(plus.displacements[d].weights, minus.displacements[d].weights, step));
+  return derivative;
+}
+
+}  // namespace thermotwin::twin
