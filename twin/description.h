@@ -65,8 +65,20 @@ struct MaterialDescription {
   }
 };
 
+/// What solids share: how they hang on one another, for the displacements that fields show (thermal/growth_field.h).
+struct CarriedDescription {
+  std::string carried_by;
+  std::optional<Eigen::Vector3d> held_at;
+
+  template <class Owner, class Fields>
+  static void fields_of(Fields& f) {
+    f("carried_by", &Owner::carried_by, "body that carries it, in fields that show displacements; none: the floor");
+    f("held_at", &Owner::held_at, dimension::length, "where; default: the middle of what both share");
+  }
+};
+
 /// `[[lump]]`: a body of one temperature.
-struct LumpDescription {
+struct LumpDescription : CarriedDescription {
   std::string name, material;
   std::optional<double> mass;           ///< [kg]
   std::optional<double> heat_capacity;  ///< [J/K], instead of mass and material
@@ -81,6 +93,7 @@ struct LumpDescription {
     f("heat_capacity", &LumpDescription::heat_capacity, dimension::heat_capacity, "instead of mass", positive);
     f("corner", &LumpDescription::corner, dimension::length, "lowest corner of the box that it fills");
     f("size", &LumpDescription::size, dimension::length, "edges of that box");
+    CarriedDescription::fields_of<LumpDescription>(f);
   }
 };
 
@@ -103,7 +116,7 @@ struct LineDescription {
 };
 
 /// `[[bar]]`: heat flows along it only: a shaft, a screw, a test bar.
-struct BarDescription : LineDescription {
+struct BarDescription : LineDescription, CarriedDescription {
   std::string name, material;
   double outer_diameter = required, inner_diameter = 0.0;
   std::optional<double> section_diameter;
@@ -119,11 +132,12 @@ struct BarDescription : LineDescription {
     f("section_diameter", &BarDescription::section_diameter, dimension::length,
       "solid section of equal area, for threads; default: from outer and inner diameter", positive);
     f("cells", &BarDescription::cells, "along the bar", Range{1, 1e6});
+    CarriedDescription::fields_of<BarDescription>(f);
   }
 };
 
 /// `[[hollow_cylinder]]`: axial × radial cells.
-struct HollowCylinderDescription : LineDescription {
+struct HollowCylinderDescription : LineDescription, CarriedDescription {
   std::string name, material;
   double outer_diameter = required, inner_diameter = 0.0;
   int axial_cells = 20, radial_cells = 4;
@@ -138,11 +152,12 @@ struct HollowCylinderDescription : LineDescription {
       positive);
     f("axial_cells", &HollowCylinderDescription::axial_cells, "along the axis", Range{1, 1e5});
     f("radial_cells", &HollowCylinderDescription::radial_cells, "from inside to outside", Range{1, 1e4});
+    CarriedDescription::fields_of<HollowCylinderDescription>(f);
   }
 };
 
 /// `[[block]]`: a box along the machine's axes, cells in three directions.
-struct BlockDescription {
+struct BlockDescription : CarriedDescription {
   std::string name, material;
   Eigen::Vector3d corner = Eigen::Vector3d::Zero();
   Eigen::Vector3d size = Eigen::Vector3d::Constant(required);
@@ -158,6 +173,7 @@ struct BlockDescription {
     f("cells", &BlockDescription::cells, dimension::dimensionless, "along x, y and z", positive);
     f("solidity", &BlockDescription::solidity, dimension::dimensionless,
       "share of metal in a ribbed casting; scales conductivity and density", positive);
+    CarriedDescription::fields_of<BlockDescription>(f);
   }
 };
 
@@ -218,7 +234,8 @@ struct InfluenceDescription {
     f.name("body", &InfluenceDescription::body, "block");
     f.name("fixed", &InfluenceDescription::fixed, "face by which the loop enters it, from the table");
     f.name("loaded", &InfluenceDescription::loaded, "face by which the loop leaves it, to the tool");
-    f("point", &InfluenceDescription::point, dimension::length, "that moves with the loaded face: tool tip or table point");
+    f("point", &InfluenceDescription::point, dimension::length,
+      "that moves with the loaded face: tool tip or table point");
     f("weight", &InfluenceDescription::weight, dimension::dimensionless, "sign along the loop");
     f.choice("solution", &InfluenceDescription::solution, {"solid", "beam"},
              "solid: by CalculiX, see `thermotwin weights`; beam: sections between two opposite faces");
@@ -253,6 +270,7 @@ struct BallScrewDescription {
   std::string name = "E_P";
   std::string axis = "z", body;
   std::string support = "fixed-supported";
+  std::string seats, reference;
   double preload_temperature = 3.0;
   double stiffness_fixed = 0.9e9, stiffness_far = 0.9e9;
   double youngs_modulus = 2.06e11;
@@ -266,6 +284,10 @@ struct BallScrewDescription {
     f("axis", &BallScrewDescription::axis, "the axis that it drives");
     f.name("body", &BallScrewDescription::body, "bar; its start is the fixed bearing");
     f.choice("support", &BallScrewDescription::support, {"fixed-free", "fixed-supported", "fixed-fixed"}, "its ends");
+    f("seats", &BallScrewDescription::seats,
+      "place of the structure that carries both bearings; its growth over the screw's length parts them");
+    f("reference", &BallScrewDescription::reference,
+      "place of what the position is measured against, from the fixed bearing on: bed, scale; default: rigid");
     f("preload_temperature", &BallScrewDescription::preload_temperature, dimension::temperature_difference,
       "fixed-fixed: warming that the pretension takes up", Range{0.0, 20.0});
     f("stiffness_fixed", &BallScrewDescription::stiffness_fixed, dimension::stiffness, "of the fixed bearing and seat",

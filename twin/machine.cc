@@ -12,6 +12,7 @@
 #include "thermal/hollow_cylinder.h"
 #include "thermal/lump.h"
 #include "thermal/nearest_name.h"
+#include "twin/carried_bodies.h"
 #include "twin/channel_flow.h"
 #include "twin/influence.h"
 
@@ -96,7 +97,9 @@ class MachineBuilder {
   void read_screws();
   void read_displacement_instruments();
   void build_network();
+  void hang_bodies();
   void add_body(Value const& table, std::string const& name, thermal::Body body);
+  void add_solid(Value const& table, std::string const& name, thermal::Body body, CarriedDescription const& carried);
   thermal::Material const& material(std::string const& name) const;
   void unique(Value const& table, std::string const& kind, std::string const& name);
   void add_segment(Displacement& channel, DisplacementDescription const& description, LoopSegment const& segment);
@@ -111,6 +114,7 @@ class MachineBuilder {
   std::map<std::string, thermal::Body> bodies_;
   std::map<std::string, std::string> material_of_;
   std::vector<std::string> order_;
+  std::map<std::string, CarriedDescription> carried_;
   std::unique_ptr<Assembly> assembly_;
   std::set<std::pair<std::string, std::string>> names_;
 };
@@ -234,6 +238,12 @@ void MachineBuilder::add_body(Value const& table, std::string const& name, therm
   order_.push_back(name);
 }
 
+void MachineBuilder::add_solid(Value const& table, std::string const& name, thermal::Body body,
+                               CarriedDescription const& carried) {
+  add_body(table, name, std::move(body));
+  carried_[name] = carried;
+}
+
 void MachineBuilder::read_bodies() {
   for (auto const& [d, table] : read_list<LumpDescription>("lump"))
     located(*table, [&, &d = d, table = table] {
@@ -245,7 +255,7 @@ void MachineBuilder::read_bodies() {
       lump.mass = d.mass;
       lump.corner = d.corner;
       lump.size = d.size;
-      add_body(*table, d.name, thermal::make_body(d.name, lump));
+      add_solid(*table, d.name, thermal::make_body(d.name, lump), d);
     });
   for (auto const& [d, table] : read_list<BarDescription>("bar"))
     located(*table, [&, &d = d, table = table] {
@@ -253,14 +263,14 @@ void MachineBuilder::read_bodies() {
                        d.outer_diameter,     d.inner_diameter, {},       d.cells};
       if (d.section_diameter) bar.section_area = M_PI / 4.0 * *d.section_diameter * *d.section_diameter;
       material_of_[d.name] = d.material;
-      add_body(*table, d.name, thermal::make_body(d.name, bar));
+      add_solid(*table, d.name, thermal::make_body(d.name, bar), d);
     });
   for (auto const& [d, table] : read_list<HollowCylinderDescription>("hollow_cylinder"))
     located(*table, [&, &d = d, table = table] {
       thermal::HollowCylinder const cylinder{material(d.material), d.origin,         d.axis(),      d.length,
                                              d.outer_diameter,     d.inner_diameter, d.axial_cells, d.radial_cells};
       material_of_[d.name] = d.material;
-      add_body(*table, d.name, thermal::make_body(d.name, cylinder));
+      add_solid(*table, d.name, thermal::make_body(d.name, cylinder), d);
     });
   for (auto const& [d, table] : read_list<BlockDescription>("block"))
     located(*table, [&, &d = d, table = table] {
@@ -269,7 +279,7 @@ void MachineBuilder::read_bodies() {
       thermal::Block const block{
           material(d.material), d.corner, d.size, {int(d.cells[0]), int(d.cells[1]), int(d.cells[2])}, d.solidity};
       material_of_[d.name] = d.material;
-      add_body(*table, d.name, thermal::make_body(d.name, block));
+      add_solid(*table, d.name, thermal::make_body(d.name, block), d);
     });
   for (auto const& [d, table] : read_list<ChannelDescription>("channel"))
     located(*table,
@@ -374,6 +384,10 @@ void MachineBuilder::add_segment(Displacement& channel, DisplacementDescription 
     if (!segment.lever) throw InputError(fmt::format("the lever of rotation '{}' is missing", segment.rotation));
     for (auto const& [node, weight] : it->weights)
       channel.weights.emplace_back(node, segment.weight * *segment.lever * weight);
+    for (auto term : it->input_terms) {
+      term.coefficient *= segment.weight * *segment.lever;
+      channel.input_terms.push_back(std::move(term));
+    }
     return;
   }
   Place const of = assembly_->place(segment.of);
@@ -445,7 +459,15 @@ void MachineBuilder::read_screws() {
       screw.unilateral = d.unilateral;
       screw.released_stiffness = d.released_stiffness;
       screw.edges = body.edges[0];
-      machine_.screws.push_back({d, screw, assembly_->first_node(d.body)});
+      Screw built{d, screw, {}, {}, assembly_->first_node(d.body)};
+      auto const add = [&](NodeWeights& weights, std::string const& text, double length) {
+        if (text.empty()) return;
+        Place const place = assembly_->place(text);
+        add_growth(weights, place, length * expansion_at(place, {}));
+      };
+      add(built.seat_growth, d.seats, screw.length());
+      add(built.reference_strain, d.reference, 1.0);
+      machine_.screws.push_back(std::move(built));
     });
 }
 
@@ -480,6 +502,26 @@ void MachineBuilder::build_network() {
     machine_.geometry.push_back(thermal::geometry_of(bodies_.at(name), assembly_->first_node(name)));
 }
 
+void MachineBuilder::hang_bodies() {
+  std::vector<HungBody> hung;
+  for (auto const& name : order_)
+    if (carried_.contains(name)) {
+      auto const known = material_of_.find(name);
+      double const expansion = known == material_of_.end() ? 0.0 : material(known->second).expansion;
+      hung.push_back({name, carried_.at(name), &bodies_.at(name), assembly_->first_node(name), expansion});
+    }
+  try {
+    machine_.growing = carried_bodies(hung);
+  } catch (InputError const& error) {
+    for (auto const& kind : {"lump", "bar", "hollow_cylinder", "block"})
+      for (auto const& table : list(kind))
+        if (Value const* carrier = table.find("carried_by"); carrier && carrier->is_text())
+          if (quoted(error.what())[0] == std::get<std::string>(carrier->content))
+            throw FileError(carrier->where, error.what());
+    throw;
+  }
+}
+
 Machine MachineBuilder::operator()() {
   check_keys();
   read_head();
@@ -497,6 +539,7 @@ Machine MachineBuilder::operator()() {
   read_screws();
   read_displacement_instruments();
   build_network();
+  hang_bodies();
   return std::move(machine_);
 }
 

@@ -9,6 +9,7 @@
 #include "scenarios/machine_limits.h"
 #include "thermal/ball_screw.h"
 #include "thermal/geometry.h"
+#include "thermal/growth_field.h"
 #include "thermal/network.h"
 #include "twin/assembly.h"
 #include "twin/description.h"
@@ -86,6 +87,7 @@ class Machine {
   std::string name, title;
   scenarios::MachineLimits limits;
   thermal::Geometry geometry;
+  std::vector<thermal::GrowingBody> growing;  ///< the solids, for the displacements that fields show
   std::vector<Sensor> sensors;
   std::vector<Displacement> displacements;
   std::vector<Screw> screws;

@@ -73,7 +73,8 @@ std::vector<std::string> correlation_names() {
 }
 
 struct Film {
-  std::string name, on, to = "ambient", correlation = "room";
+  std::string name, to = "ambient", correlation = "room";
+  std::vector<std::string> on;
   std::optional<double> area, coefficient, diameter, height;
   double emissivity = thermal::painted_emissivity;
   std::string speed = "spindle.speed";
@@ -81,7 +82,7 @@ struct Film {
   template <class Fields>
   static void fields(Fields& f) {
     f.name("name", &Film::name, "unique among the films");
-    f.name("on", &Film::on, "surface");
+    f("on", &Film::on, "surface; several: they share the area as drawn");
     f("to", &Film::to, "\"ambient\", the room air at each cell's height, or the body of a fluid");
     f.choice("correlation", &Film::correlation, correlation_names(), "how the coefficient is found");
     f("area", &Film::area, dimension::area, "default: that of the surface; a lump has none of its own", positive);
@@ -95,10 +96,21 @@ struct Film {
   }
 
   void add_to(Assembly& assembly) const {
-    Place place = assembly.surface(on);
-    if (area) place.site = thermal::with_area(place.site, *area);
-    if (!(place.area() > 0.0))
-      throw thermal::InputError("film '" + name + "': '" + on + "' has no area of its own; give one");
+    if (on.empty()) throw thermal::InputError("film '" + name + "' needs a surface: on = \"head.x_max\"");
+    std::vector<Place> places;
+    double drawn = 0.0;
+    for (auto const& text : on) drawn += places.emplace_back(assembly.surface(text)).area();
+    for (auto& place : places) {
+      double const share = drawn > 0.0 ? place.area() / drawn : 1.0 / double(places.size());
+      if (area) place.site = thermal::with_area(place.site, *area * share);
+      if (!(place.area() > 0.0))
+        throw thermal::InputError("film '" + name + "': '" + place.text + "' has no area of its own; give one");
+      add_to(assembly, place);
+    }
+  }
+
+ private:
+  void add_to(Assembly& assembly, Place const& place) const {
     bool const rotating = correlation.starts_with("rotating") || correlation == "fan";
     // The speed of a film that does not rotate is asked from a channel that every course has.
     int const input = assembly.channel(rotating ? speed : "ambient.floor_temperature");
@@ -107,8 +119,6 @@ struct Film {
                              {assembly.node(place, contact.node), fluid(assembly, contact.centre.z())},
                              {contact.area, contact.half_resistance, size(), needed(), emissivity}, {input});
   }
-
- private:
   [[nodiscard]] thermal::Port fluid(Assembly& assembly, double z) const {
     return to == "ambient" ? assembly.air(z) : assembly.port(to);
   }
