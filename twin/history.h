@@ -15,16 +15,18 @@ struct History {
 
   Machine const* machine;
   std::vector<double> time;
-  std::vector<std::vector<double>> sensor_body;   ///< per row, per sensor: temperature of its site [K]
-  std::vector<std::vector<double>> sensor_air;    ///< per row, per sensor: air at its height [K]
-  std::vector<std::vector<double>> displacement;  ///< per row, per channel of displacement [m, rad]
-  std::vector<std::vector<double>> screw_rise;    ///< per row, cells of all screws one after another [K]
-  std::vector<double> spindle_speed;              ///< [rad/s]
-  std::vector<double> air;                        ///< near the tool [K]
+  std::vector<std::vector<double>> sensor_body;      ///< per row, per sensor: temperature of its site [K]
+  std::vector<std::vector<double>> sensor_air;       ///< per row, per sensor: air at its height [K]
+  std::vector<std::vector<double>> displacement;     ///< per row, per channel of displacement [m, rad]
+  std::vector<std::vector<double>> screw_rise;       ///< per row, cells of all screws one after another [K]
+  std::vector<std::vector<double>> screw_seats;      ///< per row, per screw: its seats have parted by [m]
+  std::vector<std::vector<double>> screw_reference;  ///< per row, per screw: strain of what it is measured against [1]
+  std::vector<double> spindle_speed;                 ///< [rad/s]
+  std::vector<double> air;                           ///< near the tool [K]
 
   [[nodiscard]] Eigen::VectorXd times() const;
   [[nodiscard]] Eigen::VectorXd column(std::vector<std::vector<double>> const& rows, std::size_t index) const;
-  /// E(x) of a ball screw at row r [m].
+  /// E(x) of a ball screw at row r, against its reference [m] (physics.md 3.8).
   [[nodiscard]] double position_error(std::size_t screw, double x, std::size_t row) const;
 };
 
