@@ -1,6 +1,8 @@
 #pragma once
 
 #include "thermal/channel_flow.h"
+#include "thermal/dual.h"
+#include "thermal/dual.h"
 #include "thermal/fluid.h"
 
 namespace thermotwin::thermal {
