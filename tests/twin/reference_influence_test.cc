@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
+#include "tests/output/temporary_directory.h"
 #include "thermal/block.h"
 #include "thermal/material.h"
 #include "twin/calculix.h"
 #include "twin/elastic_mesh.h"
 #include "twin/elastic_solution.h"
+#include "twin/machine.h"
+#include "twin/needed_solution.h"
 
 // Influence weights against closed forms and against a direct thermal-stress run of CalculiX (physics.md §9: V5, V5b,
 // V14).
@@ -124,6 +127,60 @@ TEST(ReferenceInfluence, ErrorOfAStronglyCurvedFieldFallsWithTheCells) {
   double const fine = std::abs(by_weights(block(4), load, warm) / direct - 1.0);
   EXPECT_LT(fine, 0.008);
   EXPECT_LT(fine, 0.1 * coarse);
+}
+
+constexpr char const* column_and_head = R"(
+name = "frame"
+[[block]]
+name = "column"
+material = "GJL-300"
+corner = ["-300 mm", "500 mm", "-200 mm"]
+size = ["600 mm", "400 mm", "1200 mm"]
+cells = [4, 3, 8]
+[[block]]
+name = "head"
+material = "GJL-300"
+corner = ["-200 mm", "-200 mm", "500 mm"]
+size = ["400 mm", "700 mm", "400 mm"]
+cells = [3, 5, 3]
+[[film]]
+name = "air"
+on = ["column.y_max", "head.z_max"]
+correlation = "room"
+)";
+
+std::string channels() {
+  std::string text;
+  for (auto const* direction : {"x", "y", "z"})
+    text += fmt::format(R"(
+[[displacement]]
+name = "E_{0}"
+direction = "{0}"
+influence = [
+  {{ body = "column", fixed = "z_min", loaded = "y_min[0.1 m .. 0.5 m, 0.7 m .. 1.1 m]", point = {1} }},
+  {{ body = "head", fixed = "y_max", loaded = "z_min[0.12 m .. 0.28 m, 0.12 m .. 0.28 m]", point = {1} }},
+]
+)",
+                        direction, R"(["50 mm", "0 mm", "300 mm"])");
+  return text;
+}
+
+TEST(ReferenceInfluence, LoopOfBlocksAtOneTemperatureClosesInAMachineWhoseWeightsWereSolved) {
+  tests::TemporaryDirectory const directory;
+  auto const file = directory / "frame.toml";
+  tests::put(file, column_and_head + channels());
+  std::ostringstream progress;
+  EXPECT_EQ(write_weights(file, progress), 12);
+  EXPECT_EQ(write_weights(file, progress), 0);
+  auto const machine = Machine::read(file);
+  // From the middle of the column's foot (0, 700, −200) to its guide (0, 500, 700), and on from the back of the head
+  // (0, 500, 700) to the seat under it (0, 0, 500).
+  Vector3d const way = Vector3d(0.0, -200e-3, 900e-3) + Vector3d(0.0, -500e-3, -200e-3);
+  for (int d = 0; d < 3; ++d) {
+    double sum = 0.0;
+    for (auto const& [node, weight] : machine.displacements[std::size_t(d)].weights) sum += weight;
+    EXPECT_NEAR(sum, 10.5e-6 * way[d], 10.5e-6 * 1e-6) << d;
+  }
 }
 
 }  // namespace
