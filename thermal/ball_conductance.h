@@ -84,14 +84,16 @@ S rotating_ball_conductance(BallBearing const& b, S const& angular_speed) {
 }
 
 /// What Jungnickel's contact model needs to know of the elements between two raceways.
-struct RollingElements {
-  double count = 0.0;
-  double radius = 0.0;                           ///< r_b [m]
-  double pitch_radius = 0.0;                     ///< r_m [m]; for a guide 1: the velocity then stands for ω
-  bool four_point = false;                       ///< two contacts on either side
-  double conductivity = 32.8;                    ///< of the steel [W/(m K)]
-  double diffusivity = 32.8 / (7850.0 * 480.0);  ///< of the steel [m²/s]
+template <class Real>
+struct RollingElementsOf {
+  Real count{0.0};
+  Real radius{0.0};                           ///< r_b [m]
+  Real pitch_radius{0.0};                     ///< r_m [m]; for a guide 1: the velocity then stands for ω
+  bool four_point = false;                    ///< two contacts on either side
+  Real conductivity{32.8};                    ///< of the steel [W/(m K)]
+  Real diffusivity{32.8 / (7850.0 * 480.0)};  ///< of the steel [m²/s]
 };
+using RollingElements = RollingElementsOf<double>;
 
 [[nodiscard]] inline RollingElements rolling_elements(BallBearing const& b) {
   return {static_cast<double>(b.balls), b.ball_radius(), b.pitch_radius()};
@@ -107,8 +109,8 @@ struct RollingElements {
 ///   g_f = 0.22 k_oil r_b W^0.83 U^{−0.67}, U = η ω r_m/(2 E' r_b)   oil film,
 /// F force on one contact [N], W = F/(E' r_b²), η dynamic viscosity [Pa s], k_oil [W/(m K)].
 /// Source: Jungnickel 2010, p. 175.
-template <class S>
-S contact_model_conductance(RollingElements const& e, S const& force, S const& oil_conductivity,
+template <class S, class Real>
+S contact_model_conductance(RollingElementsOf<Real> const& e, S const& force, S const& oil_conductivity,
                             S const& dynamic_viscosity, S const& angular_speed) {
   using std::pow;
   using std::sqrt;

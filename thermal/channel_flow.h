@@ -93,13 +93,13 @@ S dittus_boelter_nusselt(S const& reynolds, S const& prandtl, FluidIs fluid_is) 
 /// `laminar` below Re_l, `turbulent` above Re_t, between them linear from the value at one end to that at the other,
 /// with both kinks rounded over `regime_width`. The laws are callables of Re.
 template <class S, class Laminar, class Turbulent>
-S transition(S const& reynolds, double laminar_end, double turbulent_start, Laminar const& laminar,
+S transition(S const& reynolds, S const& laminar_end, double turbulent_start, Laminar const& laminar,
              Turbulent const& turbulent) {
-  S const first = laminar(S(laminar_end));
+  S const first = laminar(laminar_end);
   S const last = turbulent(S(turbulent_start));
   S const between = first + (last - first) * ((reynolds - laminar_end) / (turbulent_start - laminar_end));
-  S const lower = change_of_regime<S>(laminar(reynolds), between, reynolds, laminar_end);
-  S const fast = smooth_max<S>(reynolds, S(laminar_end), 0.01 * laminar_end);
+  S const lower = change_of_regime<S>(laminar(reynolds), between, reynolds / laminar_end, 1.0);
+  S const fast = laminar_end * smooth_max<S>(reynolds / laminar_end, S(1.0), 0.01);
   return change_of_regime<S>(lower, turbulent(fast), reynolds, turbulent_start);
 }
 
@@ -111,7 +111,7 @@ inline constexpr Validity channel_reynolds_range{0.0, 1e6};
 template <class S>
 S channel_nusselt(S const& reynolds, S const& prandtl, S const& diameter_to_length) {
   return transition<S>(
-      reynolds, laminar_end_reynolds, turbulent_start_reynolds,
+      reynolds, S(laminar_end_reynolds), turbulent_start_reynolds,
       [&](S const& re) { return laminar_nusselt<S>(re, prandtl, diameter_to_length); },
       [&](S const& re) { return gnielinski_nusselt<S>(re, prandtl, diameter_to_length); });
 }
@@ -125,8 +125,10 @@ S helix_curvature_diameter(S const& winding_diameter, S const& pitch) {
 
 /// Re_cr = 2300 [1 + 8.6 (d/D)^0.45]: end of laminar flow in a helix of curvature diameter D. Source: VDI Heat Atlas
 /// Gc.
-[[nodiscard]] inline double helix_laminar_end(double curvature) {
-  return 2300.0 * (1.0 + 8.6 * std::pow(curvature, 0.45));
+template <class S>
+S helix_laminar_end(S const& curvature) {
+  using std::pow;
+  return 2300.0 * (1.0 + 8.6 * pow(curvature, 0.45));
 }
 inline constexpr double helix_turbulent_start = 2.2e4;
 inline constexpr Validity helix_reynolds_range{0.0, 1e5};
@@ -134,14 +136,15 @@ inline constexpr Validity helix_reynolds_range{0.0, 1e5};
 /// Nu(Re) of a helical jacket, `curvature` = d_h/D: laminar 3.66 + 0.08 [1 + 0.8 (d/D)^0.9] Re^m Pr^{1/3},
 /// m = 0.5 + 0.2903 (d/D)^0.194, up to Re_cr; turbulent petukhov(0.3164 Re^{−1/4} + 0.03 √(d/D)) from 2.2e4.
 template <class S>
-S helix_nusselt(S const& reynolds, S const& prandtl, double curvature) {
+S helix_nusselt(S const& reynolds, S const& prandtl, S const& curvature) {
   using std::cbrt;
   using std::pow;
-  double const exponent = 0.5 + 0.2903 * std::pow(curvature, 0.194);
-  double const swirl = 0.08 * (1.0 + 0.8 * std::pow(curvature, 0.9));
-  double const bend = 0.03 * std::sqrt(curvature);
+  using std::sqrt;
+  S const exponent = 0.5 + 0.2903 * pow(curvature, 0.194);
+  S const swirl = 0.08 * (1.0 + 0.8 * pow(curvature, 0.9));
+  S const bend = 0.03 * sqrt(curvature);
   return transition<S>(
-      reynolds, helix_laminar_end(curvature), helix_turbulent_start,
+      reynolds, helix_laminar_end<S>(curvature), helix_turbulent_start,
       [&](S const& re) { return 3.66 + swirl * pow(re, exponent) * cbrt(prandtl); },
       [&](S const& re) { return petukhov_nusselt<S>(0.3164 * pow(re, -0.25) + bend, re, prandtl); });
 }
@@ -169,10 +172,10 @@ S channel_film(Medium const& medium, S const& wall, S const& fluid, S const& vol
 /// h [W/(m² K)] in a helical jacket; D curvature diameter [m].
 template <class S, class Medium>
 S helix_film(Medium const& medium, S const& wall, S const& fluid, S const& volume_flow, S const& area,
-             double hydraulic_diameter, double curvature_diameter) {
+             S const& hydraulic_diameter, S const& curvature_diameter) {
   FluidProperties<S> const bulk = properties(medium, fluid);
-  S const reynolds = channel_reynolds<S>(volume_flow, area, S(hydraulic_diameter), bulk.kinematic_viscosity);
-  S const nusselt = helix_nusselt<S>(reynolds, bulk.prandtl, hydraulic_diameter / curvature_diameter);
+  S const reynolds = channel_reynolds<S>(volume_flow, area, hydraulic_diameter, bulk.kinematic_viscosity);
+  S const nusselt = helix_nusselt<S>(reynolds, bulk.prandtl, S(hydraulic_diameter / curvature_diameter));
   S const near_wall = wall_correction<S>(bulk.prandtl, properties(medium, wall).prandtl, helix_wall_exponent);
   return nusselt * near_wall * bulk.conductivity / hydraulic_diameter;
 }

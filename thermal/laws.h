@@ -27,6 +27,17 @@ struct Conductance {
   }
 };
 
+/// q = u G (T₁ − T₀): a conductance that a flag opens: air that blows, coolant that floods. c = {G [W/K]}, u = {flag}.
+struct SwitchedConductance {
+  static constexpr std::string_view name = "switched conductance";
+  static constexpr int ports = 2, coefficients = 1, inputs = 1;
+  static constexpr bool conservative = true;
+  template <class S>
+  static void flows(S const* T, S const* c, double const* u, S* q) {
+    exchange<S>(u[0] * c[0] * (T[1] - T[0]), q);
+  }
+};
+
 /// Conduction with k = k₂₀ (1 + b (T − 20 °C)) through equal material on both sides: exact for steady one-dimensional
 /// flow, since ∫k dT = k(½(T₀+T₁)) ΔT for a linear k (Kirchhoff transform). c = {G at 20 °C [W/K], b [1/K]}.
 struct TemperatureDependentConductance {

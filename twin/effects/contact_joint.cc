@@ -25,8 +25,10 @@ struct ContactJoint {
     f.name("to", &P::to, "other side");
     f.choice("model", &P::model, {"cooper_mikic_yovanovich", "jungnickel"}, "which of the two equations");
     f("pressure", &P::pressure, dimension::pressure, "between the sides: of the bolts' pressure cone", Range{1e5, 2e7});
-    f("area", &P::area, dimension::area, "of contact, where the places have none or touch in part: 2.5 to 3 bolt heads "
-      "wide", Range{1e-5, 5.0});
+    f("area", &P::area, dimension::area,
+      "of contact, where the places have none or touch in part: 2.5 to 3 bolt heads "
+      "wide",
+      Range{1e-5, 5.0});
     f("from_conductivity", &P::from_conductivity, dimension::conductivity, "of one side's metal", Range{1, 400});
     f("to_conductivity", &P::to_conductivity, dimension::conductivity, "of the other side's metal", Range{1, 400});
     f("gap_conductivity", &P::gap_conductivity, dimension::conductivity, "of what fills the gaps: air 0.026, oil 0.13",

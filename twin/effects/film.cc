@@ -25,6 +25,26 @@ struct FilmLaw {
   }
 };
 
+/// Forced and free convection of a horizontal cylinder together.
+template <class S>
+S with_free_cylinder(S const& forced, S const& surface, S const& fluid, S const& diameter) {
+  return thermal::assisting_convection<S>(forced, thermal::horizontal_cylinder_film<S>(surface, fluid, diameter));
+}
+
+template <class S, class Nusselt>
+S forced_cylinder(S const& surface, S const& fluid, S const& diameter, double speed, Nusselt nusselt) {
+  auto const air = thermal::properties(thermal::Air{}, S(0.5 * (surface + fluid)));
+  S const reynolds = thermal::cylinder_reynolds<S>(S(speed), diameter, air.kinematic_viscosity);
+  return nusselt(reynolds, air.prandtl) * air.conductivity / diameter;
+}
+
+template <class S>
+S jungnickel_plate(S const& surface, S const& fluid, S const& height) {
+  auto const air = thermal::properties(thermal::Air{}, S(0.5 * (surface + fluid)));
+  S const rayleigh = thermal::rayleigh<S>(air, surface - fluid, height);
+  return thermal::jungnickel_vertical_plate_nusselt<S>(rayleigh) * air.conductivity / height;
+}
+
 #define THERMOTWIN_CORRELATION(Name, title, expression)                                                       \
   struct Name {                                                                                               \
     static constexpr std::string_view name = title;                                                           \
@@ -43,6 +63,24 @@ THERMOTWIN_CORRELATION(RotatingCylinder, "rotating cylinder",
                        (thermal::rotating_cylinder_film<S>(surface, fluid, size, S(speed))))
 THERMOTWIN_CORRELATION(RotatingDisc, "rotating disc",
                        (thermal::rotating_disc_film<S>(surface, fluid, 0.5 * size, S(speed))))
+THERMOTWIN_CORRELATION(JungnickelCylinder, "rotating cylinder after Jungnickel",
+                       (with_free_cylinder<S>(thermal::jungnickel_cylinder_film<S>(S(speed), 0.5 * size), surface,
+                                              fluid, size)))
+THERMOTWIN_CORRELATION(AndersonSaundersCylinder, "rotating cylinder after Anderson and Saunders",
+                       (with_free_cylinder<S>(forced_cylinder<S>(surface, fluid, size, speed,
+                                                                 [](S const& Re, S const&) {
+                                                                   return thermal::anderson_saunders_nusselt<S>(Re);
+                                                                 }),
+                                              surface, fluid, size)))
+THERMOTWIN_CORRELATION(SlowCylinder, "slowly rotating cylinder",
+                       (with_free_cylinder<S>(forced_cylinder<S>(surface, fluid, size, speed,
+                                                                 [](S const& Re, S const& Pr) {
+                                                                   return thermal::slow_cylinder_nusselt<S>(Re, Pr);
+                                                                 }),
+                                              surface, fluid, size)))
+THERMOTWIN_CORRELATION(JungnickelDisc, "rotating disc after Jungnickel",
+                       (thermal::jungnickel_disc_film<S>(S(speed), 0.5 * size)))
+THERMOTWIN_CORRELATION(JungnickelPlate, "vertical plate after Jungnickel", (jungnickel_plate<S>(surface, fluid, size)))
 THERMOTWIN_CORRELATION(VerticalPlate, "vertical plate", (thermal::vertical_plate_film<S>(surface, fluid, size)))
 THERMOTWIN_CORRELATION(PlateUp, "horizontal plate facing up",
                        (thermal::horizontal_plate_film<S>(thermal::Facing::up, surface, fluid, size)))
@@ -59,6 +97,11 @@ std::map<std::string, std::shared_ptr<thermal::Law const>> const& correlations()
       {"fan", thermal::law_of<FilmLaw<Fan>>()},
       {"rotating_cylinder", thermal::law_of<FilmLaw<RotatingCylinder>>()},
       {"rotating_disc", thermal::law_of<FilmLaw<RotatingDisc>>()},
+      {"rotating_cylinder_jungnickel", thermal::law_of<FilmLaw<JungnickelCylinder>>()},
+      {"rotating_cylinder_anderson", thermal::law_of<FilmLaw<AndersonSaundersCylinder>>()},
+      {"rotating_cylinder_slow", thermal::law_of<FilmLaw<SlowCylinder>>()},
+      {"rotating_disc_jungnickel", thermal::law_of<FilmLaw<JungnickelDisc>>()},
+      {"vertical_plate_jungnickel", thermal::law_of<FilmLaw<JungnickelPlate>>()},
       {"vertical_plate", thermal::law_of<FilmLaw<VerticalPlate>>()},
       {"plate_facing_up", thermal::law_of<FilmLaw<PlateUp>>()},
       {"plate_facing_down", thermal::law_of<FilmLaw<PlateDown>>()},
@@ -123,7 +166,7 @@ struct Film {
     return to == "ambient" ? assembly.air(z) : assembly.port(to);
   }
   [[nodiscard]] double size() const {
-    bool const round = correlation.find("cylinder") != std::string::npos || correlation == "rotating_disc";
+    bool const round = correlation.find("cylinder") != std::string::npos || correlation.starts_with("rotating_disc");
     bool const plate = correlation.find("plate") != std::string::npos;
     if (!round && !plate) return 1.0;
     auto const& given = round ? diameter : height;
@@ -141,17 +184,21 @@ struct Film {
 }  // namespace
 
 Effect const& film_effect() {
-  static Effect const effect =
-      make_effect<Film>({"film", "convection and radiation from a surface to the room or to a fluid",
-                         "q = h A (T_fluid − T_surface), in series with the half cell of a discretised body. room: h = "
-                         "1.7·1.3 |ΔT|^(1/3) + "
-                         "0.8 ε 4σ T_m³;  rotating cylinder: Nu = (Nu_f³ + Nu_n³)^(1/3), Nu_f = 0.133 Re^(2/3) "
-                         "Pr^(1/3), Nu_n Churchill & "
-                         "Chu;  fan: constant while it runs, room film otherwise",
-                         "film", "any surface",
-                         "sink proportional to T − T_air; sets the slow time constants; a rotating surface cools with "
-                         "speed^0.67 and stops cooling when it stops",
-                         "physics.md 2.5, 2.6 (2.6), (2.8); Becker 1963; Churchill & Chu 1975; Jungnickel 2010"});
+  static Effect const effect = make_effect<Film>(
+      {"film", "convection and radiation from a surface to the room or to a fluid",
+       "q = h A (T_fluid − T_surface), in series with the half cell of a discretised body. room: h = 1.7·1.3 "
+       "|ΔT|^(1/3) + "
+       "0.8 ε 4σ T_m³;  rotating_cylinder: Nu = (Nu_f³ + Nu_n³)^(1/3), Nu_f = 0.133 Re^(2/3) Pr^(1/3) (anderson: 0.10 "
+       "Re^(2/3); slow: 0.683 Re^0.466 Pr^(1/3); jungnickel: h = 3.75 ω^0.7 R^0.4), Nu_n Churchill & Chu;  "
+       "rotating_disc: "
+       "Nu = 0.36 Re^(1/2), turbulent 0.015 Re^0.8 (jungnickel: h = 2.73 ω^0.8 R^0.6), 0 at rest;  vertical_plate: "
+       "Churchill & Chu (jungnickel: 0.55 Ra^(1/4), 0.14 Ra^(1/3));  fan: constant while it runs, room film otherwise",
+       "film", "any surface",
+       "sink proportional to T − T_air; sets the slow time constants; a rotating surface cools with speed^0.67 and "
+       "stops "
+       "cooling when it stops",
+       "physics.md 2.5, 2.6 (2.6), (2.8); Becker 1963; Anderson & Saunders 1953; Churchill & Chu 1975; Jungnickel "
+       "2010"});
   return effect;
 }
 

@@ -11,8 +11,8 @@ namespace thermotwin::twin {
 namespace {
 
 /// q = A (T₁ − T₀)/(1/h + A R), h(g) = k/(½ g₊ + ξ) + H (K (−g)₊)^0.95, g = g₀ − D (α₀ θ₀ − α₁ θ₁).
-/// Ports: inner, outer part. c = {A, R of both half cells, g₀, D, α₀, α₁, T_assembly, k, ξ, h of contact at 1 Pa, Pa per m
-/// of interference}.
+/// Ports: inner, outer part. c = {A, R of both half cells, g₀, D, α₀, α₁, T_assembly, k, ξ, h of contact at 1 Pa, Pa
+/// per m of interference}.
 struct FitLaw {
   static constexpr std::string_view name = "fit with clearance";
   static constexpr int ports = 2, coefficients = 11, inputs = 0;
@@ -52,8 +52,8 @@ struct FitPart {
       Range{-5e-6, 20e-6});
     f("inner_bore", &P::inner_bore, dimension::length, "of the inner part", Range{0.0, 1.0});
     f("outer_diameter", &P::outer_diameter, dimension::length, "of the outer part's outside", Range{0.005, 2.0});
-    f("gap_conductivity", &P::gap_conductivity, dimension::conductivity, "of what fills the gap: air 0.026, grease 0.14",
-      Range{0.02, 0.3});
+    f("gap_conductivity", &P::gap_conductivity, dimension::conductivity,
+      "of what fills the gap: air 0.026, grease 0.14", Range{0.02, 0.3});
     f("separation", &P::separation, dimension::length, "mean distance of surfaces that touch without pressure",
       Range{0.3e-6, 10e-6});
     f("roughness", &P::roughness, dimension::length, "root of both squared rms heights", Range{0.1e-6, 10e-6});
@@ -99,7 +99,8 @@ struct FitPart {
 Effect const& fit_effect() {
   static Effect const effect = make_effect<FitPart>(
       {"fit", "conduction from a ring into its seat, which changes as the clearance opens or closes",
-       "q = h(g) π D b (T_outer − T_inner);  g = g0 − D (α_i θ_i − α_o θ_o);  clearance: h = k/(g/2 + ξ);  interference: "
+       "q = h(g) π D b (T_outer − T_inner);  g = g0 − D (α_i θ_i − α_o θ_o);  clearance: h = k/(g/2 + ξ);  "
+       "interference: "
        "besides 1.25 (k_s m/σ)(p/H)^0.95, p = −g/{D [(C_o + ν_o)/E_o + (C_i − ν_i)/E_i]}",
        "link", "bearing ring and housing, bearing ring and shaft",
        "difference across the seat curved over the heat flow; warm-up and cool-down differ; all neighbours see it",

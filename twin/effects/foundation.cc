@@ -30,8 +30,8 @@ struct Foundation : GivenTemperature {
 
 Effect const& foundation_effect() {
   static Effect const effect = make_effect<Foundation>(
-      {"foundation", "conduction through feet and foundation into soil of its own temperature",
-       "q = G (T_soil − T)", "boundary", "underside of the bed",
+      {"foundation", "conduction through feet and foundation into soil of its own temperature", "q = G (T_soil − T)",
+       "boundary", "underside of the bed",
        "drift over days and weeks, bottom of the bed first; does not follow spindle or room", "physics.md §7 no. 40"});
   return effect;
 }

@@ -17,17 +17,16 @@ struct GivenTemperature {
   template <class Owner, class Fields>
   static void fields_of(Fields& f) {
     f.temperature("temperature", &Owner::temperature, "of the other side, where it is constant");
-    f("follows", &Owner::follows, "instead: input channel with that temperature");
+    f("follows", &Owner::follows, "where it is not constant: input channel with that temperature");
     f("offset", &Owner::offset, dimension::temperature_difference, "added to the temperature of that channel",
       Range{-20, 20});
   }
 
-  /// InputError that begins with `owner` where neither or both are given.
+  /// InputError that begins with `owner` where neither is given.
   [[nodiscard]] thermal::Port port(Assembly& assembly, std::string const& owner) const {
-    if (temperature.has_value() == !follows.empty())
-      throw thermal::InputError(owner + " needs either a temperature or an input channel that it follows");
-    if (!temperature) return assembly.boundary(follows, offset);
-    return assembly.network().add_boundary({owner, *temperature, {}});
+    if (temperature) return assembly.network().add_boundary({owner, *temperature, {}});
+    if (follows.empty()) throw thermal::InputError(owner + " needs a temperature or an input channel that it follows");
+    return assembly.boundary(follows, offset);
   }
 };
 

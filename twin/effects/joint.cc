@@ -5,6 +5,7 @@
 #include "thermal/error.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/effects/joint_side.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -32,7 +33,7 @@ struct Joint {
   }
 
   void add_to(Assembly& assembly) const {
-    Place const a = side(assembly, from), b = side(assembly, to);
+    Place const a = joint_side(assembly, from), b = joint_side(assembly, to);
     auto& network = assembly.network();
     if (welded) return weld(network, assembly.part(), a.site, b.site);
     if (conductance) return connect(network, assembly.part(), a.site, b.site, series(*conductance));
@@ -44,16 +45,6 @@ struct Joint {
 
  private:
   [[nodiscard]] double series(double g) const { return in_series ? 1.0 / (1.0 / g + 1.0 / *in_series) : g; }
-
-  /// A cylinder or block is met at the face that is named; without one, at its cells.
-  static Place side(Assembly& assembly, std::string const& text) {
-    Place place = assembly.place(text);
-    bool const plain = text.find('.') == std::string::npos || text.find('.') > text.find('[');
-    if (plain && place.body->shape == thermal::Body::Shape::axial && place.body->faces.contains("surface") &&
-        place.site.contacts.size() > 1)
-      return assembly.surface(text);
-    return place;
-  }
 };
 
 }  // namespace

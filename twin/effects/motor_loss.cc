@@ -14,8 +14,8 @@ struct NoLoadLoss {
   template <class S>
   static void flows(S const*, S const* c, double const* u, S* q) {
     if (u[1] <= 0.0) return;
-    S const ratio = u[0] / c[4];
-    q[0] = u[1] * (c[0] + thermal::iron_loss_with_field_weakening<S>(c[1], c[2], ratio, thermal::value_of(c[3])));
+    S const base = c[3], ratio = u[0] / (c[4] * base);  // in units of the base speed
+    q[0] = u[1] * (c[0] + thermal::iron_loss_with_field_weakening<S>(c[1] * base, c[2] * base * base, ratio, 1.0));
   }
 };
 

@@ -1,6 +1,7 @@
+#include "thermal/preload.h"
+
 #include <cmath>
 
-#include "thermal/preload.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
 
@@ -69,11 +70,9 @@ struct Preload {
     f("housing_expansion", &P::housing_expansion, dimension::expansion, "of the housing", Range{3e-6, 24e-6});
     f("shaft", &P::shaft, "stretch of the shaft between the bearings; default: the inner rings' place");
     f("housing", &P::housing, "stretch of the housing between the bearings; default: the outer rings' place");
-    f("span", &P::span, dimension::length, "between the bearings that are braced against each other",
-      Range{0.0, 2.0});
+    f("span", &P::span, dimension::length, "between the bearings that are braced against each other", Range{0.0, 2.0});
     f.temperature("assembly_temperature", &P::assembly_temperature, "at which the initial preload holds");
-    f("inner_share", &P::inner_share, dimension::dimensionless, "of the heat, into the inner rings",
-      Range{0.0, 1.0});
+    f("inner_share", &P::inner_share, dimension::dimensionless, "of the heat, into the inner rings", Range{0.0, 1.0});
   }
 
   void add_to(Assembly& assembly) const {
@@ -113,8 +112,10 @@ struct Preload {
 
 Effect const& preload_effect() {
   static Effect const effect = make_effect<Preload>(
-      {"preload", "heat that a rigidly preloaded bearing makes more, or less, as temperature and speed change its preload",
-       "ΔQ = M1 [(F/F0)^(1+y) − 1] ω;  F/F0 = (1 + δ/δ0)₊^(3/2);  δ = cos α [α_b (r_i θ_i − r_o θ_o) + u(ω)] + α_b D_b θ_b "
+      {"preload",
+       "heat that a rigidly preloaded bearing makes more, or less, as temperature and speed change its preload",
+       "ΔQ = M1 [(F/F0)^(1+y) − 1] ω;  F/F0 = (1 + δ/δ0)₊^(3/2);  δ = cos α [α_b (r_i θ_i − r_o θ_o) + u(ω)] + α_b D_b "
+       "θ_b "
        "∓ ½ sin α [α_s ∫θ_s dz − α_h ∫θ_h dz];  δ0 = 4.36e-4 mm (Q²/D_b)^(1/3), Q in N, D_b in mm",
        "source", "both rings of a bearing with rigid preload",
        "grows with T_i − T_o: bearing temperature overshoots 5…30 min after a start, power of speed 1.5 to 2.5; little "

@@ -1,6 +1,7 @@
+#include "thermal/radiation.h"
+
 #include "thermal/error.h"
 #include "thermal/laws.h"
-#include "thermal/radiation.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
 
@@ -58,13 +59,14 @@ struct Radiation {
 }  // namespace
 
 Effect const& radiation_effect() {
-  static Effect const effect = make_effect<Radiation>(
-      {"radiation", "radiation between two surfaces, or from one to the room",
-       "q = σ ε12 A F12 (T2⁴ − T1⁴),  ε12 = ε1 ε2/(1 − (1 − ε1)(1 − ε2) F12 F21)", "link, film",
-       "surfaces that see each other: motor and column, cover and bed; any surface and the room",
-       "proportional to the difference of two temperatures, about 5 W/K per m²; does not follow speed; a room film holds "
-       "radiation already",
-       "physics.md 2.9, §7 no. 23"});
+  static Effect const effect =
+      make_effect<Radiation>({"radiation", "radiation between two surfaces, or from one to the room",
+                              "q = σ ε12 A F12 (T2⁴ − T1⁴),  ε12 = ε1 ε2/(1 − (1 − ε1)(1 − ε2) F12 F21)", "link, film",
+                              "surfaces that see each other: motor and column, cover and bed; any surface and the room",
+                              "proportional to the difference of two temperatures, about 5 W/K per m²; does not follow "
+                              "speed; a room film holds "
+                              "radiation already",
+                              "physics.md 2.9, §7 no. 23"});
   return effect;
 }
 

@@ -93,10 +93,10 @@ struct RotorWindage {
                                  rated_speed.value_or(assembly.maximum_spindle_speed())},
                                 {speed});
     else if (kind == "gap")
-      network.add<GapWindage>(part, {rotor_port, stator_port},
-                              {rotor_share, other_share, 0.5 * given(diameter, "diameter"), given(length, "length"),
-                               given(gap, "gap")},
-                              {speed});
+      network.add<GapWindage>(
+          part, {rotor_port, stator_port},
+          {rotor_share, other_share, 0.5 * given(diameter, "diameter"), given(length, "length"), given(gap, "gap")},
+          {speed});
     else
       network.add<DiscWindage>(part, {rotor_port, stator_port},
                                {rotor_share, other_share, 0.5 * given(diameter, "diameter")}, {speed});
@@ -114,7 +114,8 @@ struct RotorWindage {
 Effect const& rotor_windage_effect() {
   static Effect const effect = make_effect<RotorWindage>(
       {"rotor_windage", "air friction of a motor's rotor in its gap, of a disc or a chuck",
-       "known: P = P_r (ω/ω_r)^m;  gap: P = π C_f ρ ω³ r⁴ L, 1/√C_f = 2.04 + 1.768 ln(Re_δ √C_f);  disc: P = ½ C_M ρ ω³ r⁵, "
+       "known: P = P_r (ω/ω_r)^m;  gap: P = π C_f ρ ω³ r⁴ L, 1/√C_f = 2.04 + 1.768 ln(Re_δ √C_f);  disc: P = ½ C_M ρ "
+       "ω³ r⁵, "
        "C_M = 3.87 Re^(−1/2), turbulent 0.146 Re^(−1/5)",
        "source", "rotor and stator, shaft, chuck",
        "power of speed 3 (2.8 in a turbulent gap): only above 70 % of the maximum speed; does not depend on "

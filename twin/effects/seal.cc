@@ -1,5 +1,6 @@
-#include "thermal/error.h"
 #include "thermal/seal.h"
+
+#include "thermal/error.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
 

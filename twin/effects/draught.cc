@@ -1,0 +1,48 @@
+#include "thermal/error.h"
+#include "thermal/laws.h"
+#include "twin/assembly.h"
+#include "twin/effect.h"
+
+namespace thermotwin::twin {
+namespace {
+
+struct Draught {
+  std::string name, on, while_on = "ambient.door";
+  double coefficient = required;
+  std::optional<double> area;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("name", &Draught::name, "unique among these");
+    f.name("on", &Draught::on, "surface that the air sweeps");
+    f("coefficient", &Draught::coefficient, dimension::film_coefficient,
+      "added to the film that is there: 0.5 to 3 times 8 W/(m2 K)", Range{4, 24});
+    f("area", &Draught::area, dimension::area, "default: that of the surface; a lump has none of its own",
+      Range{0.01, 20.0});
+    f("while_on", &Draught::while_on, "input channel between 0 and 1: an open door, an extraction");
+  }
+
+  void add_to(Assembly& assembly) const {
+    Place place = assembly.surface(on);
+    if (area) place.site = thermal::with_area(place.site, *area);
+    if (!(place.area() > 0.0))
+      throw thermal::InputError("draught '" + name + "': '" + on + "' has no area of its own; give one");
+    for (auto const& contact : place.site.contacts)
+      assembly.network().add<thermal::SwitchedConductance>(
+          assembly.part(), {assembly.node(place, contact.node), assembly.air(contact.centre.z())},
+          {contact.area / (1.0 / coefficient + contact.half_resistance)}, {assembly.channel(while_on)});
+  }
+};
+
+}  // namespace
+
+Effect const& draught_effect() {
+  static Effect const effect = make_effect<Draught>(
+      {"draught", "moving air while a door is open or the enclosure is extracted", "q = u Δh A (T_air − T),  u = 0…1",
+       "film", "table, front of head and column",
+       "comes and goes with the door within minutes, at standstill too; the room's own step is the experiment's",
+       "physics.md 2.13, §7 no. 15"});
+  return effect;
+}
+
+}  // namespace thermotwin::twin
