@@ -126,6 +126,14 @@ Site block_site(Body const& body, PlaceText const& place) {
 
 }  // namespace
 
+Site site_of(Body const& body, std::string const& text) {
+  PlaceText const parsed = parse_place(text);
+  if (parsed.extents.empty()) return parsed.face.empty() ? thermal::whole(body) : thermal::face(body, parsed.face);
+  if (body.shape == Body::Shape::block) return block_site(body, parsed);
+  if (body.shape == Body::Shape::axial) return axial_site(body, parsed);
+  throw InputError(fmt::format("'{}' is a lump: it has no places within", body.name));
+}
+
 double Place::area() const { return site.area(); }
 
 Eigen::Vector3d Place::centre() const {
@@ -152,18 +160,8 @@ thermal::Body const& Assembly::body(std::string const& name) const {
 int Assembly::first_node(std::string const& name) const { return first_nodes_.at(body(name).name); }
 
 Place Assembly::place(std::string const& text) const {
-  PlaceText const parsed = parse_place(text);
-  Body const& found = body(parsed.body);
-  Place place{text, &found, first_nodes_.at(found.name), {}};
-  if (parsed.extents.empty())
-    place.site = parsed.face.empty() ? thermal::whole(found) : thermal::face(found, parsed.face);
-  else if (found.shape == Body::Shape::block)
-    place.site = block_site(found, parsed);
-  else if (found.shape == Body::Shape::axial)
-    place.site = axial_site(found, parsed);
-  else
-    throw InputError(fmt::format("'{}' is a lump: it has no places within", found.name));
-  return place;
+  Body const& found = body(parse_place(text).body);
+  return {text, &found, first_nodes_.at(found.name), site_of(found, text)};
 }
 
 Place Assembly::surface(std::string const& text) const {

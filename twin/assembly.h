@@ -30,6 +30,9 @@ struct Place {
   [[nodiscard]] Eigen::Vector3d centre() const;
 };
 
+/// What a place's text means on its body.
+[[nodiscard]] thermal::Site site_of(thermal::Body const& body, std::string const& text);
+
 /// A term of a displacement channel that follows an input at once: coefficient · u[channel]^power.
 struct InputTerm {
   std::string displacement;

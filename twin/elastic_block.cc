@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <fmt/format.h>
-#include <map>
 
 #include "thermal/error.h"
 #include "twin/assembly.h"
@@ -46,10 +45,8 @@ ElasticBlock elastic_block(thermal::Body const& body, double poisson_ratio, std:
   if (!(poisson_ratio >= 0.0 && poisson_ratio < 0.5))
     throw InputError(
         fmt::format("'{}': the Poisson ratio is {}; it must be from 0 to below 0.5", body.name, poisson_ratio));
-  std::map<std::string, thermal::Body> const bodies = {{body.name, body}};
-  Assembly const places(bodies, {body.name}, 0.0);
   auto const face = [&](std::string const& text) {
-    auto site = places.place(body.name + "." + text).site;
+    auto site = site_of(body, body.name + "." + text);
     if (!(site.area() > 0.0)) throw InputError(fmt::format("'{}' on '{}' has no area", text, body.name));
     return site;
   };
