@@ -18,6 +18,7 @@
 #include "twin/instruments/five_probe_nest.h"
 #include "twin/instruments/laser_interferometer.h"
 #include "twin/instruments/temperature_sensor.h"
+#include "twin/structural_loop.h"
 
 namespace thermotwin::twin {
 
@@ -49,22 +50,11 @@ struct ProbeDescription : DisplacementProbe {
   }
 };
 
-/// Weights over the nodes of the network.
-using NodeWeights = std::vector<std::pair<int, double>>;
-
 /// A sensor as built: what it sees.
 struct Sensor {
   SensorDescription description;
   NodeWeights weights;                      ///< Σ = 1; empty: it hangs in the air
   Eigen::Vector3d position{0.0, 0.0, 0.0};  ///< [m]
-};
-
-/// A channel of displacement [m] or rotation [rad]: Σ wᵢ (Tᵢ(t) − Tᵢ(0)) + Σ c (u(t)^p − u(0)^p).
-struct Displacement {
-  std::string name, title;
-  bool rotation = false;
-  NodeWeights weights;
-  std::vector<InputTerm> input_terms;
 };
 
 /// A ball screw as built: positions at which its error is a channel.

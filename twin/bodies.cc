@@ -1,0 +1,132 @@
+#include "twin/bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "thermal/bar.h"
+#include "thermal/block.h"
+#include "thermal/channel.h"
+#include "thermal/error.h"
+#include "thermal/hollow_cylinder.h"
+#include "thermal/lump.h"
+#include "thermal/nearest_name.h"
+#include "twin/channel_flow.h"
+
+namespace thermotwin::twin {
+
+using thermal::InputError;
+
+Bodies::Bodies(Tables& tables) {
+  read_materials(tables);
+  read_lumps(tables);
+  read_bars(tables);
+  read_cylinders(tables);
+  read_blocks(tables);
+  channels_ = tables.read<ChannelDescription>("channel");
+  for (auto const& [description, table] : channels_)
+    located(*table,
+            [&, &d = description, table = table] { add(*table, d.name, thermal::make_body(d.name, channel_of(d))); });
+}
+
+void Bodies::read_materials(Tables& tables) {
+  for (auto const& [description, table] : tables.read<MaterialDescription>("material"))
+    located(*table, [&, &d = description] {
+      thermal::Material m = thermal::material(d.like);
+      m.name = d.name;
+      if (d.conductivity) m.conductivity = *d.conductivity, m.conductivity_slope = 0.0;
+      if (d.density) m.density = *d.density;
+      if (d.specific_heat) m.specific_heat = *d.specific_heat, m.specific_heat_slope = 0.0;
+      if (d.expansion) m.expansion = *d.expansion;
+      if (d.youngs_modulus) m.youngs_modulus = *d.youngs_modulus;
+      if (d.poisson_ratio) m.poisson_ratio = *d.poisson_ratio;
+      materials_[d.name] = m;
+    });
+}
+
+thermal::Material const& Bodies::material(std::string const& name) const {
+  auto const it = materials_.find(name);
+  if (it != materials_.end()) return it->second;
+  auto names = thermal::material_names();
+  for (auto const& entry : materials_) names.push_back(entry.first);
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw InputError(fmt::format("unknown material '{}'; {}", name, thermal::did_you_mean(name, names)));
+  return thermal::material(name);
+}
+
+CarriedDescription const* Bodies::carried(std::string const& body) const {
+  auto const it = carried_.find(body);
+  return it == carried_.end() ? nullptr : &it->second;
+}
+
+thermal::Material const* Bodies::material_of(std::string const& body) const {
+  auto const it = material_names_.find(body);
+  return it == material_names_.end() ? nullptr : &material(it->second);
+}
+
+thermal::Material const& Bodies::metal_of(std::string const& body) const {
+  if (auto const* known = material_of(body)) return *known;
+  throw InputError(fmt::format("'{}' has no material", body));
+}
+
+void Bodies::add(Value const& table, std::string const& name, thermal::Body body) {
+  if (bodies_.contains(name)) {
+    Value const* place = table.find("name");
+    throw FileError(place ? place->where : table.where, fmt::format("the name '{}' is taken by another body", name));
+  }
+  bodies_[name] = std::move(body);
+  order_.push_back(name);
+}
+
+void Bodies::add_solid(Value const& table, std::string const& name, std::string const& material, thermal::Body body,
+                       CarriedDescription const& carried) {
+  add(table, name, std::move(body));
+  if (!material.empty()) material_names_[name] = material;
+  carried_[name] = carried;
+}
+
+void Bodies::read_lumps(Tables& tables) {
+  for (auto const& [d, table] : tables.read<LumpDescription>("lump"))
+    located(*table, [&, &d = d, table = table] {
+      thermal::Lump lump;
+      if (!d.heat_capacity && (!d.mass || d.material.empty()))
+        throw InputError(fmt::format("lump '{}' needs a mass and a material, or a heat_capacity", d.name));
+      if (!d.material.empty()) lump.material = material(d.material);
+      lump.capacity = d.heat_capacity;
+      lump.mass = d.mass;
+      lump.corner = d.corner;
+      lump.size = d.size;
+      add_solid(*table, d.name, d.material, thermal::make_body(d.name, lump), d);
+    });
+}
+
+void Bodies::read_bars(Tables& tables) {
+  for (auto const& [d, table] : tables.read<BarDescription>("bar"))
+    located(*table, [&, &d = d, table = table] {
+      thermal::Bar bar{material(d.material), d.origin,         d.axis(), d.length,
+                       d.outer_diameter,     d.inner_diameter, {},       d.cells};
+      if (d.section_diameter) bar.section_area = M_PI / 4.0 * *d.section_diameter * *d.section_diameter;
+      add_solid(*table, d.name, d.material, thermal::make_body(d.name, bar), d);
+    });
+}
+
+void Bodies::read_cylinders(Tables& tables) {
+  for (auto const& [d, table] : tables.read<HollowCylinderDescription>("hollow_cylinder"))
+    located(*table, [&, &d = d, table = table] {
+      thermal::HollowCylinder const cylinder{material(d.material), d.origin,         d.axis(),      d.length,
+                                             d.outer_diameter,     d.inner_diameter, d.axial_cells, d.radial_cells};
+      add_solid(*table, d.name, d.material, thermal::make_body(d.name, cylinder), d);
+    });
+}
+
+void Bodies::read_blocks(Tables& tables) {
+  for (auto const& [d, table] : tables.read<BlockDescription>("block"))
+    located(*table, [&, &d = d, table = table] {
+      if (d.cells.size() != 3)
+        throw InputError(fmt::format("'{}': cells has {} entries; three are due", d.name, d.cells.size()));
+      thermal::Block const block{
+          material(d.material), d.corner, d.size, {int(d.cells[0]), int(d.cells[1]), int(d.cells[2])}, d.solidity};
+      add_solid(*table, d.name, d.material, thermal::make_body(d.name, block), d);
+    });
+}
+
+}  // namespace thermotwin::twin
