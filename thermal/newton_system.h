@@ -7,6 +7,7 @@
 
 #include "thermal/evaluation.h"
 #include "thermal/integrate.h"
+#include "thermal/linear_factors.h"
 
 namespace thermotwin::thermal {
 
@@ -30,9 +31,6 @@ class NewtonSystem {
   static constexpr int energies = 4;
 
   NewtonSystem(Network const& network, LinearSolver solver);
-  ~NewtonSystem();
-  NewtonSystem(NewtonSystem const&) = delete;
-  NewtonSystem& operator=(NewtonSystem const&) = delete;
 
   /// J/K of the whole network: the unit of the energies.
   [[nodiscard]] double energy_unit() const { return total_capacity_; }
@@ -53,11 +51,6 @@ class NewtonSystem {
   [[nodiscard]] Eigen::SparseMatrix<double> const& pattern() const { return matrix_; }
 
  private:
-  struct Factors;
-  struct DenseFactors;
-  struct SparseFactors;
-  struct KrylovFactors;
-
   [[nodiscard]] bool factorise(double identity, double gamma);
   void lay_out();
   void keep_balance(Eigen::Ref<Eigen::VectorXd const> const& b, Eigen::Ref<Eigen::VectorXd> x) const;
@@ -78,7 +71,7 @@ class NewtonSystem {
     int mean, share;
   };
   std::vector<std::vector<WeightSlots>> weight_slots_;
-  std::unique_ptr<Factors> factors_;
+  std::unique_ptr<LinearFactors> factors_;
 };
 
 }  // namespace thermotwin::thermal

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+
+#include "thermal/integrate.h"
+
+namespace thermotwin::thermal {
+
+/// A square sparse matrix, factorised exactly or nearly, that solves A x = b many times. All matrices given to one
+/// object have the pattern of the first.
+class LinearFactors {
+ public:
+  LinearFactors() = default;
+  LinearFactors(LinearFactors const&) = delete;
+  LinearFactors& operator=(LinearFactors const&) = delete;
+  virtual ~LinearFactors() = default;
+
+  /// False if the matrix is singular.
+  [[nodiscard]] virtual bool factorise(Eigen::SparseMatrix<double> const& matrix) = 0;
+  /// `tolerance` bounds the 2-norm of the residual where the solution is found by iteration. False if it is not found.
+  [[nodiscard]] virtual bool solve(Eigen::Ref<Eigen::VectorXd const> const& b, double tolerance,
+                                   Eigen::Ref<Eigen::VectorXd> x) = 0;
+};
+
+/// Dense LU, KLU (Davis & Palamadai Natarajan, ACM TOMS 37 (2010) 36), or BiCGSTAB with incomplete LU (van der Vorst
+/// 1992).
+[[nodiscard]] std::unique_ptr<LinearFactors> make_linear_factors(LinearSolver solver);
+
+/// What a sparse LU of this pattern costs: KLU's estimate of its multiplications per nonzero.
+[[nodiscard]] double factorisation_effort(Eigen::SparseMatrix<double> const& pattern);
+
+}  // namespace thermotwin::thermal
