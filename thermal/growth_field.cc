@@ -51,7 +51,7 @@ struct Motion {
 /// One body, held somewhere.
 class Growth {
  public:
-  Growth(GrowingBody const& body, std::span<double const> rise, Motion held) : body_(body), held_(held) {
+  Growth(GrowingBody const& body, std::span<double const> rise, Motion const& held) : body_(body), held_(held) {
     int const directions = body.shape == Body::Shape::axial ? 1 : 3;
     for (int d = 0; d < directions; ++d) add_sections(d, rise);
   }

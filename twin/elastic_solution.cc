@@ -90,7 +90,7 @@ std::vector<double> sum_stresses(thermal::Body const& body, std::string const& p
 
 /// Gauss point of a cell, numbered from 0, x fastest.
 Eigen::Vector3d gauss_point(thermal::Cell const& cell, int point) {
-  Eigen::Vector3d const side(point % 2 - 0.5, point / 2 % 2 - 0.5, point / 4 - 0.5);
+  Eigen::Vector3d const side(point % 2 - 0.5, point / 2 % 2 - 0.5, point / 4 % 2 - 0.5);
   return centre(cell) + std::get<thermal::BoxCell>(cell).edges * side / std::sqrt(3.0);
 }
 
