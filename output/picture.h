@@ -26,6 +26,7 @@ struct PictureOptions {
   /// 1, 2 or 5 times a power of ten.
   std::optional<double> magnification;
   std::vector<SensorMark> sensors;
+  Eigen::Vector3d up{0.0, 0.0, 1.0};  ///< along an axis; with x up, z points right, else x
 };
 
 /// Draws the temperature field on the deformed shape, seen from the front, right and above, and the edges of the shape

@@ -130,11 +130,20 @@ void add_edges(vtkRenderer& renderer, vtkPolyData* surface, Colour const& colour
   renderer.AddActor(actor);
 }
 
+/// Columns: to the right, away from the viewer, up.
+Eigen::Matrix3d axes_of_view(PictureOptions const& options) {
+  Eigen::Matrix3d axes;
+  axes.col(2) = options.up;
+  axes.col(0) = options.up.x() == 0.0 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
 /// Parallel, from the front, right and above; the points fill the part of the picture that the texts leave free.
 void aim(vtkRenderer& renderer, Eigen::Matrix3Xd const& points, PictureOptions const& options) {
   constexpr double left = 0.03, right = 0.84, bottom = 0.05, top = 0.86;
-  Eigen::Vector3d const towards_viewer = Eigen::Vector3d(0.75, -1.0, 0.62).normalized();
-  Eigen::Vector3d const across = Eigen::Vector3d::UnitZ().cross(towards_viewer).normalized();
+  Eigen::Vector3d const towards_viewer = axes_of_view(options) * Eigen::Vector3d(0.75, -1.0, 0.62).normalized();
+  Eigen::Vector3d const across = options.up.cross(towards_viewer).normalized();
   Eigen::Vector3d const up = towards_viewer.cross(across);
   Eigen::RowVectorXd const x = across.transpose() * points, y = up.transpose() * points;
   double const aspect = static_cast<double>(options.width) / options.height;
@@ -150,7 +159,7 @@ void aim(vtkRenderer& renderer, Eigen::Matrix3Xd const& points, PictureOptions c
   camera.SetParallelScale(scale);
   camera.SetFocalPoint(focus.data());
   camera.SetPosition(Eigen::Vector3d(focus + distance * towards_viewer).data());
-  camera.SetViewUp(0, 0, 1);
+  camera.SetViewUp(options.up.data());
   renderer.ResetCameraClippingRange();
 }
 
@@ -177,7 +186,7 @@ void add_axes(vtkRenderWindow& window, vtkCamera& camera, int font_size) {
                                          camera.GetDirectionOfProjection()[1] * -1,
                                          camera.GetDirectionOfProjection()[2] * -1);
   corner->GetActiveCamera()->SetFocalPoint(0, 0, 0);
-  corner->GetActiveCamera()->SetViewUp(0, 0, 1);
+  corner->GetActiveCamera()->SetViewUp(camera.GetViewUp());
   corner->ResetCamera();
   corner->GetActiveCamera()->Zoom(0.9);
   window.AddRenderer(corner);
@@ -220,11 +229,11 @@ void add_sensors(vtkRenderWindow& window, vtkCamera* camera, Skin const& skin, d
 }
 
 /// From the upper left in front: the top is brightest, then the front, then the right side.
-void add_light(vtkRenderer& renderer) {
+void add_light(vtkRenderer& renderer, PictureOptions const& options) {
   vtkNew<vtkLight> light;
   light->SetLightTypeToSceneLight();
   light->PositionalOff();
-  light->SetPosition(0.3, -0.55, 0.78);
+  light->SetPosition(Eigen::Vector3d(axes_of_view(options) * Eigen::Vector3d(0.3, -0.55, 0.78)).data());
   light->SetFocalPoint(0, 0, 0);
   renderer.AddLight(light);
 }
@@ -279,7 +288,7 @@ void render_picture(thermal::Geometry const& geometry, Frame const& frame, std::
   add_faces(*scene, deformed, colours);
   Page page(*scene, width, height);
   add_edges(*scene, deformed, edge_ink, page.scaled(1.5));
-  add_light(*scene);
+  add_light(*scene, options);
   if (!options.title.empty()) page.add_line(options.title, 30, true);
   page.add_line("t = " + time_text(options.time_s), 28, false);
   if (skin.largest_displacement() > 0) {

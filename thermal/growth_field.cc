@@ -167,12 +167,14 @@ Eigen::AlignedBox3d box_of(Body const& body) {
 GrowingBody growing_body(Body const& body, int first_node, double expansion) {
   GrowingBody growing{body.shape, body.origin, body.axis, body.stations, body.capacities, first_node,
                       expansion,  -1,          {}};
-  auto const box = box_of(body);
   if (body.shape == Body::Shape::lump)
-    for (int d = 0; d < 3; ++d) growing.stations[std::size_t(d)] = {0.5 * box.sizes()[d]};
-  growing.held_at = box.center();
-  growing.held_at.z() = box.min().z();
+    for (int d = 0; d < 3; ++d) growing.stations[std::size_t(d)] = {0.5 * box_of(body).sizes()[d]};
   return growing;
+}
+
+Vector3d lower_face(Body const& body, Vector3d const& up) {
+  auto const box = box_of(body);
+  return box.center() - 0.5 * box.sizes().dot(up) * up;
 }
 
 Vector3d contact_centre(Body const& body, Body const& carrier) {

@@ -22,8 +22,11 @@ struct GrowingBody {
   Eigen::Vector3d held_at{0.0, 0.0, 0.0};  ///< [m]
 };
 
-/// The grid of a body whose nodes start at `first_node`; it stands on the floor, held in the middle of its lower face.
+/// The grid of a body whose nodes start at `first_node`, held nowhere yet.
 [[nodiscard]] GrowingBody growing_body(Body const& body, int first_node, double expansion);
+
+/// The middle of the side of a body's box that faces the floor; `up`: unit vector along an axis [m].
+[[nodiscard]] Eigen::Vector3d lower_face(Body const& body, Eigen::Vector3d const& up);
 
 /// Where a body meets the one that carries it, if nobody says: in each direction the middle of what their boxes share,
 /// or, if there is a gap, the side of the body's box that faces the carrier [m].

@@ -143,8 +143,8 @@ Eigen::Vector3d Place::centre() const {
 }
 
 Assembly::Assembly(std::map<std::string, thermal::Body> const& bodies, std::vector<std::string> const& order,
-                   double maximum_spindle_speed)
-    : bodies_(bodies), maximum_spindle_speed_(maximum_spindle_speed) {
+                   double maximum_spindle_speed, Eigen::Vector3d const& up)
+    : bodies_(bodies), maximum_spindle_speed_(maximum_spindle_speed), up_(up) {
   begin_part("conduction");
   for (auto const& name : order) first_nodes_[name] = add_to(builder_, part_, bodies_.at(name)).index;
 }
@@ -196,7 +196,8 @@ thermal::Port Assembly::port(Place const& place) {
   return averages_[place.text] = builder_.add_average(std::move(average));
 }
 
-thermal::Port Assembly::air(double height) {
+thermal::Port Assembly::air(Eigen::Vector3d const& point) {
+  double const height = up_.dot(point);
   auto const it = airs_.find(height);
   if (it != airs_.end()) return it->second;
   return airs_[height] = builder_.add_boundary(

@@ -51,8 +51,9 @@ struct TemperatureTerm {
 /// What the parts of a machine file are added to: the network while it is built, and the names of everything in it.
 class Assembly {
  public:
+  /// `up`: unit vector against gravity.
   Assembly(std::map<std::string, thermal::Body> const& bodies, std::vector<std::string> const& order,
-           double maximum_spindle_speed);
+           double maximum_spindle_speed, Eigen::Vector3d const& up = Eigen::Vector3d::UnitZ());
 
   [[nodiscard]] thermal::NetworkBuilder& network() { return builder_; }
 
@@ -69,8 +70,8 @@ class Assembly {
   [[nodiscard]] thermal::Port port(Place const& place);
   [[nodiscard]] thermal::Port port(std::string const& text) { return port(place(text)); }
   [[nodiscard]] thermal::Port node(Place const& place, int local) const;
-  /// Room air at a height over the machine's zero.
-  [[nodiscard]] thermal::Port air(double height);
+  /// Room air at the height of a point [m].
+  [[nodiscard]] thermal::Port air(Eigen::Vector3d const& point);
   /// A boundary whose temperature is an input channel plus an offset [K].
   [[nodiscard]] thermal::Port boundary(std::string const& channel, double offset = 0.0);
 
@@ -103,6 +104,7 @@ class Assembly {
   std::vector<InputTerm> input_terms_;
   std::vector<TemperatureTerm> temperature_terms_;
   double maximum_spindle_speed_ = 0.0;
+  Eigen::Vector3d up_;
   int part_ = 0;
 };
 

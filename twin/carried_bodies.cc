@@ -14,7 +14,7 @@ using thermal::InputError;
 
 class Chain {
  public:
-  explicit Chain(std::vector<HungBody> const& bodies) : bodies_(bodies) {}
+  Chain(std::vector<HungBody> const& bodies, Eigen::Vector3d const& up) : bodies_(bodies), up_(up) {}
 
   /// Index of a body in the result, once those that carry it are there.
   int place(HungBody const& hung) {
@@ -25,6 +25,7 @@ class Chain {
       return it->second;
     }
     auto growing = thermal::growing_body(*hung.body, hung.first_node, hung.expansion);
+    growing.held_at = thermal::lower_face(*hung.body, up_);
     if (!hung.description.carried_by.empty()) {
       auto const& carrier = find(hung.description.carried_by);
       growing.carrier = place(carrier);
@@ -49,13 +50,14 @@ class Chain {
   }
 
   std::vector<HungBody> const& bodies_;
+  Eigen::Vector3d up_;
   std::map<std::string, int> placed_;
 };
 
 }  // namespace
 
-std::vector<thermal::GrowingBody> carried_bodies(std::vector<HungBody> const& bodies) {
-  Chain chain(bodies);
+std::vector<thermal::GrowingBody> carried_bodies(std::vector<HungBody> const& bodies, Eigen::Vector3d const& up) {
+  Chain chain(bodies, up);
   for (auto const& body : bodies) chain.place(body);
   return std::move(chain.result);
 }

@@ -17,7 +17,9 @@ struct HungBody {
   double expansion = 0.0;  ///< 0: not known, it rides along
 };
 
-/// All of them, carriers first. InputError for a carrier that is not there, or one that its own load carries.
-[[nodiscard]] std::vector<thermal::GrowingBody> carried_bodies(std::vector<HungBody> const& bodies);
+/// All of them, carriers first; what nobody carries stands on the floor, `up` points away from it. InputError for a
+/// carrier that is not there, or one that its own load carries.
+[[nodiscard]] std::vector<thermal::GrowingBody> carried_bodies(std::vector<HungBody> const& bodies,
+                                                               Eigen::Vector3d const& up);
 
 }  // namespace thermotwin::twin

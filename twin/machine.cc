@@ -19,6 +19,7 @@ namespace {
 std::vector<std::string> const& own_tables() {
   static std::vector<std::string> const names = {"name",
                                                  "title",
+                                                 "up",
                                                  "spindle",
                                                  "axis",
                                                  "material",
@@ -61,12 +62,13 @@ class MachineBuilder {
       : document_(document),
         tables_(document),
         bodies_(tables_),
-        assembly_(bodies_.all(), bodies_.order(), spindle_limit()),
+        assembly_(bodies_.all(), bodies_.order(), spindle_limit(), up()),
         loop_(assembly_, bodies_, document.where.file) {}
   Machine operator()();
 
  private:
   [[nodiscard]] double spindle_limit() const;
+  [[nodiscard]] Eigen::Vector3d up() const;
   void read_head();
   void read_parts();
   void check_terms() const;
@@ -93,6 +95,17 @@ double MachineBuilder::spindle_limit() const {
   return spindle.maximum_speed;
 }
 
+Eigen::Vector3d MachineBuilder::up() const {
+  Value const* value = document_.find("up");
+  if (!value) return Eigen::Vector3d::UnitZ();
+  static std::vector<std::string> const axes = {"x", "y", "z"};
+  std::string const axis = value->is_text() ? std::get<std::string>(value->content) : value->text();
+  auto const it = std::find(axes.begin(), axes.end(), axis);
+  if (it == axes.end())
+    throw FileError(value->where, fmt::format("'up' is '{}'; {}", axis, thermal::did_you_mean(axis, axes)));
+  return Eigen::Vector3d::Unit(it - axes.begin());
+}
+
 void MachineBuilder::read_head() {
   for (auto const& [key, target] : {std::pair{"name", &machine_.name}, std::pair{"title", &machine_.title}})
     if (Value const* value = document_.find(key)) {
@@ -101,6 +114,7 @@ void MachineBuilder::read_head() {
       *target = std::get<std::string>(value->content);
     }
   if (machine_.name.empty()) throw FileError(document_.where, "'name' is missing; write for example name = \"v450\"");
+  machine_.up = up();
   machine_.limits.max_spindle_speed = assembly_.maximum_spindle_speed();
   for (auto const& [axis, table] : tables_.read<AxisDescription>("axis"))
     machine_.limits.axes.push_back({axis.name, axis.rapid_feed, axis.lead, axis.stroke_from, axis.stroke_to});
@@ -155,7 +169,7 @@ void MachineBuilder::read_sensors() {
           sensor.weights.emplace_back(place.first_node + contact.node, contact.share / double(d.at.size()));
         sensor.position += place.centre() / double(d.at.size());
       }
-      if (sensor.weights.empty()) sensor.position = {0.0, 0.0, 1.0};
+      if (sensor.weights.empty()) sensor.position = machine_.up;  // at 1 m
       machine_.sensors.push_back(std::move(sensor));
     });
 }
@@ -241,7 +255,7 @@ void MachineBuilder::hang_bodies() {
           {name, *carried, &bodies_.all().at(name), assembly_.first_node(name), metal ? metal->expansion : 0.0});
     }
   try {
-    machine_.growing = carried_bodies(hung);
+    machine_.growing = carried_bodies(hung, machine_.up);
   } catch (InputError const& error) {
     for (auto const& kind : {"lump", "bar", "hollow_cylinder", "block"})
       for (auto const& table : tables_.of(kind))

@@ -75,6 +75,7 @@ class Machine {
   static Machine build(Value const& document);
 
   std::string name, title;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< against gravity
   scenarios::MachineLimits limits;
   thermal::Geometry geometry;
   std::vector<thermal::GrowingBody> growing;  ///< the solids, for the displacements that fields show

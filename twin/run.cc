@@ -131,7 +131,7 @@ void Recorder::record_history(thermal::Sample const& sample) {
   auto& body = history_.sensor_body.emplace_back();
   auto& air = history_.sensor_air.emplace_back();
   for (auto const& sensor : machine_.sensors) {
-    air.push_back(air_at(sensor.position.z(), sample));
+    air.push_back(air_at(sensor.position.dot(machine_.up), sample));
     body.push_back(sensor.weights.empty() ? air.back() : seen(sensor.weights, sample.temperatures));
   }
   auto const since_start = [&](NodeWeights const& weights) {
@@ -254,6 +254,7 @@ output::Dataset Recorder::finish(std::map<std::string, std::string> const& prove
     output::PictureOptions picture;
     picture.title = machine_.title;
     picture.time_s = last_frame_time_;
+    picture.up = machine_.up;
     for (auto const& sensor : machine_.sensors)
       if (!sensor.weights.empty()) picture.sensors.push_back({sensor.description.name, sensor.position});
     output::render_picture(machine_.geometry, *last_frame_, *options_.picture, picture);
@@ -292,7 +293,7 @@ std::vector<double> initial_temperatures(Machine const& machine, scenarios::Expe
   if (experiment.initial_temperature) return temperatures;
   for (auto const& body : machine.geometry)
     for (std::size_t i = 0; i < body.cells.size(); ++i)
-      temperatures[std::size_t(body.first_node) + i] = floor + gradient * centre(body.cells[i]).z();
+      temperatures[std::size_t(body.first_node) + i] = floor + gradient * centre(body.cells[i]).dot(machine.up);
   return temperatures;
 }
 

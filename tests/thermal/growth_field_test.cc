@@ -55,10 +55,8 @@ struct Chain {
     int node = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       growing.push_back(growing_body(bodies[i], node, alpha));
-      if (i > 0) {
-        growing[i].carrier = int(i) - 1;
-        growing[i].held_at = contact_centre(bodies[i], bodies[i - 1]);
-      }
+      growing[i].carrier = int(i) - 1;
+      growing[i].held_at = i == 0 ? lower_face(bodies[0], Vector3d::UnitZ()) : contact_centre(bodies[i], bodies[i - 1]);
       node += bodies[i].nodes();
     }
   }
@@ -122,6 +120,11 @@ TEST(GrowthField, CylinderGrowsByTheMeanOfItsSections) {
   auto const field = growth_field({held(shaft, 0, -1, {0.1, 0, 0})}, rise);
   EXPECT_NEAR(field(0, shaft.cell(39, 0)), alpha * 10.0 * inside * 0.295, 1e-15);
   EXPECT_NEAR(field(0, shaft.cell(39, 1)), alpha * 10.0 * inside * 0.295, 1e-15);
+}
+
+TEST(GrowthField, LowerFaceIsTheOneAgainstUp) {
+  Body const lathe = block({-1.0, -0.3, -0.6}, {0.7, 0.6, 1.4}, {1, 1, 1});
+  EXPECT_TRUE(lower_face(lathe, Vector3d::UnitX()).isApprox(Vector3d(-1.0, 0.0, 0.1), 1e-12));
 }
 
 TEST(GrowthField, ContactIsTheMiddleOfWhatBoxesShareOrTheNearSideOfAGap) {

@@ -29,7 +29,7 @@ struct Draught {
       throw thermal::InputError("draught '" + name + "': '" + on + "' has no area of its own; give one");
     for (auto const& contact : place.site.contacts)
       assembly.network().add<thermal::SwitchedConductance>(
-          assembly.part(), {assembly.node(place, contact.node), assembly.air(contact.centre.z())},
+          assembly.part(), {assembly.node(place, contact.node), assembly.air(contact.centre)},
           {contact.area / (1.0 / coefficient + contact.half_resistance)}, {assembly.channel(while_on)});
   }
 };

@@ -39,7 +39,7 @@ struct Evaporation {
 
   void add_to(Assembly& assembly) const {
     Place const wet = assembly.place(from);
-    assembly.network().add<EvaporationHeat>(assembly.part(), {assembly.port(wet), assembly.air(wet.centre().z())},
+    assembly.network().add<EvaporationHeat>(assembly.part(), {assembly.port(wet), assembly.air(wet.centre())},
                                             {area, coefficient, lewis, humidity}, {assembly.channel(while_on)});
   }
 };

@@ -43,7 +43,7 @@ struct FanCooling {
     Place const place = assembly.place(at);
     for (auto const& contact : place.site.contacts)
       assembly.network().add<FanConductance>(
-          assembly.part(), {assembly.node(place, contact.node), assembly.air(contact.centre.z())},
+          assembly.part(), {assembly.node(place, contact.node), assembly.air(contact.centre)},
           {conductance * contact.share, exponent, rated_speed.value_or(assembly.maximum_spindle_speed())},
           {assembly.channel(speed)});
   }

@@ -159,11 +159,11 @@ struct Film {
     int const input = assembly.channel(rotating ? speed : "ambient.floor_temperature");
     for (auto const& contact : place.site.contacts)
       assembly.network().add(correlations().at(correlation), assembly.part(),
-                             {assembly.node(place, contact.node), fluid(assembly, contact.centre.z())},
+                             {assembly.node(place, contact.node), fluid(assembly, contact.centre)},
                              {contact.area, contact.half_resistance, size(), needed(), emissivity}, {input});
   }
-  [[nodiscard]] thermal::Port fluid(Assembly& assembly, double z) const {
-    return to == "ambient" ? assembly.air(z) : assembly.port(to);
+  [[nodiscard]] thermal::Port fluid(Assembly& assembly, Eigen::Vector3d const& point) const {
+    return to == "ambient" ? assembly.air(point) : assembly.port(to);
   }
   [[nodiscard]] double size() const {
     bool const round = correlation.find("cylinder") != std::string::npos || correlation.starts_with("rotating_disc");
