@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "thermal/error.h"
 
@@ -15,6 +16,23 @@ std::vector<double> divided_difference(Values const& plus, Values const& minus, 
   std::vector<double> d(plus.size());
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = (plus[i] - minus[i]) / (2.0 * step);
   return d;
+}
+
+/// Where a moving part's window or a relay's thresholds change, the derivative is not one of coefficients alone.
+void require_same_motion(Network const& plus, Network const& minus) {
+  bool same = plus.relays().size() == minus.relays().size();
+  for (std::size_t i = 0; i < plus.averages().size(); ++i) {
+    auto const &a = plus.averages()[i], &b = minus.averages()[i];
+    same = same && a.window == b.window && a.edges == b.edges;
+  }
+  for (std::size_t i = 0; same && i < plus.relays().size(); ++i) {
+    auto const &a = plus.relays()[i], &b = minus.relays()[i];
+    same = a.high == b.high && a.low == b.low && a.minimum_off_time == b.minimum_off_time;
+  }
+  if (!same)
+    throw InputError(
+        "the parameter moves the window of a moving part or the thresholds of a relay: it has no forward sensitivity; "
+        "take differences of whole runs");
 }
 
 }  // namespace
@@ -46,9 +64,21 @@ NetworkDerivative difference(Network const& plus, Network const& minus, double s
       weights.push_back((a.terms[k].weight - b.terms[k].weight) / (2.0 * step));
   }
   for (std::size_t i = 0; i < plus.averages().size(); ++i) {
-    same(plus.averages()[i].nodes == minus.averages()[i].nodes);
+    auto const& a = plus.averages()[i];
+    auto const& b = minus.averages()[i];
+    same(a.nodes == b.nodes);
+    if (a.window != b.window || a.edges != b.edges)
+      throw InputError(fmt::format("the parameter changes where '{}' is; that has no sensitivity here", a.name));
     d.average_weights.push_back(divided_difference(plus.averages()[i].weights, minus.averages()[i].weights, step));
   }
+  same(plus.relays().size() == minus.relays().size());
+  for (std::size_t i = 0; i < plus.relays().size(); ++i) {
+    auto const& a = plus.relays()[i];
+    auto const& b = minus.relays()[i];
+    if (a.high != b.high || a.low != b.low || a.minimum_off_time != b.minimum_off_time)
+      throw InputError(fmt::format("the parameter changes when '{}' switches; that has no sensitivity here", a.name));
+  }
+  require_same_motion(plus, minus);
   return d;
 }
 

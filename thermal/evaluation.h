@@ -22,7 +22,8 @@ struct NetworkDerivative {
   std::vector<double> initial_temperature;  ///< per node; empty: does not change
 };
 
-/// InputError if the two networks do not have the same structure.
+/// InputError if the two networks do not have the same structure, or differ in when a relay switches or where a moving
+/// average is: switching times and tracks carry no derivative (physics.md §0).
 [[nodiscard]] NetworkDerivative difference(Network const& plus, Network const& minus, double step);
 
 /// Energy that has crossed the network's border.

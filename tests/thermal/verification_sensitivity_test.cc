@@ -1,9 +1,11 @@
 #include <complex>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/thermal/random_network.h"
 #include "tests/thermal/verification.h"
 #include "thermal/bar.h"
+#include "thermal/error.h"
 #include "thermal/lump.h"
 
 namespace thermotwin::thermal {
@@ -188,6 +190,35 @@ TEST(VerificationV13, RandomNetworksAgainstCentralDifferences) {
       }
     });
   }
+}
+
+TEST(Difference, RefusesWhatItCannotCarry) {
+  auto const with = [](double window, double low, int links) {
+    NetworkBuilder builder;
+    Port const bar = builder.add_body("screw", {10.0, 10.0});
+    Port const room = builder.add_boundary({"room", T0, {}});
+    Average nut;
+    nut.name = "nut";
+    nut.nodes = {bar.index, bar.index + 1};
+    nut.edges = {0.0, 0.5, 1.0};
+    nut.window = window;
+    nut.from_channel = nut.to_channel = builder.channel("position");
+    for (int i = 0; i < links; ++i) builder.connect(builder.part("film"), builder.add_average(nut), room, 1.0);
+    builder.add_relay("chiller", bar, room, 1.0, low);
+    return builder.build();
+  };
+  EXPECT_NO_THROW((void)difference(with(0.2, -1.0, 1), with(0.2, -1.0, 1), 1e-3));
+  auto const message = [&](Network const& other) -> std::string {
+    try {
+      (void)difference(with(0.2, -1.0, 1), other, 1e-3);
+    } catch (InputError const& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  EXPECT_THAT(message(with(0.3, -1.0, 1)), testing::HasSubstr("where 'nut' is"));
+  EXPECT_THAT(message(with(0.2, -1.1, 1)), testing::HasSubstr("when 'chiller' switches"));
+  EXPECT_THAT(message(with(0.2, -1.0, 2)), testing::HasSubstr("structure"));
 }
 
 }  // namespace
