@@ -209,7 +209,7 @@ TEST(BadInput, NamesThatDoNotExist) {
 }
 
 TEST(BadInput, OutputsThatCannotBeWritten) {
-  for (std::string const& target : {"/nonexistent/run.h5", "/proc/run.h5"}) {
+  for (std::string const target : {"/nonexistent/run.h5", "/proc/run.h5"}) {
     auto const answer = program("run -q golden_b_2000 -m v450 -o " + target);
     EXPECT_EQ(answer.code, 2);
     EXPECT_NE(answer.text.find("cannot write '" + target), std::string::npos) << answer.text;
@@ -239,7 +239,7 @@ TEST(BadInput, DataSetsThatAreNone) {
   auto const bytes = read_text(good);
   write_text(cut, bytes.substr(0, bytes.size() / 2));
   write_text(directory.path() / "text.h5", "not a data set");
-  for (std::string const& name : {"cut.h5", "text.h5", "absent.h5"}) {
+  for (std::string const name : {"cut.h5", "text.h5", "absent.h5"}) {
     auto const answer = program("export " + (directory.path() / name).string() + " -o " + csv.string());
     EXPECT_EQ(answer.code, 2) << name;
     EXPECT_NE(answer.text.find(name), std::string::npos) << answer.text;

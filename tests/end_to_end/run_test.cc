@@ -62,7 +62,7 @@ TEST(Run, LeavesReadingsTruthHeatAndProvenance) {
 
 TEST(Run, SameSeedSameBytes) {
   TemporaryDirectory const directory;
-  for (std::string const& name : {"a.h5", "b.h5"})
+  for (std::string const name : {"a.h5", "b.h5"})
     answer(program + " run golden_b_4000 -q -o " + (directory / name).string());
   EXPECT_TRUE(tests::contents(directory / "a.h5") == tests::contents(directory / "b.h5"));
   answer(program + " run golden_b_4000 -q --set experiment.seed=2 -o " + (directory / "c.h5").string());
@@ -139,15 +139,16 @@ TEST(Run, StoppedByTheUserKeepsThePartialFileAndTheOldOne) {
 TEST(Commands, CheckEveryShippedFile) {
   fs::path const source = THERMOTWIN_SOURCE_DIR;
   for (auto const& folder : {source / "twin/machines", source / "scenarios/catalogue"})
-    for (auto const& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".toml" &&
-          tests::contents(entry.path()).find("MEASURED_DATA") == std::string::npos)
-        EXPECT_NE(answer(program + " check " + entry.path().string()).find("no mistake found"), std::string::npos);
+    for (auto const& entry : fs::directory_iterator(folder)) {
+      bool const needs_data = tests::contents(entry.path()).find("MEASURED_DATA") != std::string::npos;
+      if (entry.path().extension() != ".toml" || needs_data) continue;
+      EXPECT_NE(answer(program + " check " + entry.path().string()).find("no mistake found"), std::string::npos);
+    }
 }
 
 TEST(Commands, DescribeAndEffectsReadTheCatalogue) {
   auto const machine = answer(program + " describe machine");
-  for (std::string const& word : {"hollow_cylinder", "grease_factor", "temperature_sensor", "closure"})
+  for (std::string const word : {"hollow_cylinder", "grease_factor", "temperature_sensor", "closure"})
     EXPECT_NE(machine.find(word), std::string::npos) << word;
   EXPECT_NE(answer(program + " describe experiment").find("of_maximum"), std::string::npos);
   EXPECT_NE(answer(program + " effects").find("ball_nut"), std::string::npos);
