@@ -42,19 +42,20 @@ TEST(Run, LeavesReadingsTruthHeatAndProvenance) {
   answer(program + " run golden_b_6000 -q -o " + (directory / "run.h5").string());
   auto const data = output::read(directory / "run.h5");
   EXPECT_TRUE(data.complete);
-  ASSERT_EQ(data.time_s.size(), 481);
-  EXPECT_EQ(data.time_s[480], 8 * 3600.0);
-  // Golden table B: 25.38 K above the room at the front bearing; the sensor of the cartridge's nose rises 23.11 K.
-  EXPECT_NEAR(channel(data.truth_readings, "T1").values[240] - 22.0, 23.11, 0.02);
-  EXPECT_NEAR(channel(data.truth_displacements, "E_Z").values[240], 44.8, 0.1);
-  EXPECT_NEAR(channel(data.inputs, "spindle.speed").values[100], 6000.0, 1e-9);
+  ASSERT_EQ(data.time_s.size(), 49);
+  EXPECT_EQ(data.time_s[24], 4 * 3600.0);
+  EXPECT_EQ(data.time_s[48], 8 * 3600.0);
+  // Golden table B: after four hours the cartridge's nose has risen by 23.11 K.
+  EXPECT_NEAR(channel(data.truth_readings, "T1").values[24] - 22.0, 23.11, 0.02);
+  EXPECT_NEAR(channel(data.truth_displacements, "E_Z").values[24], 44.8, 0.1);
+  EXPECT_NEAR(channel(data.inputs, "spindle.speed").values[10], 6000.0, 1e-9);
   EXPECT_EQ(channel(data.inputs, "spindle.speed").unit, "rpm");
   // A DS18B20 shows multiples of 1/16 K.
-  double const reading = channel(data.readings, "T1").values[240];
+  double const reading = channel(data.readings, "T1").values[24];
   EXPECT_EQ(reading * 16.0, std::round(reading * 16.0));
   // physics.md 6.2: the front set makes 113 W after four hours, nothing at standstill.
-  EXPECT_NEAR(channel(data.heat, "bearing.front").values[240], 113.0, 0.5);
-  EXPECT_EQ(channel(data.heat, "bearing.front").values[300], 0.0);
+  EXPECT_NEAR(channel(data.heat, "bearing.front").values[24], 113.0, 0.5);
+  EXPECT_EQ(channel(data.heat, "bearing.front").values[30], 0.0);
   EXPECT_LT(std::stod(data.provenance.at("energy.imbalance")), 1e-9);
   EXPECT_NE(data.provenance.at("machine.file").find("[[bearing]]"), std::string::npos);
   EXPECT_NE(data.provenance.at("experiment.file").find("[spindle]"), std::string::npos);
@@ -73,7 +74,7 @@ TEST(Run, SettingAParameterChangesTheRun) {
   TemporaryDirectory const directory;
   auto const rise = [&](std::string const& setting) {
     answer(program + " run golden_b_4000 -q " + setting + " -o " + (directory / "run.h5").string());
-    return channel(output::read(directory / "run.h5").truth_readings, "T4").values[240];
+    return channel(output::read(directory / "run.h5").truth_readings, "T4").values[24];
   };
   EXPECT_GT(rise("--set bearing.front.grease_factor=0.8"), rise("") + 1.0);
   EXPECT_LT(rise("--set experiment.ambient.mean='\"20 degC\"'"), rise(""));
@@ -122,7 +123,7 @@ TEST(Run, StoppedByTheUserKeepsThePartialFileAndTheOldOne) {
   pid_t const child = fork();
   if (child == 0) {
     std::string const path = (directory / "run.h5").string();
-    execl(program.c_str(), "thermotwin", "run", "etve", "-q", "-m", "v450", "--set", "experiment.duration=2000 h", "-o",
+    execl(program.c_str(), "thermotwin", "run", "etve", "-q", "-m", "v450", "--set", "experiment.sampling=0.1 s", "-o",
           path.c_str(), nullptr);
     _exit(127);
   }
@@ -132,7 +133,7 @@ TEST(Run, StoppedByTheUserKeepsThePartialFileAndTheOldOne) {
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
-  EXPECT_EQ(tests::contents(directory / "run.h5"), "what the user had");
+  EXPECT_TRUE(tests::contents(directory / "run.h5") == "what the user had");
   EXPECT_FALSE(output::read(directory / "run.h5.partial").complete);
 }
 
