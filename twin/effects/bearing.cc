@@ -51,7 +51,7 @@ struct Bearing {
     f("oil", &Bearing::oil, "ISO viscosity grade of the base oil", Range{10, 100});
     f("pitch_diameter", &Bearing::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0});
     f("load_factor", &Bearing::load_factor, dimension::dimensionless, "z of f1 = z (P0/C0)^y", Range{1e-4, 2e-3});
-    f("load_exponent", &Bearing::load_exponent, dimension::dimensionless, "y", Range{0.3, 0.6});
+    f("load_exponent", &Bearing::load_exponent, dimension::dimensionless, "y of it", Range{0.3, 0.6});
     f("load_ratio", &Bearing::load_ratio, dimension::dimensionless, "P0/C0", Range{1e-4, 0.2});
     f("torque_load", &Bearing::torque_load, dimension::force, "P1 = max(0.9 Fa cot(alpha) - 0.1 Fr, Fr) of each",
       Range{0.0, 1e5});

@@ -32,7 +32,7 @@ struct BearingShift {
     f("expansion", &BearingShift::expansion, dimension::expansion, "of rings and balls", Range{3e-6, 13e-6});
     f("ball_density", &BearingShift::ball_density, dimension::density, "steel 7800, ceramic 3200 kg/m3", positive);
     f("weight", &BearingShift::weight, dimension::dimensionless,
-      "1: yielding against the preload moves the tool towards positive; -1: the other way");
+      "1: yielding against the preload moves the tool towards positive; -1: the other way", Range{-1.0, 1.0});
   }
 
   [[nodiscard]] thermal::BallBearing bearing() const { return {balls, ball_diameter, pitch_diameter, contact_angle}; }

@@ -28,8 +28,8 @@ struct CentrifugalGrowth {
     f("outer_diameter", &CentrifugalGrowth::outer_diameter, dimension::length, "of that shaft", Range{0.0, 0.5});
     f("inner_diameter", &CentrifugalGrowth::inner_diameter, dimension::length, "of that shaft", Range{0.0, 0.5});
     f("material", &CentrifugalGrowth::material, "known material of that shaft");
-    f("weight", &CentrifugalGrowth::weight, dimension::dimensionless,
-      "sign with which the shaft counts in the channel");
+    f("weight", &CentrifugalGrowth::weight, dimension::dimensionless, "sign with which the shaft counts in the channel",
+      Range{-1.0, 1.0});
   }
 
   /// c of c ω² [m s²].

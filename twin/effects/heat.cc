@@ -14,7 +14,7 @@ struct Heat {
   static void fields(Fields& f) {
     f.name("name", &Heat::name, "unique among these");
     f.name("at", &Heat::at, "place that receives it");
-    f("power", &Heat::power, dimension::power, "while the flag is up; negative: cooling");
+    f("power", &Heat::power, dimension::power, "while the flag is up; negative: cooling", Range{-1000, 5000});
     f("while_on", &Heat::while_on,
       "input channel between 0 and 1 that scales it: machine.on, servo.on, coolant.on, "
       "spindle.running, heater1.duty");

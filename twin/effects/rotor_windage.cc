@@ -118,7 +118,7 @@ Effect const& rotor_windage_effect() {
        "ω³ r⁵, "
        "C_M = 3.87 Re^(−1/2), turbulent 0.146 Re^(−1/5)",
        "source", "rotor and stator, shaft, chuck",
-       "power of speed 3 (2.8 in a turbulent gap): only above 70 % of the maximum speed; does not depend on "
+       "power of speed 3 (2.7 in a turbulent gap): only above 70 % of the maximum speed; does not depend on "
        "temperature; ends at stop",
        "physics.md 1.7, 1.12, §7 no. 18; Vrancik 1968; Dorfman 1963"});
   return effect;

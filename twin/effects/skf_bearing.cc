@@ -53,8 +53,8 @@ struct SkfBearingPart {
     f("speed", &P::speed, "input channel with the speed");
     f("count", &P::count, dimension::dimensionless, "bearings in the set", Range{1, 6});
     f("oil", &P::oil, "ISO viscosity grade of the base oil", Range{10, 100});
-    f("bore", &P::bore, dimension::length, "d", Range{0.005, 0.5});
-    f("outer_diameter", &P::outer_diameter, dimension::length, "D", Range{0.01, 1.0});
+    f("bore", &P::bore, dimension::length, "d of each", Range{0.005, 0.5});
+    f("outer_diameter", &P::outer_diameter, dimension::length, "D of each", Range{0.01, 1.0});
     f("axial_load", &P::axial_load, dimension::force, "of each, preload included", Range{0.0, 2e4});
     f("radial_load", &P::radial_load, dimension::force, "of each", Range{0.0, 2e4});
     f("replenishment", &P::replenishment, dimension::dimensionless,

@@ -325,8 +325,10 @@ class FieldLister {
   }
   template <class M, std::integral I>
   requires(!std::same_as<I, bool>) void operator()(std::string_view key, I M::*member, std::string_view doc,
-                                                   Range = {}) {
+                                                   Range r = {}) {
     add(key, "whole number", fmt::format("{}", object_.*member), doc);
+    if (std::isfinite(r.low)) records.back().range = FieldReader<T>::range_text(r, thermal::dimension::dimensionless);
+    records.back().plausible = r;
   }
   template <class M, class Nested>
   requires HasFields<Nested>
