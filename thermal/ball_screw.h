@@ -18,15 +18,15 @@ struct BallScrew {
   enum class Support { fixed_free, fixed_supported, fixed_fixed };
 
   Support support = Support::fixed_supported;
-  double expansion = 11.8e-6;          ///< α [1/K]
-  double section_area = 0.0;           ///< A [m²]
-  double youngs_modulus = 2.06e11;     ///< E [Pa]
-  double stiffness_fixed = 0.9e9;      ///< k₁ of the bearing at x = 0 and its seat [N/m]
-  double stiffness_far = 0.9e9;        ///< k₂ of the bearing at x = L and its seat [N/m]
-  double preload_temperature = 3.0;    ///< warming that relieves the pretension: δ₀ = α L ΔT_pre [K]
+  double expansion = 11.8e-6;        ///< α [1/K]
+  double section_area = 0.0;         ///< A [m²]
+  double youngs_modulus = 2.06e11;   ///< E [Pa]
+  double stiffness_fixed = 0.9e9;    ///< k₁ of the bearing at x = 0 and its seat [N/m]
+  double stiffness_far = 0.9e9;      ///< k₂ of the bearing at x = L and its seat [N/m]
+  double preload_temperature = 3.0;  ///< warming that relieves the pretension: δ₀ = α L ΔT_pre [K]
   bool unilateral = true;
-  double released_stiffness = 0.0;     ///< share of k₂ that is left under pressure, 0…1
-  std::vector<double> edges;           ///< of the cells along the screw, from 0 to L [m]
+  double released_stiffness = 0.0;  ///< share of k₂ that is left under pressure, 0…1
+  std::vector<double> edges;        ///< of the cells along the screw, from 0 to L [m]
 
   [[nodiscard]] double length() const { return edges.back(); }
 

@@ -2,7 +2,6 @@
 
 #include "thermal/channel_flow.h"
 #include "thermal/dual.h"
-#include "thermal/dual.h"
 #include "thermal/fluid.h"
 
 namespace thermotwin::thermal {

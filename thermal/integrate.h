@@ -56,8 +56,9 @@ struct IntegrationSummary {
 };
 
 /// Integrates C dy/dt = heat with CVODES (BDF, Newton, analytic Jacobian): stops at every jump of the course, finds
-/// the switching of relays as roots, and carries the energy balance in the state, where it closes to round-off. Calls `observe` at every output
-/// time (increasing; the first is the start). SUNDIALS: Hindmarsh et al., ACM TOMS 31 (2005) 363.
+/// the switching of relays as roots, and carries the energy balance in the state, where it closes to round-off. Calls
+/// `observe` at every output time (increasing; the first is the start). SUNDIALS: Hindmarsh et al., ACM TOMS 31 (2005)
+/// 363.
 ///
 /// Throws InputError when the course lacks a channel that the network needs; IntegrationError, which names the worst
 /// nodes and the inputs at that time, when the integrator gives up. What `observe` throws comes out unchanged.

@@ -241,9 +241,13 @@ bool switches(Snippet const& snippet) { return snippet.effect == "chiller" && sn
 /// Lengths of moving windows; the relay's numbers are skipped with it.
 bool has_no_sensitivity(std::string const& key) { return key == "nut_length" || key == "carriage_length"; }
 
+double typical_size(Parameter const& parameter) {
+  return parameter.absolute_temperature ? 5.0 : std::abs(parameter.value);
+}
+
 /// dT/dθ of the nodes at the end, by central differences of runs: Richardson's extrapolation from steps h and h/2.
 std::vector<double> differences(Value const& document, Parameter const& parameter) {
-  double const step = 4e-3 * parameter.value;
+  double const step = 4e-3 * typical_size(parameter);
   auto const at = [&](double x) {
     return short_run(Machine::build(with_number(document, parameter, x)), {}).temperatures;
   };
@@ -271,7 +275,7 @@ TEST_P(EverySnippet, HasSensitivitiesThatAgreeWithCentralDifferences) {
     auto const expected = differences(document, parameter);
     double error = 0.0;
     for (std::size_t i = 0; i < forward.size(); ++i) error = std::max(error, std::abs(forward[i] - expected[i]));
-    EXPECT_LE(error * std::abs(parameter.value), 1e-4 * largest(forward) * std::abs(parameter.value) + 2e-6) << key;
+    EXPECT_LE(error * typical_size(parameter), 1e-4 * largest(forward) * typical_size(parameter) + 2e-6) << key;
   }
 }
 

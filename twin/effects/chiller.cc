@@ -8,7 +8,7 @@
 namespace thermotwin::twin {
 namespace {
 
-/// q = −u sat(K (e + s)), 0 ≤ q ≤ Q; T_i ds/dt = e − (K (e + s) − q)/K: the integral, which stops where the chiller can
+/// q = −u sat(K (e + s)), 0 ≤ q ≤ Q; T_i ds/dt = e − 5 (K (e + s) − q)/K: the integral, led back where the chiller can
 /// do no more; e = T_measured − T_set. Ports: cooled, measured, set point, s. c = {K, T_i, Q}, u = {flag}.
 struct InverterHeat {
   static constexpr std::string_view name = "inverter chiller";
@@ -20,7 +20,8 @@ struct InverterHeat {
     S const gain = c[0] / c[2];
     S const heat = u[0] * thermal::inverter_chiller_heat<S>(error, T[3], gain, gain, 1.0);
     q[0] = -c[2] * heat;
-    q[3] = (u[0] * error - (u[0] * (error + T[3]) - heat / gain) - (1.0 - u[0]) * T[3]) / c[1];
+    constexpr double lead_back = 5.0;
+    q[3] = (u[0] * (error - lead_back * (error + T[3])) + lead_back * heat / gain - (1.0 - u[0]) * T[3]) / c[1];
   }
 };
 

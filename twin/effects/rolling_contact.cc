@@ -80,19 +80,24 @@ struct RollingContactPart {
   [[nodiscard]] thermal::RollingFriction<double> friction() const {
     thermal::ContactOil const lubricant{thermal::mineral_oil_viscosity(oil), oil_density, sealed};
     double const radius = 0.5 * element_diameter;
-    int const whole = int(std::lround(elements));
+    double const each = force / elements;
     if (kind == "bearing")
-      return thermal::bearing_contact_friction<double>({whole, element_diameter, pitch_diameter, contact_angle},
-                                                       lubricant, force);
+      return times(elements, thermal::bearing_contact_friction<double>(
+                                 {1, element_diameter, pitch_diameter, contact_angle}, lubricant, each));
     if (kind == "guide_roller")
-      return thermal::roller_guide_contact_friction<double>(whole, radius, roller_length, lubricant, force);
+      return times(elements, thermal::roller_guide_contact_friction<double>(1, radius, roller_length, lubricant, each));
     if (kind.starts_with("guide"))
-      return thermal::ball_guide_contact_friction<double>(
-          kind == "guide_two_point" ? thermal::guide_two_point_law : thermal::guide_four_point_law, whole, radius,
-          lubricant, force);
+      return times(elements,
+                   thermal::ball_guide_contact_friction<double>(
+                       kind == "guide_two_point" ? thermal::guide_two_point_law : thermal::guide_four_point_law, 1,
+                       radius, lubricant, each));
     return thermal::nut_contact_friction<double>(
         kind == "single_nut" ? thermal::single_nut_law : thermal::double_nut_law,
         {pitch_diameter, lead, element_diameter, elements, contact_angle}, lubricant, force);
+  }
+  static thermal::RollingFriction<double> times(double count, thermal::RollingFriction<double> one) {
+    one.factor *= count;
+    return one;
   }
 };
 
