@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "thermal/error.h"
 #include "thermal/fluid.h"
 
 namespace thermotwin::twin {
@@ -21,6 +22,9 @@ thermal::Channel channel_of(ChannelDescription const& description) {
 }
 
 void add_channel_flow(Assembly& assembly, ChannelDescription const& description) {
+  if (description.flow.empty() && description.inlet.empty()) return;
+  if (description.flow.empty() || description.inlet.empty())
+    throw thermal::InputError("channel '" + description.name + "' needs both flow and inlet, or neither in a circuit");
   auto const inlet = assembly.boundary(description.inlet);
   thermal::add_flow(assembly.network(), assembly.part(), assembly.body(description.name),
                     properties_at_20(description).specific_heat, assembly.channel(description.flow), inlet, inlet);

@@ -193,8 +193,8 @@ struct ChannelDescription : LineDescription {
     LineDescription::fields_of<ChannelDescription>(f);
     f("diameter", &ChannelDescription::diameter, dimension::length, "hydraulic diameter of a round channel", positive);
     f("cells", &ChannelDescription::cells, "along the flow", Range{1, 1e6});
-    f.name("flow", &ChannelDescription::flow, "input channel with the mass flow [kg/s]");
-    f.name("inlet", &ChannelDescription::inlet, "input channel with the temperature at the inlet");
+    f("flow", &ChannelDescription::flow, "input channel with the mass flow [kg/s]; none: part of a circuit");
+    f("inlet", &ChannelDescription::inlet, "input channel with the temperature at the inlet; none: part of a circuit");
   }
 };
 

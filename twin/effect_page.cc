@@ -46,10 +46,17 @@ std::string entry(std::string_view title, std::string_view text) {
   return padded(title, indent) + wrapped(text, indent);
 }
 
+/// The default as people read it: an angle of 15 degrees in radians has 16 digits.
+std::string initial(FieldRecord const& field) {
+  constexpr std::size_t readable = 10;
+  bool const long_number = field.kind == "number" && field.initial.size() > readable;
+  return long_number ? fmt::format("{:.4g}", std::stod(field.initial)) : field.initial;
+}
+
 /// "default 1 W/K, plausible 0.2 W/K to 5 W/K"
 std::string given(FieldRecord const& field) {
   std::string text = field.initial == "required" ? "required" : "";
-  if (text.empty() && !field.initial.empty()) text = "default " + field.initial;
+  if (text.empty() && !field.initial.empty()) text = "default " + initial(field);
   if (text.empty() && field.nested.empty()) text = "may be absent";
   if (!field.range.empty()) text += ", plausible " + field.range;
   return text;
@@ -85,7 +92,7 @@ std::string cell(std::string_view text) {
 std::string field_rows(std::vector<FieldRecord> const& fields, std::string const& prefix) {
   std::string text;
   for (auto const& field : fields) {
-    text += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", prefix, field.key, cell(field.kind), cell(field.initial),
+    text += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", prefix, field.key, cell(field.kind), cell(initial(field)),
                         cell(field.range), cell(field.description));
     if (!field.nested.empty()) text += field_rows(field.nested, prefix + field.key + ".");
   }

@@ -290,10 +290,12 @@ std::vector<double> initial_temperatures(Machine const& machine, scenarios::Expe
   }
   std::vector<double> temperatures(std::size_t(machine.network().nodes()),
                                    experiment.initial_temperature.value_or(floor));
-  if (experiment.initial_temperature) return temperatures;
-  for (auto const& body : machine.geometry)
-    for (std::size_t i = 0; i < body.cells.size(); ++i)
-      temperatures[std::size_t(body.first_node) + i] = floor + gradient * centre(body.cells[i]).dot(machine.up);
+  if (!experiment.initial_temperature)
+    for (auto const& body : machine.geometry)
+      for (std::size_t i = 0; i < body.cells.size(); ++i)
+        temperatures[std::size_t(body.first_node) + i] = floor + gradient * centre(body.cells[i]).dot(machine.up);
+  for (std::size_t i = 0; i < temperatures.size(); ++i)
+    if (machine.network().signals()[i]) temperatures[i] = 0.0;  // a controller has no past
   return temperatures;
 }
 

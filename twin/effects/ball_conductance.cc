@@ -63,7 +63,8 @@ struct BallConductance {
     f("balls", &P::balls, dimension::dimensionless, "in one bearing", Range{3, 400});
     f("ball_diameter", &P::ball_diameter, dimension::length, "D_b", Range{0.001, 0.1});
     f("pitch_diameter", &P::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0});
-    f("contact_angle", &P::contact_angle, dimension::angle, "contact, static: unloaded", Range{0.17, 1.06});
+    f("contact_angle", &P::contact_angle, dimension::angle, "contact, static: unloaded, for example \"15 deg\"",
+      Range{0.17, 1.06});
     f("axial_load", &P::axial_load, dimension::force, "contact, static: of one bearing", Range{50, 2e4});
     f("oil", &P::oil, "contact: ISO viscosity grade of the base oil", Range{10, 100});
     f("oil_conductivity", &P::oil_conductivity, dimension::conductivity, "contact: of oil or grease", Range{0.1, 0.2});

@@ -27,7 +27,8 @@ struct BearingShift {
     f("balls", &BearingShift::balls, "in one bearing", Range{3, 100});
     f("ball_diameter", &BearingShift::ball_diameter, dimension::length, "D_b", positive);
     f("pitch_diameter", &BearingShift::pitch_diameter, dimension::length, "d_m", positive);
-    f("contact_angle", &BearingShift::contact_angle, dimension::angle, "unloaded", Range{0.1, 0.8});
+    f("contact_angle", &BearingShift::contact_angle, dimension::angle, "unloaded, for example \"15 deg\"",
+      Range{0.1, 0.8});
     f("preload", &BearingShift::preload, dimension::force, "of one bearing, along the axis, by springs", positive);
     f("expansion", &BearingShift::expansion, dimension::expansion, "of rings and balls", Range{3e-6, 13e-6});
     f("ball_density", &BearingShift::ball_density, dimension::density, "steel 7800, ceramic 3200 kg/m3", positive);

@@ -61,7 +61,7 @@ struct Preload {
     f("pitch_diameter", &P::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0});
     f("bore", &P::bore, dimension::length, "of the shaft, for the centrifugal growth of the inner ring",
       Range{0.0, 0.5});
-    f("contact_angle", &P::contact_angle, dimension::angle, "unloaded", Range{0.17, 0.7});
+    f("contact_angle", &P::contact_angle, dimension::angle, "unloaded, for example \"15 deg\"", Range{0.17, 0.7});
     f("axial_preload", &P::axial_preload, dimension::force, "of one bearing at assembly", Range{50, 5000});
     f("deflection", &P::deflection, dimension::length,
       "δ0 of ball and races under that preload; default: after Palmgren", Range{1e-6, 6e-6});

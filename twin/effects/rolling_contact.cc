@@ -57,7 +57,7 @@ struct RollingContactPart {
     f("pitch_diameter", &P::pitch_diameter, dimension::length, "bearing, nut: of the centres", Range{0.005, 1.0});
     f("lead", &P::lead, dimension::length, "nut: travel per revolution", Range{0.001, 0.1});
     f("roller_length", &P::roller_length, dimension::length, "guide_roller: of a roller", Range{0.001, 0.1});
-    f("contact_angle", &P::contact_angle, dimension::angle, "bearing, nut", Range{0.17, 1.06});
+    f("contact_angle", &P::contact_angle, dimension::angle, "bearing, nut, for example \"15 deg\"", Range{0.17, 1.06});
     f("oil", &P::oil, "ISO viscosity grade of the base oil", Range{10, 100});
     f("oil_density", &P::oil_density, dimension::density, "of the oil", Range{800, 1000});
     f("sealed", &P::sealed, "contact seals double the friction");
