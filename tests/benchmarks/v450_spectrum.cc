@@ -1,5 +1,7 @@
 #include <benchmark/benchmark.h>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "scenarios/course.h"
 #include "thermal/integrate.h"
@@ -14,15 +16,10 @@ void V450Spectrum(benchmark::State& state) {
   scenarios::Experiment experiment;
   experiment.ambient.mean = 295.15;
   experiment.spindle.emplace();
-  for (auto const& [share, duration] : {std::pair(0.25, 3600.0),
-                                        {0.5, 3600.0},
-                                        {0.75, 3600.0},
-                                        {1.0, 3600.0},
-                                        {0.0, 1800.0},
-                                        {0.75, 5400.0},
-                                        {0.5, 3600.0},
-                                        {1.0, 3600.0},
-                                        {0.0, 3600.0}}) {
+  std::vector<std::pair<double, double>> const spectrum = {{0.25, 3600.0}, {0.5, 3600.0}, {0.75, 3600.0},
+                                                           {1.0, 3600.0},  {0.0, 1800.0}, {0.75, 5400.0},
+                                                           {0.5, 3600.0},  {1.0, 3600.0}, {0.0, 3600.0}};
+  for (auto const& [share, duration] : spectrum) {
     experiment.spindle->blocks.push_back({duration, {}, share});
     experiment.duration += duration;
   }
