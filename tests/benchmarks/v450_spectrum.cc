@@ -16,6 +16,7 @@ void V450Spectrum(benchmark::State& state) {
   scenarios::Experiment experiment;
   experiment.ambient.mean = 295.15;
   experiment.spindle.emplace();
+  experiment.duration = 0.0;
   std::vector<std::pair<double, double>> const spectrum = {{0.25, 3600.0}, {0.5, 3600.0}, {0.75, 3600.0},
                                                            {1.0, 3600.0},  {0.0, 1800.0}, {0.75, 5400.0},
                                                            {0.5, 3600.0},  {1.0, 3600.0}, {0.0, 3600.0}};
