@@ -44,6 +44,19 @@ std::vector<std::string> known_keys() {
   return keys;
 }
 
+/// What stands at the top of the file, before any table.
+struct HeadDescription {
+  std::string name, title;
+  std::string up = "z";
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("name", &HeadDescription::name, "short, as other files refer to it");
+    f("title", &HeadDescription::title, "one line for people");
+    f.choice("up", &HeadDescription::up, {"x", "y", "z"}, "axis that points upwards");
+  }
+};
+
 /// Every key of the document must be a table that the program knows.
 void check_keys(Value const& document) {
   auto const known = known_keys();
@@ -68,7 +81,6 @@ class MachineBuilder {
 
  private:
   [[nodiscard]] double spindle_limit() const;
-  [[nodiscard]] Eigen::Vector3d up() const;
   void read_head();
   void read_parts();
   void check_terms() const;
@@ -95,26 +107,15 @@ double MachineBuilder::spindle_limit() const {
   return spindle.maximum_speed;
 }
 
-Eigen::Vector3d MachineBuilder::up() const {
-  Value const* value = document_.find("up");
-  if (!value) return Eigen::Vector3d::UnitZ();
-  static std::vector<std::string> const axes = {"x", "y", "z"};
-  std::string const axis = value->is_text() ? std::get<std::string>(value->content) : value->text();
-  auto const it = std::find(axes.begin(), axes.end(), axis);
-  if (it == axes.end())
-    throw FileError(value->where, fmt::format("'up' is '{}'; {}", axis, thermal::did_you_mean(axis, axes)));
-  return Eigen::Vector3d::Unit(it - axes.begin());
-}
-
 void MachineBuilder::read_head() {
-  for (auto const& [key, target] : {std::pair{"name", &machine_.name}, std::pair{"title", &machine_.title}})
-    if (Value const* value = document_.find(key)) {
-      if (!value->is_text())
-        throw FileError(value->where, fmt::format("'{}' is {}; a text is due", key, value->kind()));
-      *target = std::get<std::string>(value->content);
-    }
-  if (machine_.name.empty()) throw FileError(document_.where, "'name' is missing; write for example name = \"v450\"");
-  machine_.up = up();
+  Value own{document_.where, Value::Table{}};
+  for (auto const& entry : std::get<Value::Table>(document_.content))
+    if (!entry.value.is_table() && !entry.value.is_list()) std::get<Value::Table>(own.content).push_back(entry);
+  HeadDescription head;
+  read_fields(own, head);
+  machine_.name = head.name;
+  machine_.title = head.title;
+  machine_.up = Eigen::Vector3d::Unit(head.up[0] - 'x');
   machine_.limits.max_spindle_speed = assembly_.maximum_spindle_speed();
   for (auto const& [axis, table] : tables_.read<AxisDescription>("axis"))
     machine_.limits.axes.push_back({axis.name, axis.rapid_feed, axis.lead, axis.stroke_from, axis.stroke_to});
@@ -306,6 +307,7 @@ std::filesystem::path machine_file(std::string const& name_or_path) {
 
 std::vector<TableRecord> describe_machine() {
   std::vector<TableRecord> tables = {
+      {"machine", "the keys at the top of the file", list_fields<HeadDescription>()},
       {"spindle", "the main spindle", list_fields<SpindleDescription>()},
       {"axis", "a linear axis driven by a screw", list_fields<AxisDescription>()},
       {"material", "a solid of this machine", list_fields<MaterialDescription>()},
