@@ -51,6 +51,15 @@ TEST(Seal, SharesItsHeat) {
   EXPECT_NEAR(heat[std::size_t(machine.network().range("a").first)], 0.3 * 40.0, 1e-9);
 }
 
+TEST(Bearing, LosesHeatAsItsOilWarmsUnlessTheFeedbackIsOff) {
+  auto const& bearing = snippet("bearing", "other oil");
+  double const cold = heat_with(bearing, 293.15, 293.15), warm = heat_with(bearing, 313.15, 313.15);
+  EXPECT_LT(warm, 0.8 * cold);
+  Changes const without = {{"viscosity_temperature", "0 K"}};
+  EXPECT_NEAR(heat_with(bearing, 293.15, 293.15, {}, without), warm, 1e-6 * warm);
+  EXPECT_NEAR(heat_with(bearing, 313.15, 313.15, {}, without), warm, 1e-6 * warm);
+}
+
 TEST(RotorWindage, GrowsWithTheThirdPowerOfSpeed) {
   EXPECT_NEAR(power_of_speed(snippet("rotor_windage", "known"), 100.0, 600.0), 3.0, 1e-12);
   EXPECT_NEAR(heat_at_speed(snippet("rotor_windage", "known"), 4500.0 / 6000.0 * full_speed), 15.0, 1e-9);

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <map>
 #include <random>
@@ -13,7 +11,6 @@
 #include "thermal/integrate.h"
 #include "thermal/units.h"
 #include "twin/effect.h"
-#include "twin/effect_page.h"
 #include "twin/sensitivity.h"
 
 /// What must hold for every effect of the catalogue, the ones that are still to be written included.
@@ -134,7 +131,9 @@ class EverySnippet : public testing::TestWithParam<Snippet> {
 };
 
 std::string snippet_name(testing::TestParamInfo<Snippet> const& info) {
-  return info.param.effect + "_" + info.param.name;
+  auto name = info.param.effect + "_" + info.param.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
 }
 
 double largest(std::vector<double> const& values) {
@@ -321,42 +320,6 @@ TEST_P(EveryEffect, HasNoNumberThatDoesNothing) {
       if (most.contains(key) && most[key] < 1e-6) most[key] = std::max(most[key], answer(document, s, key));
   }
   for (auto const& [key, kelvin] : most) EXPECT_GE(kelvin, 1e-6) << key;
-}
-
-TEST(EffectPage, ShowsTextsAndParametersWithin100Columns) {
-  for (auto const& entry : effect_catalogue()) {
-    auto const page = effect_page(entry);
-    for (auto const& field : entry.parameters) EXPECT_NE(page.find(field.key), std::string::npos) << field.key;
-    std::stringstream lines(page + effect_list());
-    for (std::string line; std::getline(lines, line);)
-      EXPECT_LE(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; }), 100) << line;
-  }
-  auto const page = effect_page(effect("fan_cooling"));
-  EXPECT_NE(page.find("conductance [W/K]; required, plausible 0.2 W/K to 5 W/K"), std::string::npos) << page;
-  EXPECT_NE(page.find("Signature   sink with speed"), std::string::npos) << page;
-}
-
-TEST(EffectPage, ListsEveryEffectOnALineOfItsOwn) {
-  std::stringstream lines(effect_list());
-  std::set<std::string> first_words;
-  for (std::string line; std::getline(lines, line);) first_words.insert(line.substr(0, line.find(' ')));
-  for (auto const& entry : effect_catalogue()) EXPECT_TRUE(first_words.contains(entry.name)) << entry.name;
-}
-
-TEST(EffectPage, ShowsTheTablesOfAMachineFile) {
-  for (auto const& table : describe_machine())
-    if (table.name == "displacement") {
-      auto const page = table_page(table);
-      EXPECT_NE(page.find("segment"), std::string::npos);
-      EXPECT_NE(page.find("\n      against"), std::string::npos) << page;
-    }
-}
-
-TEST(EffectsMarkdown, IsWhatTheDocumentationHolds) {
-  std::ifstream file(std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "docs" / "effects.md");
-  std::stringstream text;
-  text << file.rdbuf();
-  EXPECT_TRUE(text.str() == effects_markdown()) << "write it anew: thermotwin effects --markdown > docs/effects.md";
 }
 
 }  // namespace

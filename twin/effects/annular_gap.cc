@@ -93,7 +93,7 @@ struct AnnularGap {
 
 Effect const& annular_gap_effect() {
   static Effect const effect = make_effect<AnnularGap>(
-      {"annular_gap", "heat through the air gap between a rotor and its stator, or a shaft and its housing",
+      {"annular_gap", "heat through the air gap of a rotor in its stator, or a shaft in its housing",
        "q = U A (T_stator − T_rotor),  U = Nu k/2δ;  Ta = (ω r δ/ν)(δ/r)^(1/2):  Nu = 2 up to Ta 41, 0.202 Ta^0.63 "
        "Pr^0.27 "
        "up to 100, 0.386 Ta^(1/2) Pr^0.27 above;  becker_kaye: 2, 0.128 (Ta²)^0.367, 0.409 (Ta²)^0.241;  jungnickel: U "

@@ -102,7 +102,7 @@ struct BallNut {
 
 Effect const& ball_nut_effect() {
   static Effect const effect = make_effect<BallNut>(
-      {"ball_nut", "friction of a ball nut that travels along its screw, and conduction between the two",
+      {"ball_nut", "friction of a ball nut that travels along its screw, and conduction between them",
        "Q = T_nut |ω|;  T_nut = T_pre (1 − φ + φ √(νn/(ν40 n_r))) + |F_ax| l/2π (1/η − 1);  T_pre = 0.05 (tan "
        "β)^(−1/2) F_a0 "
        "l/2π;  G = G0 + G1 √(n/n_r);  spread over the screw by the exact overlap with the nut along its stroke",

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 
 #include "thermal/ball_conductance.h"
 #include "thermal/bearing_friction.h"
@@ -34,6 +35,8 @@ struct Bearing {
   double count = 1.0;
   double grease_factor = 0.8;
   int oil = 22;
+  double viscosity_factor = 1.0;
+  std::optional<double> viscosity_temperature;  ///< [K]
   double pitch_diameter = required;
   double load_factor = 5e-4, load_exponent = 0.38, load_ratio = 0.003;
   double torque_load = required;
@@ -49,6 +52,10 @@ struct Bearing {
     f("grease_factor", &Bearing::grease_factor, dimension::dimensionless,
       "f0 of each: run-in spindle grease 0.4 to 1.0, grease 2, oil bath 3.3", Range{0.2, 8.0});
     f("oil", &Bearing::oil, "ISO viscosity grade of the base oil", Range{10, 100});
+    f("viscosity_factor", &Bearing::viscosity_factor, dimension::dimensionless, "of that grade, at every temperature",
+      Range{0.3, 3.0});
+    f("viscosity_temperature", &Bearing::viscosity_temperature, dimension::temperature_difference,
+      "B, where it is not that grade's; the viscosity at 40 degC stays; 0: no feedback", Range{0.0, 1000.0});
     f("pitch_diameter", &Bearing::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0});
     f("load_factor", &Bearing::load_factor, dimension::dimensionless, "z of f1 = z (P0/C0)^y", Range{1e-4, 2e-3});
     f("load_exponent", &Bearing::load_exponent, dimension::dimensionless, "y of it", Range{0.3, 0.6});
@@ -58,11 +65,12 @@ struct Bearing {
     f("inner_share", &Bearing::inner_share, dimension::dimensionless, "of the heat, into the inner rings",
       Range{0.0, 1.0});
     f("conductance", &Bearing::conductance, dimension::conductance,
-      "from inner to outer rings of the whole set, through balls and grease", Range{0.1, 50.0});
+      "from inner to outer rings of the whole set, through balls and grease; 0 beside a ball_conductance",
+      Range{0.0, 50.0});
   }
 
   void add_to(Assembly& assembly) const {
-    auto const viscosity = thermal::mineral_oil_viscosity(oil);
+    auto const viscosity = base_oil();
     Place const shaft = assembly.place(inner), housing = assembly.place(outer);
     assembly.network().add<PalmgrenHeat>(assembly.part(), {assembly.port(shaft), assembly.port(housing)},
                                          {count, grease_factor, viscosity.scale, viscosity.temperature, pitch_diameter,
@@ -72,6 +80,15 @@ struct Bearing {
       for (auto const& b : housing.site.contacts)
         assembly.network().connect(assembly.part(), assembly.node(shaft, a.node), assembly.node(housing, b.node),
                                    conductance * a.share * b.share);
+  }
+
+ private:
+  [[nodiscard]] thermal::Vogel base_oil() const {
+    thermal::Vogel law = thermal::mineral_oil_viscosity(oil);
+    double const at_40 = viscosity_factor * thermal::viscosity(law, 313.15);
+    law.temperature = viscosity_temperature.value_or(law.temperature);
+    law.scale = at_40 * std::exp(-law.temperature / (313.15 - law.pole));
+    return law;
   }
 };
 

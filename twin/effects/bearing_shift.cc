@@ -56,7 +56,7 @@ struct BearingShift {
 
 Effect const& bearing_shift_effect() {
   static Effect const effect = make_effect<BearingShift>(
-      {"bearing_shift", "a spring-preloaded angular contact bearing shifts the shaft as its contact angle changes",
+      {"bearing_shift", "a spring-preloaded ball bearing shifts the shaft as its contact angle changes",
        "Δ = [cos α (r_i θ_i − r_o θ_o) + D_b ½(θ_i + θ_o)] α_b/sin α + Δ_c(ω_max) (ω/ω_max)^p;  Δ_c from the balls' "
        "centrifugal force, p so that it is exact at half and full speed",
        "deformation", "a displacement channel; shaft and outer ring",

@@ -23,7 +23,7 @@ struct Compensation {
 
 Effect const& compensation_effect() {
   static Effect const effect = make_effect<Compensation>(
-      {"compensation", "the controller's own thermal compensation was left on while the error was measured",
+      {"compensation", "the controller's own compensation was left on while the error was measured",
        "ΔE = −k (T_s − T_s(0))", "deformation", "a displacement channel; place of the controller's sensor",
        "the displacement alone: collinear with one temperature, and all temperatures agree", "physics.md §7 no. 34"});
   return effect;

@@ -29,7 +29,7 @@ struct ExtraMass {
 
 Effect const& extra_mass_effect() {
   static Effect const effect = make_effect<ExtraMass>(
-      {"extra_mass", "a thermal mass that was left out: drawbar, cables, wall of a hose, coolant in pockets",
+      {"extra_mass", "a thermal mass that was left out: drawbar, cables, wall of a hose",
        "C_m dT_m/dt = G_m (T − T_m),  q = G_m (T_m − T)", "link", "any place",
        "nothing in the steady state; residual like a delayed slope, + early, − late, mirrored in cool-down; neighbours "
        "answer too; τ 5 min…3 h",

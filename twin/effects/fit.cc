@@ -98,7 +98,7 @@ struct FitPart {
 
 Effect const& fit_effect() {
   static Effect const effect = make_effect<FitPart>(
-      {"fit", "conduction from a ring into its seat, which changes as the clearance opens or closes",
+      {"fit", "conduction from a ring into its seat, which changes with the clearance",
        "q = h(g) π D b (T_outer − T_inner);  g = g0 − D (α_i θ_i − α_o θ_o);  clearance: h = k/(g/2 + ξ);  "
        "interference: "
        "besides 1.25 (k_s m/σ)(p/H)^0.95, p = −g/{D [(C_o + ν_o)/E_o + (C_i − ν_i)/E_i]}",

@@ -61,7 +61,7 @@ struct GreaseRunIn {
 
 Effect const& grease_run_in_effect() {
   static Effect const effect = make_effect<GreaseRunIn>(
-      {"grease_run_in", "heat of grease that is churned until it has left the track, after a stop or relubrication",
+      {"grease_run_in", "heat of grease that is churned until it has left the track",
        "Q = P (ω/ω_r)^(5/3) e^(−t_on/τ),  slow form e^(−N/N_c) with the revolutions N", "source",
        "both rings of a bearing",
        "peak in the first 0.5…3 h, then decay at constant speed; smaller the next day where revolutions count",

@@ -30,9 +30,8 @@ struct Heat {
 
 Effect const& heat_effect() {
   static Effect const effect = make_effect<Heat>(
-      {"heat", "heat at a constant rate while something is on: pump, hydraulics, electronics, brake, enabled drive",
-       "q = P·u,  u = 0…1", "source", "any place",
-       "power of speed 0; follows its flag, not the spindle; at stop it goes on while the flag is up",
+      {"heat", "heat at a constant rate while something is on: pump, electronics, brake", "q = P·u,  u = 0…1", "source",
+       "any place", "power of speed 0; follows its flag, not the spindle; at stop it goes on while the flag is up",
        "physics.md 1.10, 1.7, §7 nos. 22, 39, 42"});
   return effect;
 }

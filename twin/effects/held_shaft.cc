@@ -48,7 +48,7 @@ struct HeldShaftPart {
 
 Effect const& held_shaft_effect() {
   static Effect const effect = make_effect<HeldShaftPart>(
-      {"held_shaft", "a shaft located by bearings at both ends pushes its front bearing outwards as it grows",
+      {"held_shaft", "a shaft held at both ends pushes its front bearing outwards as it grows",
        "u_f = F/k_f,  F = Δ/(1/k_f + 1/k_r + L/(EA)_s + L/(EA)_h),  Δ = ∫(α_s θ_s − α_h θ_h) dz", "deformation",
        "a displacement channel; shaft and housing between the bearings",
        "follows the difference of shaft and housing: grows fast after a start, shrinks as the housing follows",

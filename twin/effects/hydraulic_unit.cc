@@ -44,7 +44,7 @@ struct HydraulicUnit {
 
 Effect const& hydraulic_unit_effect() {
   static Effect const effect = make_effect<HydraulicUnit>(
-      {"hydraulic_unit", "heat of a hydraulic or lubrication unit, in its tank and where its oil is throttled",
+      {"hydraulic_unit", "heat of a hydraulic or lubrication unit, and of its oil where it is throttled",
        "q_tank = d P − Δp V̇,  q_consumers = Δp V̇", "source", "oil tank, side of the bed, rear of the column",
        "power of speed 0; follows machine-on, not the spindle; tank 1…3 h", "physics.md 1.10, §7 no. 22"});
   return effect;

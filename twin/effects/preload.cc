@@ -112,8 +112,7 @@ struct Preload {
 
 Effect const& preload_effect() {
   static Effect const effect = make_effect<Preload>(
-      {"preload",
-       "heat that a rigidly preloaded bearing makes more, or less, as temperature and speed change its preload",
+      {"preload", "heat that a rigidly preloaded bearing makes more or less as its preload changes",
        "ΔQ = M1 [(F/F0)^(1+y) − 1] ω;  F/F0 = (1 + δ/δ0)₊^(3/2);  δ = cos α [α_b (r_i θ_i − r_o θ_o) + u(ω)] + α_b D_b "
        "θ_b "
        "∓ ½ sin α [α_s ∫θ_s dz − α_h ∫θ_h dz];  δ0 = 4.36e-4 mm (Q²/D_b)^(1/3), Q in N, D_b in mm",

@@ -1,0 +1,52 @@
+#include "twin/effect_page.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace thermotwin::twin {
+namespace {
+
+TEST(EffectPage, ShowsTextsAndParametersWithin100Columns) {
+  for (auto const& entry : effect_catalogue()) {
+    auto const page = effect_page(entry);
+    for (auto const& field : entry.parameters) EXPECT_NE(page.find(field.key), std::string::npos) << field.key;
+    std::stringstream lines(page + effect_list());
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; }), 100) << line;
+  }
+  auto const page = effect_page(effect("fan_cooling"));
+  EXPECT_NE(page.find("conductance [W/K]; required, plausible 0.2 W/K to 5 W/K"), std::string::npos) << page;
+  EXPECT_NE(page.find("Signature   sink with speed"), std::string::npos) << page;
+}
+
+TEST(EffectPage, ListsEveryEffectOnALineOfItsOwn) {
+  std::stringstream lines(effect_list());
+  for (auto const& entry : effect_catalogue()) {
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line.substr(0, line.find(' ')), entry.name);
+    EXPECT_NE(line.find(entry.meaning), std::string::npos) << line;
+  }
+}
+
+TEST(EffectPage, ShowsTheTablesOfAMachineFile) {
+  for (auto const& table : describe_machine())
+    if (table.name == "displacement") {
+      auto const page = table_page(table);
+      EXPECT_NE(page.find("segment"), std::string::npos);
+      EXPECT_NE(page.find("\n      against"), std::string::npos) << page;
+    }
+}
+
+TEST(EffectsMarkdown, IsWhatTheDocumentationHolds) {
+  std::ifstream file(std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "docs" / "effects.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_TRUE(text.str() == effects_markdown()) << "write it anew: thermotwin effects --markdown > docs/effects.md";
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
