@@ -49,6 +49,8 @@ struct HeadDescription {
   std::string name, title;
   std::string up = "z";
 
+  [[nodiscard]] Eigen::Vector3d upwards() const { return Eigen::Vector3d::Unit(up[0] - 'x'); }
+
   template <class Fields>
   static void fields(Fields& f) {
     f.name("name", &HeadDescription::name, "short, as other files refer to it");
@@ -56,6 +58,16 @@ struct HeadDescription {
     f.choice("up", &HeadDescription::up, {"x", "y", "z"}, "axis that points upwards");
   }
 };
+
+/// The document's own keys, without its tables.
+HeadDescription head_of(Value const& document) {
+  Value own{document.where, Value::Table{}};
+  for (auto const& entry : std::get<Value::Table>(document.content))
+    if (!entry.value.is_table() && !entry.value.is_list()) std::get<Value::Table>(own.content).push_back(entry);
+  HeadDescription head;
+  read_fields(own, head);
+  return head;
+}
 
 /// Every key of the document must be a table that the program knows.
 void check_keys(Value const& document) {
@@ -73,9 +85,10 @@ class MachineBuilder {
  public:
   explicit MachineBuilder(Value const& document)
       : document_(document),
+        head_(head_of(document)),
         tables_(document),
         bodies_(tables_),
-        assembly_(bodies_.all(), bodies_.order(), spindle_limit(), up()),
+        assembly_(bodies_.all(), bodies_.order(), spindle_limit(), head_.upwards()),
         loop_(assembly_, bodies_, document.where.file) {}
   Machine operator()();
 
@@ -92,6 +105,7 @@ class MachineBuilder {
   void hang_bodies();
 
   Value const& document_;
+  HeadDescription head_;
   Machine machine_;
   Tables tables_;
   Bodies bodies_;
@@ -108,14 +122,9 @@ double MachineBuilder::spindle_limit() const {
 }
 
 void MachineBuilder::read_head() {
-  Value own{document_.where, Value::Table{}};
-  for (auto const& entry : std::get<Value::Table>(document_.content))
-    if (!entry.value.is_table() && !entry.value.is_list()) std::get<Value::Table>(own.content).push_back(entry);
-  HeadDescription head;
-  read_fields(own, head);
-  machine_.name = head.name;
-  machine_.title = head.title;
-  machine_.up = Eigen::Vector3d::Unit(head.up[0] - 'x');
+  machine_.name = head_.name;
+  machine_.title = head_.title;
+  machine_.up = head_.upwards();
   machine_.limits.max_spindle_speed = assembly_.maximum_spindle_speed();
   for (auto const& [axis, table] : tables_.read<AxisDescription>("axis"))
     machine_.limits.axes.push_back({axis.name, axis.rapid_feed, axis.lead, axis.stroke_from, axis.stroke_to});
