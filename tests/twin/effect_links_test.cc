@@ -308,7 +308,6 @@ flow = "6 L/min"
 
 TEST(ExtraMass, IsForgottenInTheSteadyStateAndDelaysOnTheWay) {
   auto const& mass = snippet("extra_mass");
-  Snippet light = mass;
   Machine const with_mass = Machine::build(bench(mass));
   Machine const with_little = Machine::build(bench(mass, {{"heat_capacity", "1 J/K"}}));
   auto const course = bench_course(with_mass);
