@@ -15,7 +15,8 @@
 namespace thermotwin::twin {
 namespace {
 
-std::vector<double> sorted(TemperatureSensor const& sensor, std::function<double(TemperatureSpecimen const&)> pick) {
+std::vector<double> sorted(TemperatureSensor const& sensor,
+                           std::function<double(TemperatureSpecimen const&)> const& pick) {
   std::vector<double> values;
   for (int i = 0; i < 4000; ++i) values.push_back(pick(draw_specimen(sensor, {"T" + std::to_string(i), 11})));
   std::sort(values.begin(), values.end());
