@@ -48,6 +48,15 @@ struct TemperatureTerm {
   double coefficient = 0.0;  ///< [m/K] or [rad/K]
 };
 
+/// What a part does to the reading of one instrument.
+struct ReadingTerm {
+  std::string channel;     ///< sensor, or displacement channel
+  double drift = 0.0;      ///< [K/s] or [m/s], from the start of the run
+  double lag = 0.0;        ///< of first order, besides the instrument's own [s]
+  double air_share = 0.0;  ///< of the way from the body's temperature to that of the air [1]
+  double per_air = 0.0;    ///< of a displacement, per kelvin of the air near the tool since the start [m/K]
+};
+
 /// What the parts of a machine file are added to: the network while it is built, and the names of everything in it.
 class Assembly {
  public:
@@ -82,6 +91,8 @@ class Assembly {
 
   void displace(InputTerm term) { input_terms_.push_back(std::move(term)); }
   void displace(TemperatureTerm term) { temperature_terms_.push_back(std::move(term)); }
+  void misread(ReadingTerm term) { reading_terms_.push_back(std::move(term)); }
+  [[nodiscard]] std::vector<ReadingTerm> const& reading_terms() const { return reading_terms_; }
   [[nodiscard]] std::vector<InputTerm> const& input_terms() const { return input_terms_; }
   [[nodiscard]] std::vector<TemperatureTerm> const& temperature_terms() const { return temperature_terms_; }
 
@@ -103,6 +114,7 @@ class Assembly {
   std::map<std::string, Torque> torques_;
   std::vector<InputTerm> input_terms_;
   std::vector<TemperatureTerm> temperature_terms_;
+  std::vector<ReadingTerm> reading_terms_;
   double maximum_spindle_speed_ = 0.0;
   Eigen::Vector3d up_;
   int part_ = 0;

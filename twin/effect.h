@@ -23,6 +23,26 @@ class Part {
   virtual void add_to(Assembly& assembly) const = 0;
 };
 
+/// How diagnosis tries an effect that a machine file does not have: as one table more, whose amplitude is small enough
+/// to change nothing, at every site of the kind that its keys ask for.
+struct Trial {
+  /// A key of the table and what may stand there: "solid" (a stretch of a body), "shaft" (one that turns), "ring" (an
+  /// outer ring or seat of a bearing), "motor", "room surface" (one with a film to the room), "bearing" (name of a
+  /// part), "sensor", "displacement", "pair" (two solids that no joint connects: the key, and `to`).
+  struct Site {
+    std::string key;
+    std::string kind;
+  };
+  std::string amplitude;     ///< key of the number that grows from nothing; the flows are linear in it
+  double largest = 0.0;      ///< plausible upper end of the amplitude [SI]
+  bool either_sign = false;  ///< it may be negative
+  std::vector<Site> sites;
+  /// Other keys and their texts, one table per variant: {{"exponent", "0.5"}}; none: the defaults.
+  std::vector<std::vector<std::pair<std::string, std::string>>> shapes;
+  /// Numbers in proportion to the amplitude: {"heat_capacity", 1800.0} for a mass with τ = C/G = 30 min.
+  std::vector<std::pair<std::string, double>> proportional;
+};
+
 /// What the catalogue says about an effect, for people; the numbers come from the fields of its struct.
 struct EffectText {
   std::string name;     ///< of its tables in a machine file: `[[joint]]`
@@ -32,12 +52,16 @@ struct EffectText {
   std::string places;     ///< where it can act
   std::string signature;  ///< how it shows in data: power of speed, time scale, sign, what happens at stop
   std::string source;
+  std::vector<int> numbers = {};             ///< of physics.md §7
+  std::vector<std::string> confusable = {};  ///< effects that look alike
+  std::string separated_by = {};             ///< the experiment that tells them apart
 };
 
 /// One entry of the effect catalogue: the record that the simulator, the command line, the documentation and the
 /// diagnosis read. A new effect is a new file in twin/effects that returns one of these.
 struct Effect : EffectText {
   std::vector<FieldRecord> parameters;
+  std::vector<Trial> trials;  ///< none: diagnosis does not try it
   std::function<std::unique_ptr<Part>(Value const& table)> read;
 };
 
@@ -49,7 +73,7 @@ struct Effect : EffectText {
 
 /// Makes an entry of a struct with `std::string name`, a list of `fields` and `void add_to(Assembly&) const`.
 template <class T>
-Effect make_effect(EffectText text) {
+Effect make_effect(EffectText text, std::vector<Trial> trials = {}) {
   class PartOf final : public Part {
    public:
     explicit PartOf(Value const& table) { read_fields(table, part_); }
@@ -59,7 +83,8 @@ Effect make_effect(EffectText text) {
    private:
     T part_;
   };
-  return {std::move(text), list_fields<T>(), [](Value const& table) { return std::make_unique<PartOf>(table); }};
+  return {std::move(text), list_fields<T>(), std::move(trials),
+          [](Value const& table) { return std::make_unique<PartOf>(table); }};
 }
 
 }  // namespace thermotwin::twin

@@ -288,6 +288,7 @@ Machine MachineBuilder::operator()() {
   read_displacements();
   read_screws();
   read_displacement_instruments();
+  machine_.reading_terms = assembly_.reading_terms();
   build_network();
   hang_bodies();
   return std::move(machine_);

@@ -83,6 +83,7 @@ class Machine {
   std::vector<Displacement> displacements;
   std::vector<Screw> screws;
   std::vector<ProbeDescription> probes;
+  std::vector<ReadingTerm> reading_terms;
   std::optional<FiveProbeNest> nest;
   LaserInterferometer laser;
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/dataset.h"
+#include "thermal/operating_point.h"
+#include "twin/machine.h"
+
+namespace thermotwin::twin {
+
+/// What one of the machine's channels showed, in SI: temperatures in K, displacements in m, rotations in rad.
+struct MeasuredChannel {
+  std::string name;  ///< of a sensor, or of a displacement channel of the machine
+  bool displacement = false;
+  Eigen::VectorXd values;  ///< NaN: missing
+};
+
+/// One run to calibrate or diagnose with: the inputs that the machine was given, and what its channels showed.
+struct MeasuredRun {
+  std::string name;
+  std::shared_ptr<thermal::Course const> course;
+  Eigen::VectorXd time;                       ///< [s], strictly increasing
+  std::vector<MeasuredChannel> channels;      ///< those of the machine that the data have, in the machine's order
+  std::optional<double> initial_temperature;  ///< of the whole machine [K]; default: that of the air around each part
+  std::vector<std::string> remarks;           ///< for people: dead sensors, gaps, channels that the data lack
+};
+
+/// A data set (`.h5` as `run -o` writes it, `.csv` as `export` does) or a measurement file (`.toml`), which maps the
+/// columns of a table to inputs and channels. InputError when the inputs that the machine needs are not in it, or none
+/// of its channels, or when units contradict.
+[[nodiscard]] MeasuredRun read_measured_run(std::filesystem::path const& path, Machine const& machine);
+
+/// A data set in memory: its inputs become the course, its readings and displacements the channels.
+[[nodiscard]] MeasuredRun measured_run(output::Dataset const& dataset, Machine const& machine, std::string const& name);
+
+}  // namespace thermotwin::twin
