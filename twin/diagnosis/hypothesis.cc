@@ -1,0 +1,219 @@
+#include "twin/diagnosis/hypothesis.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "thermal/error.h"
+
+namespace thermotwin::twin {
+namespace {
+
+/// A value for a key, and what it acts on first.
+struct Spot {
+  std::vector<std::pair<std::string, std::string>> keys;
+  std::string site, body;
+};
+
+std::string body_of(std::string const& place) { return place.substr(0, place.find_first_of("[.")); }
+
+/// The names of a machine that a hypothesis may point to, by kind of site.
+class Sites {
+ public:
+  Sites(Value const& document, Machine const& machine);
+  [[nodiscard]] std::vector<Spot> at(Trial::Site const& site) const;
+
+ private:
+  void add(std::string const& kind, std::string const& text, std::string const& body);
+  void add_bodies();
+  void add_from_tables();
+  void add_pairs();
+  [[nodiscard]] std::vector<std::string> texts(Value const& table, std::string_view key) const;
+  void for_tables(std::string_view kind, std::function<void(Value const&)> const& action) const;
+
+  Value const& document_;
+  std::map<std::string, std::vector<std::pair<std::string, std::string>>> spots_;  ///< per kind: text, body
+  std::vector<std::string> solids_;
+  std::set<std::pair<std::string, std::string>> joined_;
+};
+
+Sites::Sites(Value const& document, Machine const& machine) : document_(document) {
+  add_bodies();
+  add_from_tables();
+  for (auto const& sensor : machine.sensors) add("sensor", sensor.description.name, sensor.description.name);
+  for (auto const& channel : machine.displacements)
+    if (!channel.rotation) add("displacement", channel.name, channel.name);
+}
+
+void Sites::add(std::string const& kind, std::string const& text, std::string const& body) {
+  auto& spots = spots_[kind];
+  if (std::none_of(spots.begin(), spots.end(), [&](auto const& s) { return s.first == text; }))
+    spots.emplace_back(text, body);
+}
+
+void Sites::for_tables(std::string_view kind, std::function<void(Value const&)> const& action) const {
+  Value const* tables = document_.find(kind);
+  if (!tables || !tables->is_list()) return;
+  for (auto const& table : std::get<Value::List>(tables->content)) action(table);
+}
+
+std::vector<std::string> Sites::texts(Value const& table, std::string_view key) const {
+  Value const* value = table.find(key);
+  if (!value) return {};
+  if (value->is_text()) return {std::get<std::string>(value->content)};
+  std::vector<std::string> result;
+  if (value->is_list())
+    for (auto const& item : std::get<Value::List>(value->content))
+      if (item.is_text()) result.push_back(std::get<std::string>(item.content));
+  return result;
+}
+
+void Sites::add_bodies() {
+  constexpr double longest_single = 0.15;
+  for (std::string const kind : {"lump", "bar", "hollow_cylinder", "block"})
+    for_tables(kind, [&](Value const& table) {
+      std::string const name = texts(table, "name").at(0);
+      solids_.push_back(name);
+      auto const lengths = texts(table, "length");
+      double const length = lengths.empty() ? 0.0 : thermal::parse_value(lengths[0], dimension::length);
+      if (kind != "bar" || length <= longest_single) return add("solid", name, name);
+      for (int third = 0; third < 3; ++third)
+        add("solid",
+            fmt::format("{}[{:.4g} mm .. {:.4g} mm]", name, 1e3 * length * third / 3.0,
+                        1e3 * length * (third + 1) / 3.0),
+            name);
+    });
+}
+
+void Sites::add_from_tables() {
+  for (std::string const kind : {"bearing", "skf_bearing", "support_bearing"})
+    for_tables(kind, [&](Value const& table) {
+      for (auto const& place : texts(table, "inner")) add("shaft", place, body_of(place));
+      for (auto const& place : texts(table, "outer")) {
+        add("ring", place, body_of(place));
+        if (kind == "bearing") add("bearing", texts(table, "name").at(0), body_of(place));
+      }
+    });
+  for (std::string const kind : {"motor_loss", "copper_loss", "loss_curve"})
+    for_tables(kind, [&](Value const& table) {
+      for (auto const& place : texts(table, "at")) add("motor", place, body_of(place));
+    });
+  for_tables("film", [&](Value const& table) {
+    auto const to = texts(table, "to");
+    auto const correlation = texts(table, "correlation");
+    bool const turns = !correlation.empty() && correlation[0].starts_with("rotating");
+    if (to.empty() || to[0] == "ambient")
+      for (auto const& place : texts(table, "on")) add(turns ? "shaft" : "room surface", place, body_of(place));
+  });
+  for (std::string const kind : {"joint", "contact_joint", "fit", "radiation"})
+    for_tables(kind, [&](Value const& table) {
+      for (auto const& from : texts(table, "from"))
+        for (auto const& to : texts(table, "to")) {
+          joined_.insert({body_of(from), body_of(to)});
+          joined_.insert({body_of(to), body_of(from)});
+        }
+    });
+}
+
+std::vector<Spot> Sites::at(Trial::Site const& site) const {
+  std::vector<Spot> result;
+  if (site.kind == "pair") {
+    for (std::size_t i = 0; i < solids_.size(); ++i)
+      for (std::size_t j = i + 1; j < solids_.size(); ++j)
+        if (!joined_.contains({solids_[i], solids_[j]}))
+          result.push_back(
+              {{{site.key, solids_[i]}, {"to", solids_[j]}}, solids_[i] + " to " + solids_[j], solids_[i]});
+    return result;
+  }
+  auto const it = spots_.find(site.kind);
+  if (it == spots_.end()) return result;
+  for (auto const& [text, body] : it->second) result.push_back({{{site.key, text}}, text, body});
+  return result;
+}
+
+/// Every combination of the spots of all keys that a trial asks for.
+std::vector<Spot> spots_of(Trial const& trial, Sites const& sites) {
+  std::vector<Spot> combined = {{{}, "", ""}};
+  for (auto const& site : trial.sites) {
+    std::vector<Spot> next;
+    for (auto const& before : combined)
+      for (auto const& spot : sites.at(site)) {
+        Spot both = before;
+        both.keys.insert(both.keys.end(), spot.keys.begin(), spot.keys.end());
+        both.site += (both.site.empty() ? "" : " by ") + spot.site;
+        if (both.body.empty()) both.body = spot.body;
+        next.push_back(std::move(both));
+      }
+    combined = std::move(next);
+  }
+  for (auto& spot : combined)
+    if (spot.site.empty()) spot.site = spot.body = "machine";
+  return combined;
+}
+
+/// A table of the file that does the same at the same place.
+bool stands_already(Value const& document, Hypothesis const& hypothesis) {
+  Value const* tables = document.find(hypothesis.effect->name);
+  if (!tables || !tables->is_list()) return false;
+  auto const& list = std::get<Value::List>(tables->content);
+  return std::any_of(list.begin(), list.end(), [&](Value const& table) {
+    return std::all_of(hypothesis.keys.begin(), hypothesis.keys.end(), [&](auto const& key) {
+      Value const* value = table.find(key.first);
+      return value && value->is_text() && std::get<std::string>(value->content) == key.second;
+    });
+  });
+}
+
+FieldRecord const& field(Effect const& effect, std::string const& key) {
+  for (auto const& record : effect.parameters)
+    if (record.key == key) return record;
+  throw thermal::InputError(fmt::format("the effect '{}' has no parameter '{}'", effect.name, key));
+}
+
+}  // namespace
+
+std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine,
+                                   std::vector<std::string> const& without) {
+  Sites const sites(document, machine);
+  std::vector<Hypothesis> result;
+  for (auto const& entry : effect_catalogue()) {
+    if (std::find(without.begin(), without.end(), entry.name) != without.end()) continue;
+    for (auto const& trial : entry.trials)
+      for (auto const& spot : spots_of(trial, sites)) {
+        auto const shapes = trial.shapes.empty() ? decltype(trial.shapes){{}} : trial.shapes;
+        for (auto const& shape : shapes) {
+          Hypothesis hypothesis{&entry, &trial, spot.site, spot.body, spot.keys};
+          hypothesis.keys.insert(hypothesis.keys.end(), shape.begin(), shape.end());
+          if (!stands_already(document, hypothesis)) result.push_back(std::move(hypothesis));
+        }
+      }
+  }
+  return result;
+}
+
+std::vector<std::pair<std::string, std::string>> table_of(Hypothesis const& hypothesis, std::string const& name,
+                                                          double amplitude) {
+  std::vector<std::pair<std::string, std::string>> keys = {{"name", name}};
+  keys.insert(keys.end(), hypothesis.keys.begin(), hypothesis.keys.end());
+  auto const add = [&](std::string const& key, double value) {
+    keys.emplace_back(key, thermal::format_quantity(value, field(*hypothesis.effect, key).dimension));
+  };
+  add(hypothesis.trial->amplitude, amplitude);
+  for (auto const& [key, factor] : hypothesis.trial->proportional) add(key, factor * amplitude);
+  return keys;
+}
+
+Value with_hypothesis(Value document, Hypothesis const& hypothesis, std::string const& name, double amplitude) {
+  Location const where{document.where.file, 1'000'000, 1};  // after everything that the file has
+  Value table{where, Value::Table{}};
+  for (auto const& [key, text] : table_of(hypothesis, name, amplitude))
+    std::get<Value::Table>(table.content).push_back({key, where, Value{where, text}});
+  if (!document.find(hypothesis.effect->name))
+    std::get<Value::Table>(document.content).push_back({hypothesis.effect->name, where, Value{where, Value::List{}}});
+  std::get<Value::List>(document.find(hypothesis.effect->name)->content).push_back(std::move(table));
+  return document;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "twin/effect.h"
+#include "twin/machine.h"
+
+namespace thermotwin::twin {
+
+/// One effect that a machine file may lack, at one site: a table that could be appended to it.
+struct Hypothesis {
+  Effect const* effect = nullptr;
+  Trial const* trial = nullptr;
+  std::string site;  ///< where, as people read it: "cartridge[0 mm .. 160 mm]", "T4", "motor to column_front"
+  std::string body;  ///< body, sensor or displacement channel that it acts on first
+  std::vector<std::pair<std::string, std::string>> keys;  ///< of the table, but for its name and amplitude
+
+  /// What is compared: entries that differ in their shape only are one effect at one place.
+  [[nodiscard]] std::string label() const { return effect->name + " at " + site; }
+};
+
+/// Every trial of the catalogue at every site that the machine has for it, but for tables that stand in the file
+/// already and for effects named in `without`. A bar of more than 150 mm has three stretches, other bodies are one
+/// site.
+[[nodiscard]] std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine,
+                                                 std::vector<std::string> const& without = {});
+
+/// The document with the table of a hypothesis appended; amplitude in SI.
+[[nodiscard]] Value with_hypothesis(Value document, Hypothesis const& hypothesis, std::string const& name,
+                                    double amplitude);
+
+/// The keys of that table and their texts, as they stand in a file: what an amended file gets.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> table_of(Hypothesis const& hypothesis,
+                                                                        std::string const& name, double amplitude);
+
+}  // namespace thermotwin::twin
