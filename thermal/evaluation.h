@@ -55,6 +55,10 @@ class Evaluation {
   /// [nodes | boundaries | averages] from the state and the operating point.
   std::span<double const> temperatures(double const* state, double const* input);
 
+  /// Weights of the averages, and the operating point completed by them, at the last evaluation.
+  [[nodiscard]] std::vector<std::vector<double>> const& average_weights() const { return weights_; }
+  [[nodiscard]] std::vector<double> const& inputs() const { return input_; }
+
   /// dy/dt [K/s].
   void rate(double const* state, double const* input, double* state_rate);
 

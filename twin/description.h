@@ -207,6 +207,7 @@ struct ChannelDescription : LineDescription {
 struct LoopSegment {
   std::string of, against, rotation;
   double weight = 1.0;
+  double growth_factor = 1.0;
   std::optional<double> length, height, lever, expansion;
 
   template <class Fields>
@@ -215,6 +216,8 @@ struct LoopSegment {
     f("against", &LoopSegment::against, "place on the cold side, for bending");
     f("rotation", &LoopSegment::rotation, "rotation channel that moves the tool by its lever");
     f("weight", &LoopSegment::weight, dimension::dimensionless, "sign along the loop, or share");
+    f("growth_factor", &LoopSegment::growth_factor, dimension::dimensionless,
+      "of what it does, against the computed; the loop's closure does not count it", Range{0.3, 3.0});
     f("length", &LoopSegment::length, dimension::length, "of a lump, or over which it bends", positive);
     f("height", &LoopSegment::height, dimension::length, "between the warm and the cold side", positive);
     f("lever", &LoopSegment::lever, dimension::length, "of the rotation");

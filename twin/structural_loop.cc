@@ -48,10 +48,10 @@ void StructuralLoop::add_rotation(Displacement& channel, LoopSegment const& segm
                                [&](auto const& d) { return d.rotation && d.name == segment.rotation; });
   if (it == channels_.end()) throw InputError(fmt::format("unknown rotation '{}'", segment.rotation));
   if (!segment.lever) throw InputError(fmt::format("the lever of rotation '{}' is missing", segment.rotation));
-  for (auto const& [node, weight] : it->weights)
-    channel.weights.emplace_back(node, segment.weight * *segment.lever * weight);
+  double const factor = segment.weight * segment.growth_factor * *segment.lever;
+  for (auto const& [node, weight] : it->weights) channel.weights.emplace_back(node, factor * weight);
   for (auto term : it->input_terms) {
-    term.coefficient *= segment.weight * *segment.lever;
+    term.coefficient *= factor;
     channel.input_terms.push_back(std::move(term));
   }
 }
@@ -60,7 +60,7 @@ void StructuralLoop::add_segment(Displacement& channel, DisplacementDescription 
                                  LoopSegment const& segment) const {
   if (!segment.rotation.empty()) return add_rotation(channel, segment);
   Place const of = assembly_.place(segment.of);
-  double const alpha = expansion_at(of, segment.expansion);
+  double const alpha = segment.growth_factor * expansion_at(of, segment.expansion);
   double const length = segment_length(segment);
   if (segment.against.empty()) {
     add_growth(channel.weights, of, segment.weight * alpha * length / description.base.value_or(1.0));

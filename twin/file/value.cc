@@ -1,7 +1,9 @@
 #include "twin/file/value.h"
 
 #include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
+#include <optional>
 
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
@@ -12,6 +14,14 @@ namespace {
 std::string name_of(Value const& table) {
   Value const* name = table.find("name");
   return name && name->is_text() ? std::get<std::string>(name->content) : std::string();
+}
+
+/// "2" for the third entry of a list of tables without names.
+std::optional<std::size_t> index_in(Value::List const& list, std::string const& text) {
+  std::size_t index = 0;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc{} || end != text.data() + text.size() || index >= list.size()) return std::nullopt;
+  return list[index].is_table() ? std::optional(index) : std::nullopt;
 }
 
 /// Splits at the dots; a name may itself contain none.
@@ -97,6 +107,10 @@ std::pair<Value*, std::string> find_parameter(Value& document, std::string_view 
       auto const& name = parts[++next];
       auto const it =
           std::find_if(list.begin(), list.end(), [&](auto const& v) { return v.is_table() && name_of(v) == name; });
+      if (it == list.end() && index_in(list, name)) {
+        here = &list[*index_in(list, name)];
+        continue;
+      }
       if (it == list.end()) {
         std::vector<std::string> names;
         for (auto const& v : list)

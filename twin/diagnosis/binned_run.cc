@@ -1,0 +1,95 @@
+#include "twin/diagnosis/binned_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace thermotwin::twin {
+namespace {
+
+/// Between two jumps, rows of equal length.
+struct Row {
+  double begin, end;
+  bool after_jump;
+};
+
+std::vector<Row> rows_of(MeasuredRun const& run, double interval) {
+  std::vector<Row> rows;
+  double const end = run.time[run.time.size() - 1];
+  for (double from = run.time[0]; from < end;) {
+    double const to = std::min(run.course->next_jump(from), end);
+    int const count = std::max(1, int(std::ceil((to - from) / interval - 1e-9)));
+    for (int i = 0; i < count; ++i)
+      rows.push_back({from + (to - from) * i / count, from + (to - from) * (i + 1) / count, i == 0});
+    from = to;
+  }
+  return rows;
+}
+
+void add_steps(BinnedRun& binned, Row const& row, int index, double first_step) {
+  double const length = row.end - row.begin;
+  double step = row.after_jump ? std::min(first_step, length) : length;
+  for (double at = row.begin; at < row.end - 1e-6;) {
+    double const left = row.end - at;
+    double const taken = left < 1.5 * step ? left : step;
+    binned.steps.push_back({at, at + taken, index, 0.0, 0.0});
+    at += taken;
+    step *= 2.0;
+  }
+}
+
+}  // namespace
+
+BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
+  auto const rows = rows_of(run, interval);
+  auto const channels = Eigen::Index(run.channels.size());
+  BinnedRun binned{&run, {}, {}, {}, {}};
+  binned.time.setZero(Eigen::Index(rows.size()));
+  binned.values.setZero(Eigen::Index(rows.size()), channels);
+  binned.samples.setZero(Eigen::Index(rows.size()), channels);
+  Eigen::Index sample = 0;
+  std::size_t first_of_row = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    add_steps(binned, rows[r], int(r), first_step);
+    auto const row = Eigen::Index(r);
+    bool const last = r + 1 == rows.size();
+    int count = 0;
+    std::size_t step = first_of_row;
+    for (; sample < run.time.size() && (run.time[sample] < rows[r].end || last); ++sample, ++count) {
+      double const t = run.time[sample];
+      while (step + 1 < binned.steps.size() && binned.steps[step].end <= t) ++step;
+      double const share = (t - binned.steps[step].begin) / (binned.steps[step].end - binned.steps[step].begin);
+      binned.steps[step].at_begin += 1.0 - share;
+      binned.steps[step].at_end += share;
+      binned.time[row] += t;
+      for (Eigen::Index c = 0; c < channels; ++c)
+        if (double const value = run.channels[std::size_t(c)].values[sample]; !std::isnan(value)) {
+          binned.values(row, c) += value;
+          binned.samples(row, c) += 1.0;
+        }
+    }
+    if (count == 0) {  // between two samples: the row has no data
+      binned.steps[first_of_row].at_begin = 1.0;
+      binned.time[row] = rows[r].begin;
+      count = 1;
+    }
+    for (std::size_t s = first_of_row; s < binned.steps.size(); ++s) {
+      binned.steps[s].at_begin /= count;
+      binned.steps[s].at_end /= count;
+    }
+    binned.time[row] /= count;
+    first_of_row = binned.steps.size();
+  }
+  binned.values =
+      (binned.samples.array() > 0.0)
+          .select(binned.values.cwiseQuotient(binned.samples.cwiseMax(1.0)), std::numeric_limits<double>::quiet_NaN());
+  return binned;
+}
+
+double fitting_interval(MeasuredRun const& run, int rows) {
+  double const duration = run.time[run.time.size() - 1] - run.time[0];
+  double const sampling = duration / double(std::max<Eigen::Index>(run.time.size() - 1, 1));
+  return std::max({sampling, std::min(300.0, duration / 60.0), duration / rows});
+}
+
+}  // namespace thermotwin::twin

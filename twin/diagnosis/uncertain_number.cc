@@ -1,0 +1,79 @@
+#include "twin/diagnosis/uncertain_number.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+
+#include "twin/effect.h"
+#include "twin/sensitivity.h"
+
+namespace thermotwin::twin {
+namespace {
+
+namespace dimension = thermal::dimension;
+
+std::optional<double> deviation_of(std::string const& table, std::string const& key, thermal::Dimension const& of) {
+  if (key == "grease_factor" || of == dimension::torque) return 0.25;
+  if (table == "film" && (key == "area" || key == "coefficient")) return 0.20;
+  if (of == dimension::conductance || of == dimension::film_coefficient) return 0.30;
+  if (of == dimension::power) return 0.25;
+  if (key == "mass" || key == "heat_capacity") return 0.10;
+  return std::nullopt;
+}
+
+bool is_list_of_tables(Value const& value) {
+  return value.is_list() && !std::get<Value::List>(value.content).empty() &&
+         std::get<Value::List>(value.content).front().is_table();
+}
+
+void add_numbers(Value const& document, std::string const& kind, Value const& table,
+                 std::vector<UncertainNumber>& numbers) {
+  Value const* name = table.find("name");
+  if (!name || !name->is_text()) return;
+  std::string const prefix = kind + "." + std::get<std::string>(name->content) + ".";
+  for (auto const& entry : std::get<Value::Table>(table.content)) {
+    Parameter parameter;
+    try {
+      parameter = find_number(document, prefix + entry.key);
+    } catch (thermal::InputError const&) {
+      continue;  // a text, a list
+    }
+    auto const deviation = deviation_of(kind, entry.key, parameter.dimension);
+    if (deviation && parameter.value > 0.0 && !parameter.absolute_temperature)
+      numbers.push_back({parameter.path, parameter.value, parameter.dimension, *deviation});
+  }
+}
+
+/// Every step of the structural loop may do more or less than it was computed to.
+void add_growth(Value& channel, std::string const& kind, std::vector<UncertainNumber>& numbers) {
+  Value* segments = channel.find("segment");
+  Value const* name = channel.find("name");
+  if (!segments || !is_list_of_tables(*segments) || !name) return;
+  auto& list = std::get<Value::List>(segments->content);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].find("growth_factor"))
+      std::get<Value::Table>(list[i].content).push_back({"growth_factor", list[i].where, Value{list[i].where, 1.0}});
+    numbers.push_back(
+        {fmt::format("{}.{}.segment.{}.growth_factor", kind, std::get<std::string>(name->content), i), 1.0, {}, 0.10});
+  }
+}
+
+}  // namespace
+
+std::vector<UncertainNumber> uncertain_numbers(Value& document) {
+  std::vector<UncertainNumber> numbers;
+  auto const with_tables = [&](std::string const& kind, auto action) {
+    Value* tables = document.find(kind);
+    if (tables && is_list_of_tables(*tables))
+      for (auto& table : std::get<Value::List>(tables->content)) action(table);
+  };
+  for (std::string const kind : {"lump", "bar", "hollow_cylinder", "block"})
+    with_tables(kind, [&](Value& table) { add_numbers(document, kind, table, numbers); });
+  for (auto const& entry : effect_catalogue())
+    with_tables(entry.name, [&](Value& table) { add_numbers(document, entry.name, table, numbers); });
+  for (std::string const kind : {"rotation", "displacement"})
+    with_tables(kind, [&](Value& table) { add_growth(table, kind, numbers); });
+  return numbers;
+}
+
+}  // namespace thermotwin::twin
