@@ -35,7 +35,7 @@ Parameter find_number(Value const& document, std::string_view path) {
   return {std::string(path), quantity.value, quantity.dimension, quantity.absolute_temperature};
 }
 
-Value with_number(Value document, Parameter const& parameter, double number) {
+void set_number(Value& document, Parameter const& parameter, double number) {
   auto const [table, key] = find_parameter(document, parameter.path);
   auto& content = table->find(key)->content;
   if (parameter.absolute_temperature)
@@ -44,23 +44,33 @@ Value with_number(Value document, Parameter const& parameter, double number) {
     content = number;
   else
     content = thermal::format_quantity(number, parameter.dimension);
+}
+
+Value with_number(Value document, Parameter const& parameter, double number) {
+  set_number(document, parameter, number);
   return document;
 }
 
-MachineDerivative differentiate(Value const& document, std::string_view path) {
+MachineDerivative difference(Machine const& plus, Machine const& minus, double step) {
   MachineDerivative derivative;
-  derivative.parameter = find_number(document, path);
-  double const value = derivative.parameter.value;
-  double const step = relative_step * (value != 0.0 ? std::abs(value) : 1.0);
-  Machine const plus = Machine::build(with_number(document, derivative.parameter, value + step));
-  Machine const minus = Machine::build(with_number(document, derivative.parameter, value - step));
   derivative.network = thermal::difference(plus.network(), minus.network(), step);
-  derivative.network.name = derivative.parameter.path;
-  derivative.network.scale = value != 0.0 ? std::abs(value) : 1.0;
   for (std::size_t s = 0; s < plus.sensors.size(); ++s)
     derivative.sensors.push_back(difference(plus.sensors[s].weights, minus.sensors[s].weights, step));
   for (std::size_t d = 0; d < plus.displacements.size(); ++d)
     derivative.displacements.push_back(difference(plus.displacements[d].weights, minus.displacements[d].weights, step));
+  return derivative;
+}
+
+MachineDerivative differentiate(Value const& document, std::string_view path) {
+  Parameter const parameter = find_number(document, path);
+  double const value = parameter.value;
+  double const step = relative_step * (value != 0.0 ? std::abs(value) : 1.0);
+  Machine const plus = Machine::build(with_number(document, parameter, value + step));
+  Machine const minus = Machine::build(with_number(document, parameter, value - step));
+  MachineDerivative derivative = difference(plus, minus, step);
+  derivative.parameter = parameter;
+  derivative.network.name = parameter.path;
+  derivative.network.scale = value != 0.0 ? std::abs(value) : 1.0;
   return derivative;
 }
 

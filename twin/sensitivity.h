@@ -21,6 +21,9 @@ struct Parameter {
 /// InputError when the path leads nowhere, or to something that is no number.
 [[nodiscard]] Parameter find_number(Value const& document, std::string_view path);
 
+/// Writes another value of that parameter into the document.
+void set_number(Value& document, Parameter const& parameter, double value);
+
 /// The document with another value of that parameter.
 [[nodiscard]] Value with_number(Value document, Parameter const& parameter, double value);
 
@@ -32,6 +35,9 @@ struct MachineDerivative {
   std::vector<NodeWeights> sensors;        ///< d(weights)/dθ, per sensor
   std::vector<NodeWeights> displacements;  ///< d(weights)/dθ, per channel
 };
+
+/// (plus − minus)/(2 step) of two machines of the same structure.
+[[nodiscard]] MachineDerivative difference(Machine const& plus, Machine const& minus, double step);
 
 /// Central differences with h = 1e-4 |θ|: relative error about 1e-8 for the products and quotients of a machine file.
 [[nodiscard]] MachineDerivative differentiate(Value const& document, std::string_view path);

@@ -28,37 +28,90 @@ int channel_index(thermal::Course const& course, std::string const& name) {
 
 }  // namespace
 
-/// What of a machine's sensor or displacement a channel of the data is.
-struct ChannelView {
+/// What a channel of the data is in a machine: its sensor or its displacement, and how that is read.
+class LinearisedRun::View {
+ public:
+  View(Machine const& machine, MeasuredRun const& run, MeasuredChannel const& channel);
+  static std::vector<View> of(Machine const& machine, MeasuredRun const& run) {
+    std::vector<View> views;
+    for (auto const& channel : run.channels) views.emplace_back(machine, run, channel);
+    return views;
+  }
+  /// Before its lag.
+  [[nodiscard]] double shown(LinearisedRun const& run, End const& end, double time) const;
+
   Sensor const* sensor = nullptr;
   Displacement const* displacement = nullptr;
-  double lag = 0.0, share = 0.0, drift = 0.0, per_air = 0.0, offset = 0.0;
+  double lag = 0.0, share = 0.0;
+
+ private:
+  [[nodiscard]] double air(LinearisedRun const& run, double time, double height) const;
+  [[nodiscard]] double course_at(LinearisedRun const& run, int channel, double time) const;
+
+  double drift_ = 0.0, per_air_ = 0.0, offset_ = 0.0, height_ = 0.0;
+  int floor_ = -1, gradient_ = -1;
+  std::vector<int> term_channels_;
 };
 
-static std::vector<ChannelView> views_of(Machine const& machine, MeasuredRun const& run) {
-  std::vector<ChannelView> views;
-  for (auto const& channel : run.channels) {
-    ChannelView view;
-    for (auto const& sensor : machine.sensors)
-      if (!channel.displacement && sensor.description.name == channel.name) {
-        view.sensor = &sensor;
-        view.lag = sensor.description.lag.value_or(0.0);
-        view.share = sensor.description.stem_loss.value_or(0.0);
-        view.drift = sensor.description.drift.value_or(0.0);
-        view.offset = sensor.description.offset.value_or(0.0);
-      }
-    for (auto const& displacement : machine.displacements)
-      if (channel.displacement && displacement.name == channel.name) view.displacement = &displacement;
-    for (auto const& term : machine.reading_terms)
-      if (term.channel == channel.name) {
-        view.lag += term.lag;
-        view.share += term.air_share;
-        view.drift += term.drift;
-        view.per_air += term.per_air;
-      }
-    views.push_back(view);
+LinearisedRun::View::View(Machine const& machine, MeasuredRun const& run, MeasuredChannel const& channel)
+    : floor_(channel_index(*run.course, "ambient.floor_temperature")),
+      gradient_(channel_index(*run.course, "ambient.gradient")) {
+  for (auto const& candidate : machine.sensors)
+    if (!channel.displacement && candidate.description.name == channel.name) {
+      sensor = &candidate;
+      height_ = candidate.position.dot(machine.up);
+      lag = candidate.description.lag.value_or(0.0);
+      share = candidate.description.stem_loss.value_or(0.0);
+      drift_ = candidate.description.drift.value_or(0.0);
+      offset_ = candidate.description.offset.value_or(0.0);
+    }
+  for (auto const& candidate : machine.displacements)
+    if (channel.displacement && candidate.name == channel.name) {
+      displacement = &candidate;
+      for (auto const& term : candidate.input_terms) term_channels_.push_back(channel_index(*run.course, term.channel));
+    }
+  for (auto const& term : machine.reading_terms)
+    if (term.channel == channel.name) {
+      lag += term.lag;
+      share += term.air_share;
+      drift_ += term.drift;
+      per_air_ += term.per_air;
+    }
+}
+
+double LinearisedRun::View::course_at(LinearisedRun const& run, int channel, double time) const {
+  if (channel < 0) return 0.0;
+  auto const& course = *run.data_->run->course;
+  run.scratch_.resize(course.channels().size());
+  course.evaluate(time, run.scratch_);
+  return run.scratch_[std::size_t(channel)];
+}
+
+double LinearisedRun::View::air(LinearisedRun const& run, double time, double height) const {
+  return course_at(run, floor_, time) + height * course_at(run, gradient_, time);
+}
+
+double LinearisedRun::View::shown(LinearisedRun const& run, End const& end, double time) const {
+  auto const& network = run.machine_->network();
+  auto const temperature = [&](int node, End const& at) {
+    return network.temperature_of_state(node, at.state[std::size_t(node)]);
+  };
+  auto const& start = run.begins_.front();
+  double value = offset_ + drift_ * time;
+  if (sensor) {
+    double body = sensor->weights.empty() ? air(run, time, height_) : 0.0;
+    for (auto const& [node, weight] : sensor->weights) body += weight * temperature(node, end);
+    return value + body - (share == 0.0 ? 0.0 : share * (body - air(run, time, height_)));
   }
-  return views;
+  if (!displacement) return value;
+  for (auto const& [node, weight] : displacement->weights)
+    value += weight * (temperature(node, end) - temperature(node, start));
+  for (std::size_t t = 0; t < term_channels_.size(); ++t) {
+    auto const& term = displacement->input_terms[t];
+    value += term.coefficient * (std::pow(course_at(run, term_channels_[t], time), term.power) -
+                                 std::pow(course_at(run, term_channels_[t], start.time), term.power));
+  }
+  return per_air_ == 0.0 ? value : value + per_air_ * (air(run, time, 0.0) - air(run, start.time, 0.0));
 }
 
 LinearisedRun::LinearisedRun(Machine const& machine, BinnedRun const& data) : machine_(&machine), data_(&data) {
@@ -89,83 +142,83 @@ void LinearisedRun::trace() {
   };
   for (std::size_t s = 0; s < steps.size(); ++s) {
     double const inside = 1e-6 * (steps[s].end - steps[s].begin);
-    begins_.push_back({states[s], at(steps[s].begin, inputs[s])});
-    ends_.push_back({states[s + 1], at(steps[s].end - inside, inputs[s])});
+    begins_.push_back({steps[s].begin, states[s], at(steps[s].begin, inputs[s])});
+    ends_.push_back({steps[s].end - inside, states[s + 1], at(steps[s].end - inside, inputs[s])});
   }
 }
 
-Eigen::VectorXd LinearisedRun::outputs(Machine const& machine, End const& end, double time) const {
-  auto const& network = machine_->network();
-  auto const& names = network.channel_names();
-  auto const input_named = [&](std::string const& name, std::vector<double> const& input) {
-    for (std::size_t i = 0; i < input.size(); ++i)
-      if (names[i] == name) return input[i];
-    auto const& course = *data_->run->course;
-    int const c = channel_index(course, name);
-    if (c < 0) return 0.0;
-    std::vector<double> values(course.channels().size());
-    course.evaluate(time, values);
-    return values[std::size_t(c)];
-  };
-  auto const temperature = [&](int node, std::vector<double> const& state) {
-    return network.temperature_of_state(node, state[std::size_t(node)]);
-  };
-  auto const air_at = [&](std::vector<double> const& input, double height) {
-    return input_named("ambient.floor_temperature", input) + height * input_named("ambient.gradient", input);
-  };
-  auto const& start = begins_.front();
-  auto const views = views_of(machine, *data_->run);
-  Eigen::VectorXd result(Eigen::Index(views.size()));
-  for (std::size_t c = 0; c < views.size(); ++c) {
-    double value = views[c].offset + views[c].drift * time;
-    if (auto const* sensor = views[c].sensor) {
-      double const air = air_at(end.input, sensor->position.dot(machine.up));
-      double body = sensor->weights.empty() ? air : 0.0;
-      for (auto const& [node, weight] : sensor->weights) body += weight * temperature(node, end.state);
-      value += body - views[c].share * (body - air);
-    } else if (auto const* displacement = views[c].displacement) {
-      for (auto const& [node, weight] : displacement->weights)
-        value += weight * (temperature(node, end.state) - temperature(node, start.state));
-      for (auto const& term : displacement->input_terms)
-        value += term.coefficient * (std::pow(input_named(term.channel, end.input), term.power) -
-                                     std::pow(input_named(term.channel, start.input), term.power));
-      if (views[c].per_air != 0.0) value += views[c].per_air * (air_at(end.input, 0.0) - air_at(start.input, 0.0));
+/// The rows of the data from the values at both ends of every step, channel by channel, each behind its lag.
+void LinearisedRun::average(std::vector<double> const& lags, Eigen::MatrixXd const& begins, Eigen::MatrixXd const& ends,
+                            Eigen::MatrixXd& rows) const {
+  auto const& steps = data_->steps;
+  rows.setZero(data_->time.size(), begins.cols());
+  for (Eigen::Index c = 0; c < begins.cols(); ++c) {
+    double const lag = lags[std::size_t(c)];
+    double shown = begins(0, c);
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      auto const step = Eigen::Index(s);
+      double const begin = lag > 0.0 ? shown : begins(step, c);
+      shown = lagged(shown, begins(step, c), ends(step, c), lag, steps[s].end - steps[s].begin);
+      rows(steps[s].row, c) += steps[s].at_begin * begin + steps[s].at_end * shown;
     }
-    result[Eigen::Index(c)] = value;
   }
-  return result;
 }
 
 Eigen::MatrixXd LinearisedRun::prediction_of(Machine const& other) const {
   auto const& steps = data_->steps;
-  auto const views = views_of(other, *data_->run);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(data_->time.size(), Eigen::Index(views.size()));
-  Eigen::VectorXd shown = outputs(other, begins_[0], steps[0].begin);
-  for (std::size_t s = 0; s < steps.size(); ++s) {
-    Eigen::VectorXd const from = outputs(other, begins_[s], steps[s].begin);
-    Eigen::VectorXd const to = outputs(other, ends_[s], steps[s].end);
-    for (Eigen::Index c = 0; c < result.cols(); ++c) {
-      double const lag = views[std::size_t(c)].lag;
-      double const begin = lag > 0.0 ? shown[c] : from[c];
-      shown[c] = lagged(shown[c], from[c], to[c], lag, steps[s].end - steps[s].begin);
-      result(steps[s].row, c) += steps[s].at_begin * begin + steps[s].at_end * shown[c];
+  auto const views = View::of(other, *data_->run);
+  auto const count = Eigen::Index(views.size());
+  Eigen::MatrixXd begins(Eigen::Index(steps.size()), count), ends = begins, rows;
+  std::vector<double> lags;
+  for (Eigen::Index c = 0; c < count; ++c) {
+    auto const& view = views[std::size_t(c)];
+    lags.push_back(view.lag);
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      begins(Eigen::Index(s), c) = view.shown(*this, begins_[s], begins_[s].time);
+      ends(Eigen::Index(s), c) = view.shown(*this, ends_[s], ends_[s].time);
     }
   }
-  return result;
+  average(lags, begins, ends, rows);
+  return rows;
+}
+
+Eigen::MatrixXd LinearisedRun::growth(std::vector<NodeWeights> const& displacements) const {
+  auto const& steps = data_->steps;
+  auto const& network = machine_->network();
+  auto const views = View::of(*machine_, *data_->run);
+  Eigen::MatrixXd begins = Eigen::MatrixXd::Zero(Eigen::Index(steps.size()), Eigen::Index(views.size())), ends = begins;
+  for (std::size_t c = 0; c < views.size(); ++c) {
+    if (!views[c].displacement) continue;
+    for (auto const& [node, weight] :
+         displacements[std::size_t(views[c].displacement - machine_->displacements.data())])
+      for (std::size_t s = 0; s < steps.size(); ++s) {
+        auto const rise = [&, i = node](End const& end) {
+          return network.temperature_of_state(i, end.state[std::size_t(i)]) -
+                 network.temperature_of_state(i, begins_[0].state[std::size_t(i)]);
+        };
+        begins(Eigen::Index(s), Eigen::Index(c)) += weight * rise(begins_[s]);
+        ends(Eigen::Index(s), Eigen::Index(c)) += weight * rise(ends_[s]);
+      }
+  }
+  Eigen::MatrixXd rows;
+  average(std::vector<double>(views.size(), 0.0), begins, ends, rows);
+  return rows;
 }
 
 Eigen::MatrixXd LinearisedRun::slope() const {
   auto const& steps = data_->steps;
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(data_->time.size(), Eigen::Index(data_->run->channels.size()));
-  for (std::size_t s = 0; s < steps.size(); ++s)
-    result.row(steps[s].row) +=
-        (steps[s].at_begin + steps[s].at_end) / (steps[s].end - steps[s].begin) *
-        (outputs(*machine_, begins_[s], steps[s].begin) - outputs(*machine_, ends_[s], steps[s].end)).transpose();
+  auto const views = View::of(*machine_, *data_->run);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(data_->time.size(), Eigen::Index(views.size()));
+  for (std::size_t c = 0; c < views.size(); ++c)
+    for (std::size_t s = 0; s < steps.size(); ++s)
+      result(steps[s].row, Eigen::Index(c)) +=
+          (steps[s].at_begin + steps[s].at_end) / (steps[s].end - steps[s].begin) *
+          (views[c].shown(*this, begins_[s], begins_[s].time) - views[c].shown(*this, ends_[s], ends_[s].time));
   return result;
 }
 
 Eigen::MatrixXd LinearisedRun::weights() const {
-  auto const views = views_of(*machine_, *data_->run);
+  auto const views = View::of(*machine_, *data_->run);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Eigen::Index(views.size()), machine_->network().nodes());
   for (std::size_t c = 0; c < views.size(); ++c) {
     if (views[c].sensor)
@@ -177,14 +230,14 @@ Eigen::MatrixXd LinearisedRun::weights() const {
   return result;
 }
 
-Eigen::MatrixXd LinearisedRun::response(thermal::ParameterColumns const& parameters,
-                                        Eigen::MatrixXd const& initial) const {
+Eigen::MatrixXd LinearisedRun::response(thermal::ParameterColumns const& parameters, Eigen::MatrixXd const& initial,
+                                        int forced_nodes) const {
   auto const& network = machine_->network();
   auto const n = Eigen::Index(network.nodes());
   auto const m = Eigen::Index(parameters.count());
   auto const& steps = data_->steps;
   auto const rows = data_->time.size();
-  auto const views = views_of(*machine_, *data_->run);
+  auto const views = View::of(*machine_, *data_->run);
   Eigen::MatrixXd const H = weights();
   thermal::Evaluation evaluation(network);
   Eigen::MatrixXd S = initial.size() ? initial : Eigen::MatrixXd::Zero(n, m);
@@ -204,6 +257,10 @@ Eigen::MatrixXd LinearisedRun::response(thermal::ParameterColumns const& paramet
     Eigen::MatrixXd const M = (identity - gamma * h * A).partialPivLu().inverse();
     parameters.evaluate(evaluation, begins_[s].state.data(), begins_[s].input.data(), from_forcing);
     parameters.evaluate(evaluation, ends_[s].state.data(), ends_[s].input.data(), to_forcing);
+    if (forced_nodes >= 0) {
+      from_forcing.bottomRows(n - forced_nodes).setZero();
+      to_forcing.bottomRows(n - forced_nodes).setZero();
+    }
     from_forcing = (1.0 - gamma) * from_forcing + gamma * to_forcing;
     first.noalias() = A * S + from_forcing;
     first = M * first;

@@ -29,7 +29,10 @@ class LinearisedRun {
   /// ∂z/∂θ, (channel · rows + row) × parameter. `initial`: node × parameter, dy(0)/dθ; empty: the start does not
   /// depend.
   [[nodiscard]] Eigen::MatrixXd response(thermal::ParameterColumns const& parameters,
-                                         Eigen::MatrixXd const& initial = {}) const;
+                                         Eigen::MatrixXd const& initial = {}, int forced_nodes = -1) const;
+  /// Σ wᵢ (Tᵢ(t) − Tᵢ(0)) with other weights for the machine's displacements, row × channel: ∂z/∂θ of what moves the
+  /// tool and no temperature.
+  [[nodiscard]] Eigen::MatrixXd growth(std::vector<NodeWeights> const& displacements) const;
   /// −dz/dt of every channel, row × channel: the response to a lag.
   [[nodiscard]] Eigen::MatrixXd slope() const;
 
@@ -41,15 +44,19 @@ class LinearisedRun {
  private:
   /// One end of a step: the state there and the operating point on this side of a jump.
   struct End {
+    double time;
     std::vector<double> state, input;
   };
+  class View;
   void trace();
-  [[nodiscard]] Eigen::VectorXd outputs(Machine const& machine, End const& end, double time) const;
+  void average(std::vector<double> const& lags, Eigen::MatrixXd const& begins, Eigen::MatrixXd const& ends,
+               Eigen::MatrixXd& rows) const;
   [[nodiscard]] Eigen::MatrixXd weights() const;
 
   Machine const* machine_;
   BinnedRun const* data_;
   std::vector<End> begins_, ends_;  ///< of the steps
+  mutable std::vector<double> scratch_;
 };
 
 }  // namespace thermotwin::twin

@@ -1,0 +1,363 @@
+#include "twin/diagnosis/estimation.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+#include "thermal/error.h"
+#include "twin/diagnosis/least_squares.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double offset_deviation = 0.3;     // of a temperature sensor [K]
+constexpr double zero_deviation = 1e-6;      // of a displacement's zero [m]
+constexpr double lag_deviation = 60.0;       // [s]
+constexpr double start_deviation = 0.3;      // [K]
+constexpr double air_deviation = 0.2;        // [K]
+constexpr double amplitude_deviation = 0.5;  // of the trial's largest
+constexpr double relative_step = 1e-4;
+
+/// A derivative of a network that has become longer by parts appended to it.
+thermal::NetworkDerivative lengthened(thermal::NetworkDerivative d, thermal::Network const& network) {
+  d.capacity.resize(network.capacity().size());
+  d.capacity_slope.resize(network.capacity().size());
+  d.coefficients.resize(network.groups().size());
+  for (std::size_t g = 0; g < d.coefficients.size(); ++g)
+    if (!d.coefficients[g].empty()) d.coefficients[g].resize(network.groups()[g].coefficients.size());
+  d.boundary_offset.resize(network.boundaries().size());
+  d.boundary_weights.resize(network.boundaries().size());
+  for (std::size_t b = 0; b < d.boundary_weights.size(); ++b)
+    d.boundary_weights[b].resize(network.boundaries()[b].terms.size());
+  d.average_weights.resize(network.averages().size());
+  for (std::size_t a = 0; a < d.average_weights.size(); ++a)
+    d.average_weights[a].resize(network.averages()[a].weights.size());
+  return d;
+}
+
+void scale(thermal::NetworkDerivative& d, double factor) {
+  auto const times = [&](std::vector<double>& values) {
+    for (double& v : values) v *= factor;
+  };
+  times(d.capacity);
+  times(d.boundary_offset);
+  for (auto& group : d.coefficients) times(group);
+  for (auto& weights : d.boundary_weights) times(weights);
+}
+
+/// The room air, wherever the machine meets it, one kelvin warmer.
+thermal::NetworkDerivative warmer_air(thermal::Network const& network) {
+  thermal::NetworkDerivative d = lengthened({}, network);
+  auto const& names = network.channel_names();
+  for (std::size_t b = 0; b < network.boundaries().size(); ++b)
+    for (auto const& term : network.boundaries()[b].terms)
+      if (names[std::size_t(term.channel)] == "ambient.floor_temperature") d.boundary_offset[b] = 1.0;
+  return d;
+}
+
+bool moves_tool(MachineDerivative const& derivative) {
+  return std::any_of(derivative.displacements.begin(), derivative.displacements.end(), [](auto const& weights) {
+    return std::any_of(weights.begin(), weights.end(), [](auto const& w) { return w.second != 0.0; });
+  });
+}
+
+bool changes_heat(thermal::NetworkDerivative const& d) {
+  auto const any = [](std::vector<double> const& values) {
+    return std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
+  };
+  return any(d.capacity) || any(d.boundary_offset) || std::any_of(d.coefficients.begin(), d.coefficients.end(), any) ||
+         std::any_of(d.boundary_weights.begin(), d.boundary_weights.end(), any);
+}
+
+std::string table_name(std::size_t effect) { return fmt::format("diagnosed_{}", effect + 1); }
+
+/// What people see of an added effect acts through sensors or displacements, not through heat alone.
+bool is_read_directly(Hypothesis const& hypothesis) {
+  auto const& changes = hypothesis.effect->changes;
+  return changes.find("sensor") != std::string::npos || changes.find("deformation") != std::string::npos;
+}
+
+}  // namespace
+
+Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::vector<std::string> const& channels,
+                       std::vector<ChannelNoise> const& noise)
+    : document_(std::move(document)), data_(&data), channels_(channels), noise_(noise) {
+  numbers_ = uncertain_numbers(document_);
+  for (auto const& number : numbers_) number_derivatives_.push_back(differentiate(document_, number.path));
+  for (auto const& run : data) {
+    first_rows_.push_back(rows_);
+    rows_ += run.values.size();
+  }
+  add_unknowns();
+  make_whitenings();
+  find_linear_columns();
+}
+
+void Estimation::add_unknowns() {
+  using Kind = Unknown::Kind;
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    unknowns_.push_back({Kind::number, numbers_[i].path, 0.0, numbers_[i].deviation, -INFINITY, INFINITY, i, -1});
+  for (std::size_t c = 0; c < channels_.size(); ++c) {
+    auto const holds = [&](MeasuredChannel const& channel) { return channel.name == channels_[c]; };
+    bool sensor = false;
+    for (std::size_t r = 0; r < data_->size(); ++r) {
+      auto const& all = (*data_)[r].run->channels;
+      auto const it = std::find_if(all.begin(), all.end(), holds);
+      if (it == all.end()) continue;
+      sensor = sensor || !it->displacement;
+      if (it->displacement)
+        unknowns_.push_back({Kind::offset, fmt::format("zero of {}, run {}", channels_[c], r + 1), 0.0, zero_deviation,
+                             -INFINITY, INFINITY, c, int(r)});
+    }
+    if (!sensor) continue;
+    unknowns_.push_back({Kind::offset, "offset of " + channels_[c], 0.0, offset_deviation, -INFINITY, INFINITY, c, -1});
+    unknowns_.push_back({Kind::lag, "lag of " + channels_[c], 0.0, lag_deviation, -INFINITY, INFINITY, c, -1});
+  }
+  for (std::size_t r = 0; r < data_->size(); ++r) {
+    unknowns_.push_back({Kind::start, fmt::format("warm start of run {}", r + 1), 0.0, start_deviation, -INFINITY,
+                         INFINITY, 0, int(r)});
+    unknowns_.push_back(
+        {Kind::air, fmt::format("air in run {}", r + 1), 0.0, air_deviation, -INFINITY, INFINITY, 0, int(r)});
+  }
+}
+
+void Estimation::make_whitenings() {
+  whitenings_.clear();
+  for (auto const& run : *data_) {
+    auto& own = whitenings_.emplace_back();
+    for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
+      auto const it = std::find(channels_.begin(), channels_.end(), run.run->channels[c].name);
+      own.emplace_back(noise_[std::size_t(it - channels_.begin())], run.time, run.samples.col(Eigen::Index(c)));
+    }
+  }
+}
+
+void Estimation::whiten(Eigen::Ref<Eigen::MatrixXd> signals) const {
+  for (std::size_t r = 0; r < data_->size(); ++r) {
+    auto const rows = (*data_)[r].time.size();
+    for (std::size_t c = 0; c < whitenings_[r].size(); ++c)
+      whitenings_[r][c].apply(signals.middleRows(first_rows_[r] + Eigen::Index(c) * rows, rows));
+  }
+}
+
+/// Offsets, lags, the start and the air: small, so that their response at the prior machine serves throughout.
+void Estimation::find_linear_columns() {
+  linear_.clear();
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    if (unknowns_[u].kind != Unknown::Kind::number && unknowns_[u].kind != Unknown::Kind::amplitude)
+      linear_.push_back(u);
+  linear_columns_.setZero(rows_, Eigen::Index(linear_.size()));
+  Machine const machine = Machine::build(document_);
+  auto const air = warmer_air(machine.network());
+  auto const none = lengthened({}, machine.network());
+  thermal::ParameterColumns const both(machine.network(), {&none, &air});
+  Eigen::MatrixXd initial = Eigen::MatrixXd::Zero(machine.network().nodes(), 2);
+  initial.col(0).setOnes();
+  for (std::size_t r = 0; r < data_->size(); ++r) {
+    auto const& run = (*data_)[r];
+    LinearisedRun const twin(machine, run);
+    Eigen::MatrixXd const slope = twin.slope(), response = twin.response(both, initial);
+    auto const rows = run.time.size();
+    for (std::size_t l = 0; l < linear_.size(); ++l) {
+      auto const& unknown = unknowns_[linear_[l]];
+      if (unknown.run >= 0 && unknown.run != int(r)) continue;
+      auto column = linear_columns_.col(Eigen::Index(l)).segment(first_rows_[r], run.values.size());
+      if (unknown.kind == Unknown::Kind::start) column = response.col(0);
+      if (unknown.kind == Unknown::Kind::air) column = response.col(1);
+      for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
+        if (run.run->channels[c].name != channels_[unknown.index]) continue;
+        if (unknown.kind == Unknown::Kind::offset) column.segment(Eigen::Index(c) * rows, rows).setOnes();
+        if (unknown.kind == Unknown::Kind::lag)
+          column.segment(Eigen::Index(c) * rows, rows) = slope.col(Eigen::Index(c));
+      }
+    }
+  }
+  whiten(linear_columns_);
+}
+
+Estimation Estimation::with(std::vector<ChannelNoise> const& noise) const {
+  Estimation other = *this;
+  other.noise_ = noise;
+  other.make_whitenings();
+  other.find_linear_columns();
+  return other;
+}
+
+Estimation Estimation::with(std::vector<Hypothesis> const& effects) const {
+  Estimation other = *this;
+  for (auto const& effect : effects) {
+    bool const both = effect.trial->either_sign;
+    other.unknowns_.push_back({Unknown::Kind::amplitude, effect.label(), 0.0, amplitude_deviation,
+                               both ? -INFINITY : 1e-9, INFINITY, other.effects_.size(), -1});
+    other.effects_.push_back(effect);
+  }
+  return other;
+}
+
+Eigen::VectorXd Estimation::prior_mean() const {
+  Eigen::VectorXd x(Eigen::Index(unknowns_.size()));
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) x[Eigen::Index(u)] = unknowns_[u].mean;
+  return x;
+}
+
+Value Estimation::document_at(Eigen::VectorXd const& x) const {
+  Value document = document_;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    auto const& unknown = unknowns_[u];
+    if (unknown.kind == Unknown::Kind::number) {
+      auto const& number = numbers_[unknown.index];
+      set_number(document, {number.path, number.nominal, number.dimension, false},
+                 number.nominal * std::exp(x[Eigen::Index(u)]));
+    } else if (unknown.kind == Unknown::Kind::amplitude) {
+      auto const& effect = effects_[unknown.index];
+      document = with_hypothesis(std::move(document), effect, table_name(unknown.index),
+                                 x[Eigen::Index(u)] * effect.trial->largest);
+    }
+  }
+  return document;
+}
+
+/// One per effect, in units of its trial's largest.
+std::vector<MachineDerivative> Estimation::amplitude_derivatives(Eigen::VectorXd const& x) const {
+  std::vector<MachineDerivative> derivatives;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    if (unknowns_[u].kind != Unknown::Kind::amplitude) continue;
+    double const step = relative_step * std::max(std::abs(x[Eigen::Index(u)]), 1e-6);
+    Eigen::VectorXd plus = x, minus = x;
+    plus[Eigen::Index(u)] += step;
+    minus[Eigen::Index(u)] -= step;
+    derivatives.push_back(difference(Machine::build(document_at(plus)), Machine::build(document_at(minus)), step));
+  }
+  return derivatives;
+}
+
+std::vector<Eigen::MatrixXd> Estimation::residuals_at(Eigen::VectorXd const& x) const {
+  Machine const machine = Machine::build(document_at(x));
+  std::vector<Eigen::MatrixXd> residuals;
+  for (auto const& run : *data_) residuals.push_back(run.values - LinearisedRun(machine, run).prediction());
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    if (unknowns_[u].kind == Unknown::Kind::offset)
+      for (std::size_t r = 0; r < residuals.size(); ++r)
+        for (std::size_t c = 0; c < (*data_)[r].run->channels.size(); ++c)
+          if ((unknowns_[u].run < 0 || unknowns_[u].run == int(r)) &&
+              (*data_)[r].run->channels[c].name == channels_[unknowns_[u].index])
+            residuals[r].col(Eigen::Index(c)).array() -= x[Eigen::Index(u)];
+  return residuals;
+}
+
+bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const {
+  auto const unknowns = Eigen::Index(unknowns_.size());
+  std::optional<Machine> machine;
+  try {
+    machine.emplace(Machine::build(document_at(x)));
+  } catch (thermal::InputError const&) {
+    return false;  // a number left the range that a machine may have
+  }
+  auto const& network = machine->network();
+  std::vector<thermal::NetworkDerivative> heat;
+  std::vector<MachineDerivative> amplitudes;
+  std::vector<Eigen::Index> columns;
+  if (jacobian) {
+    amplitudes = amplitude_derivatives(x);
+    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+      auto const& unknown = unknowns_[u];
+      bool const number = unknown.kind == Unknown::Kind::number;
+      if (!number && unknown.kind != Unknown::Kind::amplitude) continue;
+      auto const& own = number ? number_derivatives_[unknown.index].network : amplitudes[unknown.index].network;
+      if (!changes_heat(own)) continue;
+      heat.push_back(lengthened(own, network));
+      if (number) scale(heat.back(), numbers_[unknown.index].nominal * std::exp(x[Eigen::Index(u)]));
+      columns.push_back(Eigen::Index(u));
+    }
+    jacobian->setZero(rows_ + unknowns, unknowns);
+  }
+  std::vector<thermal::NetworkDerivative const*> pointers;
+  for (auto const& derivative : heat) pointers.push_back(&derivative);
+  std::optional<thermal::ParameterColumns> parameters;
+  if (jacobian) parameters.emplace(network, pointers);
+  residual.setZero(rows_ + unknowns);
+  bool good = true;
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t r = 0; r < data_->size(); ++r) {
+    auto const& run = (*data_)[r];
+    try {
+      LinearisedRun const twin(*machine, run);
+      auto const first = first_rows_[r];
+      auto const count = run.values.size();
+      Eigen::MatrixXd const difference = run.values - twin.prediction();
+      residual.segment(first, count) = difference.reshaped();
+      if (!jacobian) continue;
+      Eigen::MatrixXd const response = twin.response(*parameters);
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        jacobian->col(columns[k]).segment(first, count) -= response.col(Eigen::Index(k));
+      for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+        auto const& unknown = unknowns_[u];
+        auto column = jacobian->col(Eigen::Index(u)).segment(first, count);
+        if (unknown.kind == Unknown::Kind::number && moves_tool(number_derivatives_[unknown.index]))
+          column -= numbers_[unknown.index].nominal * std::exp(x[Eigen::Index(u)]) *
+                    twin.growth(number_derivatives_[unknown.index].displacements).reshaped();
+        if (unknown.kind == Unknown::Kind::amplitude && is_read_directly(effects_[unknown.index])) {
+          double const step = relative_step * std::max(std::abs(x[Eigen::Index(u)]), 1e-3);
+          Eigen::VectorXd plus = x;
+          plus[Eigen::Index(u)] += step;
+          column -= ((twin.prediction_of(Machine::build(document_at(plus))) - twin.prediction()) / step).reshaped();
+        }
+      }
+    } catch (std::exception const&) {
+#pragma omp critical
+      good = false;
+    }
+  }
+  if (!good) return false;
+  for (Eigen::Index i = 0; i < rows_; ++i)
+    if (std::isnan(residual[i])) residual[i] = 0.0;
+  whiten(residual.head(rows_));
+  for (std::size_t l = 0; l < linear_.size(); ++l)
+    residual.head(rows_) -= x[Eigen::Index(linear_[l])] * linear_columns_.col(Eigen::Index(l));
+  for (Eigen::Index u = 0; u < unknowns; ++u) {
+    auto const& unknown = unknowns_[std::size_t(u)];
+    residual[rows_ + u] = (x[u] - unknown.mean) / unknown.deviation;
+    if (jacobian) (*jacobian)(rows_ + u, u) = 1.0 / unknown.deviation;
+  }
+  if (!jacobian) return true;
+  whiten(jacobian->topRows(rows_));
+  for (std::size_t l = 0; l < linear_.size(); ++l)
+    jacobian->col(Eigen::Index(linear_[l])).head(rows_) = -linear_columns_.col(Eigen::Index(l));
+  return true;
+}
+
+Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
+  LeastSquares problem;
+  problem.evaluate = [this](Eigen::VectorXd const& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+    return evaluate(x, r, J);
+  };
+  auto const count = Eigen::Index(unknowns_.size());
+  problem.residuals = rows_ + count;
+  problem.start = start;
+  problem.lower.resize(count);
+  problem.upper.resize(count);
+  for (Eigen::Index u = 0; u < count; ++u) {
+    problem.lower[u] = unknowns_[std::size_t(u)].lower;
+    problem.upper[u] = unknowns_[std::size_t(u)].upper;
+  }
+  problem.iterations = iterations;
+  auto const solved = solve(problem);
+  Fit fit;
+  fit.x = solved.x;
+  fit.converged = solved.converged;
+  if (!evaluate(fit.x, fit.residual, &fit.jacobian))
+    throw thermal::InputError("the machine cannot be run with its nominal values on these data");
+  fit.cost = fit.residual.squaredNorm();
+  Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());
+  fit.covariance = information.solve(Eigen::MatrixXd::Identity(count, count));
+  double const log_determinant = 2.0 * information.matrixLLT().diagonal().array().log().sum();
+  fit.evidence = fit.cost + log_determinant;
+  for (auto const& unknown : unknowns_) fit.evidence += 2.0 * std::log(unknown.deviation);
+  for (auto const& unknown : unknowns_)
+    if (unknown.kind == Unknown::Kind::amplitude && std::isfinite(unknown.lower)) fit.evidence -= 2.0 * std::log(2.0);
+  return fit;
+}
+
+}  // namespace thermotwin::twin

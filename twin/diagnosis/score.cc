@@ -1,0 +1,162 @@
+#include "twin/diagnosis/score.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "thermal/error.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double nothing = 1e-8;  // amplitude of a hypothesis that changes nothing, of its largest
+constexpr double step = 1e-3;
+
+/// Heat alone, in parts of its own: hypotheses that can share one network.
+bool shares_network(Hypothesis const& hypothesis) {
+  auto const& changes = hypothesis.effect->changes;
+  return changes.find("sensor") == std::string::npos && changes.find("deformation") == std::string::npos &&
+         changes.find("boundary") == std::string::npos;
+}
+
+std::string table_name(std::size_t hypothesis) { return fmt::format("trial_{}", hypothesis); }
+
+/// The columns of many hypotheses at once: a machine that has them all, at amplitudes that change nothing.
+class SharedNetwork {
+ public:
+  SharedNetwork(Value const& document, std::vector<Hypothesis> const& hypotheses, std::vector<std::size_t> shared);
+
+  [[nodiscard]] Machine const& machine() const { return machine_; }
+  [[nodiscard]] std::vector<thermal::NetworkDerivative const*> derivatives() const;
+  [[nodiscard]] std::vector<std::size_t> const& columns() const { return shared_; }
+
+ private:
+  static Machine with_all(Value document, std::vector<Hypothesis> const& hypotheses,
+                          std::vector<std::size_t> const& shared, double amplitude);
+
+  std::vector<std::size_t> shared_;
+  Machine machine_;
+  std::vector<thermal::NetworkDerivative> derivatives_;
+};
+
+Machine SharedNetwork::with_all(Value document, std::vector<Hypothesis> const& hypotheses,
+                                std::vector<std::size_t> const& shared, double amplitude) {
+  for (std::size_t const h : shared)
+    document =
+        with_hypothesis(std::move(document), hypotheses[h], table_name(h), amplitude * hypotheses[h].trial->largest);
+  return Machine::build(document);
+}
+
+SharedNetwork::SharedNetwork(Value const& document, std::vector<Hypothesis> const& hypotheses,
+                             std::vector<std::size_t> shared)
+    : shared_(std::move(shared)), machine_(with_all(document, hypotheses, shared_, nothing)) {
+  Machine const larger = with_all(document, hypotheses, shared_, step);
+  auto const& network = machine_.network();
+  std::map<std::string, std::size_t> column_of;
+  for (std::size_t k = 0; k < shared_.size(); ++k)
+    column_of[hypotheses[shared_[k]].effect->name + "." + table_name(shared_[k])] = k;
+  thermal::NetworkDerivative none;
+  none.capacity.resize(network.capacity().size());
+  none.capacity_slope.resize(network.capacity().size());
+  none.coefficients.resize(network.groups().size());
+  none.boundary_offset.resize(network.boundaries().size());
+  for (auto const& boundary : network.boundaries()) none.boundary_weights.emplace_back(boundary.terms.size());
+  for (auto const& average : network.averages()) none.average_weights.emplace_back(average.weights.size());
+  derivatives_.assign(shared_.size(), none);
+  for (std::size_t g = 0; g < network.groups().size(); ++g) {
+    auto const& from = network.groups()[g];
+    auto const& to = larger.network().groups()[g];
+    int const count = from.law->coefficients();
+    for (int e = 0; e < from.count(); ++e) {
+      auto const it = column_of.find(network.parts()[std::size_t(from.parts[std::size_t(e)])]);
+      if (it == column_of.end()) continue;
+      auto& rates = derivatives_[it->second].coefficients[g];
+      rates.resize(from.coefficients.size());
+      for (int i = e * count; i < (e + 1) * count; ++i)
+        rates[std::size_t(i)] =
+            (to.coefficients[std::size_t(i)] - from.coefficients[std::size_t(i)]) / (step - nothing);
+    }
+  }
+}
+
+std::vector<thermal::NetworkDerivative const*> SharedNetwork::derivatives() const {
+  std::vector<thermal::NetworkDerivative const*> pointers;
+  for (auto const& derivative : derivatives_) pointers.push_back(&derivative);
+  return pointers;
+}
+
+/// One hypothesis alone, where it changes readings, displacements or the air.
+void add_alone(Estimation const& estimation, Value const& document, Hypothesis const& hypothesis, std::size_t index,
+               std::vector<LinearisedRun> const& twins, Eigen::MatrixXd& columns) {
+  double const unit = hypothesis.trial->largest;
+  auto const at = [&](double amplitude) {
+    return Machine::build(with_hypothesis(document, hypothesis, table_name(index), amplitude * unit));
+  };
+  Machine const without = at(nothing), with = at(nothing + 2.0 * step);
+  auto const derivative = difference(with, without, step);
+  for (std::size_t r = 0; r < twins.size(); ++r) {
+    auto const& run = estimation.data()[r];
+    auto column = columns.col(Eigen::Index(index)).segment(estimation.first_row(r), run.values.size());
+    if (hypothesis.effect->changes.find("boundary") != std::string::npos) {
+      LinearisedRun const twin(without, run);
+      column = twin.response(thermal::ParameterColumns(without.network(), {&derivative.network}));
+    } else {
+      column = ((twins[r].prediction_of(with) - twins[r].prediction_of(without)) / (2.0 * step)).reshaped();
+    }
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::vector<Hypothesis> const& hypotheses) {
+  Value const document = estimation.document_at(fit.x);
+  std::vector<std::size_t> shared, alone;
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) (shares_network(hypotheses[h]) ? shared : alone).push_back(h);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(estimation.rows(), Eigen::Index(hypotheses.size()));
+  Machine const machine = Machine::build(document);
+  SharedNetwork const all(document, hypotheses, shared);
+  thermal::ParameterColumns const parameters(all.machine().network(), all.derivatives());
+  std::vector<LinearisedRun> twins;
+  for (auto const& run : estimation.data()) twins.emplace_back(machine, run);
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t r = 0; r < estimation.data().size(); ++r) {
+    LinearisedRun const twin(all.machine(), estimation.data()[r]);
+    Eigen::MatrixXd const response = twin.response(parameters, {}, machine.network().nodes());
+    for (std::size_t k = 0; k < shared.size(); ++k)
+      columns.col(Eigen::Index(shared[k])).segment(estimation.first_row(r), response.rows()) =
+          response.col(Eigen::Index(k));
+  }
+  for (std::size_t const h : alone) add_alone(estimation, document, hypotheses[h], h, twins, columns);
+  estimation.whiten(columns);
+  return columns;
+}
+
+Eigen::MatrixXd projected(Fit const& fit, Eigen::MatrixXd const& signatures) {
+  Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());
+  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(fit.jacobian.rows(), signatures.cols());
+  padded.topRows(signatures.rows()) = signatures;
+  return padded - fit.jacobian * information.solve(fit.jacobian.topRows(signatures.rows()).transpose() * signatures);
+}
+
+std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std::vector<Hypothesis> const& hypotheses) {
+  Eigen::MatrixXd const left = projected(fit, signatures);
+  std::vector<Score> scores;
+  for (Eigen::Index k = 0; k < signatures.cols(); ++k) {
+    Score score;
+    double const whole = signatures.col(k).squaredNorm();
+    score.information = left.col(k).squaredNorm();
+    double const b = left.col(k).dot(fit.residual);
+    score.kept = whole > 0.0 ? std::sqrt(score.information / whole) : 0.0;
+    if (score.information > 1e-12 * whole && whole > 0.0) {
+      score.amplitude = b / score.information;
+      bool const allowed = score.amplitude > 0.0 || hypotheses[std::size_t(k)].trial->either_sign;
+      score.statistic = allowed ? b * score.amplitude : 0.0;
+    }
+    scores.push_back(score);
+  }
+  return scores;
+}
+
+}  // namespace thermotwin::twin
