@@ -14,6 +14,7 @@
 #include "output/error.h"
 #include "scenarios/course.h"
 #include "thermal/error.h"
+#include "twin/challenge/challenge.h"
 #include "twin/effect_page.h"
 #include "twin/experiment_file.h"
 #include "twin/needed_solution.h"
@@ -159,6 +160,22 @@ void describe(std::string const& what) {
   for (auto const& table : describe_machine()) fmt::print("{}\n", table_page(table));
 }
 
+void add_challenge_command(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("challenge", "write measurements in which an effect is hidden, and the truth in a sealed file");
+  auto options = std::make_shared<ChallengeOptions>();
+  auto folder = std::make_shared<std::string>(), kind = std::make_shared<std::string>();
+  command->add_option("--machine,-m", options->machine, "the nominal machine, file or name")->capture_default_str();
+  command->add_option("--seed", options->seed, "the same seed draws the same challenge")->capture_default_str();
+  command->add_option("--kind", *kind, "one, none, outside, two or sensor; default: what the seed stands for");
+  command->add_option("--output,-o", *folder, "folder to write; it must be empty or absent")->required();
+  command->callback([options, folder, kind] {
+    options->folder = *folder;
+    if (!kind->empty()) options->kind = case_kind(*kind);
+    fmt::print("{}", write_challenge(*options));
+  });
+}
+
 void add_other_commands(CLI::App& app) {
   auto* describe_command = app.add_subcommand("describe", "print every key of a machine or experiment file");
   auto what = std::make_shared<std::string>();
@@ -226,6 +243,7 @@ int command_line(int argc, char** argv) {
   RunCommand run_command;
   run_command.add_to(app);
   add_other_commands(app);
+  add_challenge_command(app);
   std::signal(SIGINT, [](int) { stop_requested = true; });
   std::signal(SIGTERM, [](int) { stop_requested = true; });
   try {

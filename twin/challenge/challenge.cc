@@ -1,0 +1,147 @@
+#include "twin/challenge/challenge.h"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "output/atomic_file.h"
+#include "output/dataset_file.h"
+#include "thermal/error.h"
+#include "twin/challenge/challenge_runs.h"
+#include "twin/challenge/hidden_heat.h"
+#include "twin/run.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double tolerance = 3e-6;  // not that of the twin
+std::array<std::string, 3> const run_names = {"run1", "run2", "unseen"};
+
+void require_empty(std::filesystem::path const& folder) {
+  if (std::filesystem::exists(folder) && (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder)))
+    throw thermal::InputError(fmt::format("'{}' is not empty; a challenge does not overwrite", folder.string()));
+}
+
+output::Dataset simulate(Machine const& machine, scenarios::Experiment const& experiment) {
+  RunOptions options;
+  options.integration.relative_tolerance = options.integration.absolute_tolerance = tolerance;
+  options.node_temperatures = true;
+  return run(machine, experiment, options).dataset;
+}
+
+/// What somebody who measures has.
+output::Dataset measured(output::Dataset const& run, HiddenWorld const& world, int index) {
+  output::Dataset data;
+  data.title = run.title;
+  data.time_s = run.time_s;
+  data.inputs = run.inputs;
+  data.readings = run.readings;
+  data.displacements = run.displacements;
+  data.positioning = run.positioning;
+  disturb(data, world, index);
+  return data;
+}
+
+/// How far the hidden part moves each displacement channel: root mean square and largest difference.
+Json moved(output::Dataset const& with, output::Dataset const& without) {
+  Json json = Json::object();
+  for (std::size_t c = 0; c < with.truth_displacements.size(); ++c) {
+    auto const& channel = with.truth_displacements[c];
+    Eigen::VectorXd const difference = channel.values - without.truth_displacements[c].values;
+    json[channel.name] = {{"unit", channel.unit},
+                          {"rms", std::sqrt(difference.squaredNorm() / double(difference.size()))},
+                          {"largest", difference.cwiseAbs().maxCoeff()}};
+  }
+  return json;
+}
+
+Json warmed(output::Dataset const& with, output::Dataset const& without) {
+  Json json = Json::object();
+  for (std::size_t c = 0; c < with.truth_readings.size(); ++c)
+    json[with.truth_readings[c].name] =
+        (with.truth_readings[c].values - without.truth_readings[c].values).cwiseAbs().maxCoeff();
+  return json;
+}
+
+Json heat_json(std::map<std::string, MeanHeat> const& heat) {
+  Json json = Json::object();
+  for (auto const& [body, q] : heat)
+    json[body] = {{"mean_W", q.mean}, {"moving_W", q.moving}, {"standing_W", q.standing}};
+  return json;
+}
+
+Json effect_json(HiddenEffect const& effect) {
+  auto const& hypothesis = effect.hypothesis;
+  Json keys = Json::object();
+  for (auto const& [key, text] : hypothesis.keys) keys[key] = text;
+  return {{"effect", hypothesis.effect->name},
+          {"site", hypothesis.site},
+          {"body", hypothesis.body},
+          {"amplitude_key", hypothesis.trial->amplitude},
+          {"amplitude", effect.amplitude},
+          {"largest", hypothesis.trial->largest},
+          {"numbers", hypothesis.effect->numbers},
+          {"confusable", hypothesis.effect->confusable},
+          {"keys", keys}};
+}
+
+Json sealed(HiddenWorld const& world, std::string const& machine) {
+  Json json;
+  json["machine"] = machine;
+  json["seed"] = world.seed;
+  json["kind"] = name_of(world.kind);
+  json["effects"] = Json::array();
+  json["removed"] = Json::array();
+  for (auto const& effect : world.effects) {
+    json["effects"].push_back(effect_json(effect));
+    if (world.kind == CaseKind::outside) json["removed"].push_back(effect.hypothesis.effect->name);
+  }
+  if (world.fault)
+    json["sensor"] = {{"name", world.fault->sensor}, {"fault", world.fault->kind}, {"jump_K", world.fault->jump}};
+  else if (world.kind == CaseKind::sensor)
+    json["sensor"] = {{"name", world.effects.at(0).hypothesis.body},
+                      {"fault", world.effects.at(0).hypothesis.effect->name}};
+  else
+    json["sensor"] = nullptr;
+  return json;
+}
+
+}  // namespace
+
+std::string write_challenge(ChallengeOptions const& options) {
+  require_empty(options.folder);
+  auto const file = machine_file(options.machine);
+  Value const nominal = read_toml(file);
+  Machine const nominal_machine = Machine::build(nominal);
+  auto const world = draw_hidden_world(nominal, options.seed, options.kind.value_or(case_kind(options.seed)));
+  auto const runs = challenge_runs(nominal_machine.limits, options.seed);
+  Machine const hidden = Machine::build(world.hidden), healthy = Machine::build(world.healthy);
+
+  std::filesystem::create_directories(options.folder);
+  Json json = sealed(world, nominal_machine.name);
+  json["nodes"] = {{"nominal", nominal_machine.network().nodes()}, {"hidden", hidden.network().nodes()}};
+  double hours = 0.0;
+  for (int r = 0; r < 3; ++r) {
+    auto const& experiment = runs[std::size_t(r)];
+    auto const& name = run_names[std::size_t(r)];
+    auto const data = simulate(hidden, experiment);
+    output::write(measured(data, world, r), options.folder / (name + ".h5"));
+    hours += experiment.duration / 3600.0;
+    if (world.effects.empty()) continue;
+    json["watts"][name] = heat_json(hidden_heat(hidden, healthy, experiment, data));
+    if (r < 2) continue;
+    auto const without = simulate(healthy, experiment);
+    json["moved"] = moved(data, without);
+    json["warmed_K"] = warmed(data, without);
+  }
+  json["drawn"] = world.drawn;
+  std::filesystem::copy_file(file, options.folder / "machine.toml");
+  output::write_atomically(options.folder / "sealed.json", json.dump(2) + "\n");
+  return fmt::format("{}: {} with {} sensors, three runs, {:.0f} h; the truth is in sealed.json\n",
+                     options.folder.string(), nominal_machine.name, nominal_machine.sensors.size(), hours);
+}
+
+}  // namespace thermotwin::twin

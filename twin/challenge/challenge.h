@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "twin/challenge/hidden_world.h"
+
+namespace thermotwin::twin {
+
+/// `thermotwin challenge`: a machine, measurements of it that it does not explain, and the truth.
+struct ChallengeOptions {
+  std::string machine = "v450";  ///< name or file of the nominal machine
+  std::uint64_t seed = 1;
+  std::optional<CaseKind> kind;  ///< default: what the seed stands for
+  std::filesystem::path folder;
+};
+
+/// Writes into the folder:
+///
+/// | file | holds |
+/// |---|---|
+/// | machine.toml | the nominal machine, as its file stands |
+/// | run1.h5, run2.h5 | inputs, readings and displacements of the two runs to diagnose with; nothing else |
+/// | unseen.h5 | those of the run that is held out |
+/// | sealed.json | kind, effects, sites, amplitudes, heat per body and run, displacement moved, parameters drawn |
+///
+/// The same options write the same bytes. InputError if the folder is there and not empty. Returns one line for people,
+/// which does not tell what is hidden.
+std::string write_challenge(ChallengeOptions const& options);
+
+}  // namespace thermotwin::twin
