@@ -17,7 +17,7 @@ using thermal::InputError;
 constexpr double day = 86400.0;
 
 std::vector<DrivenChannel> driven_channels(Experiment const& experiment) {
-  std::vector<DrivenChannel> driven;
+  std::vector<DrivenChannel> driven = experiment.driven;
   for (InputProgram const& program : experiment.inputs) driven.push_back(driven_channel(program, experiment.duration));
   for (Recording const& recording : experiment.recorded) {
     for (DrivenChannel& channel : read_recording(recording, experiment.directory, experiment.duration)) {

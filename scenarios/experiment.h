@@ -38,6 +38,7 @@ struct Experiment {
   std::vector<InputProgram> inputs;
   std::vector<Recording> recorded;
 
+  std::vector<DrivenChannel> driven;      ///< inputs in memory, of a measured run; they count as recorded
   std::filesystem::path directory = ".";  ///< of the experiment's file: relative names of recordings start here
 
   template <class Fields>

@@ -1,0 +1,107 @@
+#include "scenarios/sampled.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "thermal/error.h"
+
+namespace thermotwin::scenarios {
+namespace {
+
+constexpr double same_block = 0.02;           // of the largest magnitude
+constexpr double deviations = 5.0;            // of the noise
+constexpr double deviation_of_median = 1.05;  // σ = 1.4826/√2 · median |Δ| of white noise
+
+struct Course {
+  std::vector<double> times, values;
+};
+
+Course finite_part(SampledInput const& input) {
+  Course course;
+  for (std::size_t i = 0; i < input.times.size(); ++i) {
+    if (!std::isfinite(input.values[i])) continue;
+    course.times.push_back(input.times[i]);
+    course.values.push_back(input.values[i]);
+  }
+  if (course.times.empty()) throw thermal::InputError("input '" + input.name + "' has no value at all");
+  return course;
+}
+
+double median_step(std::vector<double> const& values) {
+  if (values.size() < 2) return 0.0;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(std::abs(values[i] - values[i - 1]));
+  auto const middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+bool is_held(SampledInput const& input, std::vector<double> const& values) {
+  if (input.interpolation != "automatic") return input.interpolation == "step";
+  if (input.absolute_temperature || input.unit == "s" || input.name.ends_with(".position")) return false;
+  auto const dimension = thermal::dimension_of(input.unit);
+  return dimension == thermal::dimension::angular_speed || dimension == thermal::dimension::speed ||
+         dimension == thermal::dimension::dimensionless || median_step(values) == 0.0;
+}
+
+double largest_magnitude(std::vector<double> const& values) {
+  double largest = 0.0;
+  for (double const value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+/// Samples that differ by noise only become one breakpoint with their mean.
+Course blocks(Course const& samples) {
+  double const step = median_step(samples.values);
+  double const largest = largest_magnitude(samples.values);
+  double const tolerance = step == 0.0 ? 0.0 : std::max(same_block * largest, deviations * deviation_of_median * step);
+  Course result;
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < samples.times.size(); ++i) {
+    double const value = samples.values[i];
+    bool const same = count > 0 && std::abs(value - result.values.back()) <= tolerance;
+    if (!same) {
+      result.times.push_back(samples.times[i]);
+      result.values.push_back(value);
+      sum = 0.0;
+      count = 0;
+    }
+    sum += value;
+    ++count;
+    if (tolerance > 0.0) result.values.back() = sum / count;
+  }
+  if (tolerance > 0.0)
+    for (double& value : result.values)
+      if (std::abs(value) < same_block * largest) value = 0.0;
+  return result;
+}
+
+Course means(Course const& samples, double width) {
+  if (width <= 0.0) return samples;
+  Course result;
+  for (std::size_t i = 0; i < samples.times.size();) {
+    double const end = samples.times[i] + width;
+    double time = 0.0, value = 0.0;
+    int count = 0;
+    for (; i < samples.times.size() && samples.times[i] < end; ++i, ++count) {
+      time += samples.times[i];
+      value += samples.values[i];
+    }
+    result.times.push_back(time / count);
+    result.values.push_back(value / count);
+  }
+  return result;
+}
+
+}  // namespace
+
+DrivenChannel driven_channel(SampledInput const& input) {
+  Course const samples = finite_part(input);
+  bool const held = is_held(input, samples.values);
+  Course const course = held ? blocks(samples) : means(samples, input.average);
+  Interpolation const between = held ? Interpolation::step : Interpolation::linear;
+  return {{input.name, input.unit, "measured"}, Signal(course.times, course.values, between)};
+}
+
+}  // namespace thermotwin::scenarios

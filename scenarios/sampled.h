@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenarios/recorded.h"
+
+namespace thermotwin::scenarios {
+
+/// An input channel as it was sampled [SI]; NaN: missing. Times increase strictly; with one value for each.
+struct SampledInput {
+  std::string name;  ///< of the channel
+  std::string unit;  ///< SI
+  std::vector<double> times;
+  std::vector<double> values;
+  bool absolute_temperature = false;        ///< a point on the scale, not a difference
+  std::string interpolation = "automatic";  ///< "automatic", "linear" or "step"
+  double average = 0.0;  ///< linear channels: one breakpoint per this time, the mean of its samples [s]
+};
+
+/// The channel with its course, missing samples left out.
+///
+/// Automatic: temperatures, positions and clocks go along straight lines; speeds, feeds, shares and flags, and whatever
+/// repeats its last value more often than not, is a programme and held until the next sample.
+///
+/// What is held may be noisy, and would jump at every sample. Unless more than half of the samples repeat the one
+/// before, a sample belongs to the running block while it is within max(2 % of the channel's largest magnitude, 5 σ) of
+/// the block's mean, which is then the block's value; σ = 1.05 median |Δ| of neighbours. A noisy block whose mean is
+/// below 2 % of the largest stands still: 0.
+///
+/// Throws InputError when no sample is finite.
+DrivenChannel driven_channel(SampledInput const& input);
+
+}  // namespace thermotwin::scenarios

@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
+
+#include "thermal/error.h"
+#include "thermal/nearest_name.h"
+#include "thermal/units.h"
+#include "twin/diagnosis/measured_data.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using thermal::InputError;
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double coldest = 213.15, hottest = 523.15;  // K, that a sensor of a machine shows
+constexpr int fewest_rows_of_standstill = 20;
+constexpr double least_share_of_standstill = 0.1;
+
+double median_of_finite(Eigen::VectorXd const& values) {
+  std::vector<double> finite;
+  for (double const value : values)
+    if (std::isfinite(value)) finite.push_back(value);
+  if (finite.empty()) return missing;
+  auto const middle = finite.begin() + std::ptrdiff_t(finite.size() / 2);
+  std::nth_element(finite.begin(), middle, finite.end());
+  return *middle;
+}
+
+/// Of what a channel of the machine is the reading.
+struct Expected {
+  std::string name;
+  bool displacement = false;
+  thermal::Dimension dimension;
+};
+
+std::vector<Expected> expected_channels(Machine const& machine) {
+  std::vector<Expected> expected;
+  for (auto const& sensor : machine.sensors)
+    expected.push_back({sensor.description.name, false, thermal::dimension::temperature_difference});
+  for (auto const& channel : machine.displacements)
+    expected.push_back({channel.name, true, channel.rotation ? thermal::dimension::angle : thermal::dimension::length});
+  return expected;
+}
+
+output::Channel const* find(std::vector<output::Channel> const& channels, std::string const& name) {
+  auto const found = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
+  return found == channels.end() ? nullptr : &*found;
+}
+
+MeasuredChannel in_si(output::Channel const& channel, Expected const& expected) {
+  if (thermal::dimension_of(channel.unit) != expected.dimension)
+    throw InputError(fmt::format("channel '{}' is in {}, the machine's is a {}", channel.name, channel.unit,
+                                 expected.displacement ? thermal::name_of(expected.dimension) : "temperature"));
+  MeasuredChannel result{channel.name, expected.displacement, channel.values};
+  thermal::from_unit({result.values.data(), std::size_t(result.values.size())}, channel.unit);
+  if (expected.displacement) return result;
+  if (double const median = median_of_finite(result.values); median < coldest || median > hottest)
+    throw InputError(fmt::format("sensor '{}' reads {:.1f} {} most of the time; is its unit right?", channel.name,
+                                 median_of_finite(channel.values), channel.unit));
+  for (double& value : result.values)
+    if (value < coldest || value > hottest) value = missing;
+  return result;
+}
+
+bool moves(Eigen::VectorXd const& values) {
+  double first = missing;
+  for (double const value : values) {
+    if (!std::isfinite(value)) continue;
+    if (std::isnan(first)) first = value;
+    if (value != first) return true;
+  }
+  return false;
+}
+
+/// Row from which on a channel repeats one value, though before it did so seldom; the number of rows if it never does.
+Eigen::Index stops_moving(Eigen::VectorXd const& values) {
+  Eigen::Index const rows = values.size();
+  Eigen::Index from = rows - 1;
+  while (from > 0 && values[from - 1] == values[rows - 1]) --from;
+  Eigen::Index repeats = 0;
+  for (Eigen::Index r = 1; r < from; ++r) repeats += values[r] == values[r - 1] ? 1 : 0;
+  bool const long_enough =
+      rows - from >= fewest_rows_of_standstill && double(rows - from) >= least_share_of_standstill * double(rows);
+  return long_enough && 2 * repeats < from ? from : rows;
+}
+
+void bury_dead(std::vector<MeasuredChannel>& channels, Eigen::VectorXd const& time, std::vector<std::string>& remarks) {
+  bool const any = std::any_of(channels.begin(), channels.end(), [](auto const& c) { return moves(c.values); });
+  if (!any) throw InputError("none of the machine's channels moves in the data: every sensor is dead");
+  for (auto& channel : channels) {
+    if (!moves(channel.values)) {
+      bool const empty = !(channel.values.array() == channel.values.array()).any();
+      remarks.push_back(fmt::format("'{}' is dead: {}", channel.name, empty ? "no reading" : "it never moves"));
+      channel.values.setConstant(missing);
+    } else if (auto const from = stops_moving(channel.values); from < time.size()) {
+      remarks.push_back(
+          fmt::format("'{}' is dead from {:.2f} h on: it moves no more", channel.name, time[from] / 3600));
+      channel.values.tail(time.size() - from).setConstant(missing);
+    }
+  }
+}
+
+/// The first row in which anything was read.
+Eigen::Index first_row(std::vector<MeasuredChannel> const& channels, Eigen::Index rows) {
+  for (Eigen::Index r = 0; r < rows; ++r)
+    for (auto const& channel : channels)
+      if (std::isfinite(channel.values[r])) return r;
+  return 0;
+}
+
+/// Longest time without a reading, and its share of the rows from the first on.
+void remark_gaps(MeasuredChannel const& channel, MeasuredData const& data, Eigen::Index first,
+                 std::vector<std::string>& remarks) {
+  double last = data.time[first], longest = 0.0, from = 0.0;
+  Eigen::Index absent = 0;
+  for (Eigen::Index r = first; r < data.time.size(); ++r) {
+    if (std::isnan(channel.values[r])) {
+      ++absent;
+      if (r + 1 < data.time.size()) continue;
+    }
+    if (data.time[r] - last > longest) {
+      longest = data.time[r] - last;
+      from = last;
+    }
+    last = data.time[r];
+  }
+  Eigen::Index const rows = data.time.size() - first;
+  if (absent < rows && longest > data.max_gap)
+    remarks.push_back(fmt::format("'{}' has no reading for {:.2f} h from {:.2f} h on; {} of {} rows are missing",
+                                  channel.name, longest / 3600.0, from / 3600.0, absent, rows));
+}
+
+void remark_strangers(MeasuredData const& data, std::vector<Expected> const& expected,
+                      std::vector<std::string>& remarks) {
+  std::vector<std::string> strangers, absent;
+  auto const known = [&](std::string const& name) {
+    return std::any_of(expected.begin(), expected.end(), [&](auto const& e) { return e.name == name; });
+  };
+  for (auto const* group : {&data.readings, &data.displacements})
+    for (auto const& channel : *group)
+      if (!known(channel.name)) strangers.push_back(channel.name);
+  for (auto const& e : expected)
+    if (!find(e.displacement ? data.displacements : data.readings, e.name)) absent.push_back(e.name);
+  if (!strangers.empty()) remarks.push_back(fmt::format("in the data, but not used: {}", fmt::join(strangers, ", ")));
+  if (!absent.empty())
+    remarks.push_back(fmt::format("of the machine, but not in the data: {}", fmt::join(absent, ", ")));
+}
+
+[[noreturn]] void no_channel(MeasuredData const& data, std::vector<Expected> const& expected, Machine const& machine) {
+  std::vector<std::string> names;
+  for (auto const& e : expected) names.push_back(e.name);
+  for (auto const* group : {&data.readings, &data.displacements})
+    if (!group->empty())
+      throw InputError(fmt::format("no channel of the data is one of the machine '{}': there is '{}'; {}", machine.name,
+                                   group->front().name, thermal::did_you_mean(group->front().name, names)));
+  throw InputError("the data have no readings at all");
+}
+
+}  // namespace
+
+std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const& machine,
+                                         std::vector<std::string>& remarks) {
+  auto const expected = expected_channels(machine);
+  std::vector<MeasuredChannel> channels;
+  for (auto const& e : expected)
+    if (auto const* channel = find(e.displacement ? data.displacements : data.readings, e.name))
+      channels.push_back(in_si(*channel, e));
+    else if (find(e.displacement ? data.readings : data.displacements, e.name))
+      throw InputError(fmt::format("channel '{}' of the data is a {}, the machine's is a {}", e.name,
+                                   e.displacement ? "temperature" : "displacement",
+                                   e.displacement ? "displacement" : "temperature"));
+  if (channels.empty()) no_channel(data, expected, machine);
+  bury_dead(channels, data.time, remarks);
+  Eigen::Index const first = first_row(channels, data.time.size());
+  for (auto const& channel : channels) remark_gaps(channel, data, first, remarks);
+  remark_strangers(data, expected, remarks);
+  return channels;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/dataset.h"
+#include "scenarios/sampled.h"
+#include "twin/diagnosis/measured_run.h"
+
+namespace thermotwin::twin {
+
+/// What was recorded, wherever it comes from, before it is laid over a machine. Times from the start of the run.
+struct MeasuredData {
+  std::string machine;  ///< name of the machine that was measured, if it is known
+  std::vector<scenarios::SampledInput> inputs;
+  Eigen::VectorXd time;                   ///< of the readings [s], strictly increasing
+  std::vector<output::Channel> readings;  ///< of sensors, in their units
+  std::vector<output::Channel> displacements;
+  std::optional<double> initial_temperature;  ///< [K]
+  double max_gap = 600.0;                     ///< longer gaps become remarks [s]
+};
+
+/// The inputs as a course: what is not recorded follows from the rest (scenarios/course.h), axes without a record stand
+/// still, machine and drives are on, the coolant is off; remarks say so.
+///
+/// InputError that lists the inputs that the machine needs and that cannot be supposed: the spindle's speed, the air's
+/// temperature, and whatever has a name of the machine's own; for a speed beyond the machine's; for a unit that
+/// contradicts the channel.
+[[nodiscard]] std::shared_ptr<thermal::Course const> course_of(MeasuredData data, Machine const& machine,
+                                                               std::vector<std::string>& remarks);
+
+/// The machine's channels that the data have, in SI and in the machine's order. A value that no sensor shows (below
+/// −60 °C, above 250 °C) is missing. A sensor that never moves while others do is dead: all its values are missing; one
+/// that stops moving for the last tenth of the run or more is dead from there on. Remarks tell of these, of gaps, and
+/// of channels that only one side has.
+///
+/// InputError when no channel is the machine's, when all are dead, when a unit contradicts the channel.
+[[nodiscard]] std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const& machine,
+                                                       std::vector<std::string>& remarks);
+
+/// Both together. InputError when the run has less than ten rows.
+[[nodiscard]] MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string const& name);
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <numbers>
+
+#include "scenarios/course.h"
+#include "thermal/error.h"
+#include "thermal/nearest_name.h"
+#include "twin/diagnosis/measured_data.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using scenarios::SampledInput;
+using thermal::InputError;
+
+/// An experiment's own channels that a record may lack.
+struct Supposition {
+  std::string channel;
+  std::string said;  ///< for people
+};
+
+std::vector<Supposition> const& suppositions() {
+  static std::vector<Supposition> const all = {
+      {"machine.on", "the machine is on"},
+      {"servo.on", "the drives are on"},
+      {"coolant.on", "the coolant is off"},
+      {"coolant.temperature", "the coolant is supplied at 20 degC"},
+      {"chiller.on", "the chiller may run"},
+      {"chiller.offset", "the chiller's set point is the machine's"},
+      {"ambient.gradient", "the air is as warm above as below"},
+      {"ambient.reference_height", "the air's temperature is that at 1 m"},
+      {"ambient.door", "no door is open"},
+  };
+  return all;
+}
+
+SampledInput const* find(std::vector<SampledInput> const& inputs, std::string const& name) {
+  auto const found = std::find_if(inputs.begin(), inputs.end(), [&](auto const& input) { return input.name == name; });
+  return found == inputs.end() ? nullptr : &*found;
+}
+
+bool recorded(SampledInput const& input) {
+  return std::any_of(input.values.begin(), input.values.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// What follows from other channels; a sampled copy of it would be a coarse one.
+bool is_derived(SampledInput const& input, MeasuredData const& data) {
+  auto const dot = input.name.find('.');
+  std::string const owner = input.name.substr(0, dot),
+                    what = dot == std::string::npos ? "" : input.name.substr(dot + 1);
+  if (input.name == "ambient.floor_temperature" || input.name == "time_of_day") return true;
+  if (owner == "spindle")
+    return (what == "running" || what == "time_running" || what == "revolutions") &&
+           find(data.inputs, "spindle.speed") != nullptr;
+  return what == "running" && find(data.inputs, owner + ".feed") != nullptr;
+}
+
+/// Feed and mean speed of a screw from one another: speed = 2π feed/lead · duty.
+void complete_axis(std::vector<SampledInput>& inputs, scenarios::AxisLimits const& axis) {
+  SampledInput const* feed = find(inputs, axis.name + ".feed");
+  SampledInput const* speed = find(inputs, axis.name + ".speed");
+  SampledInput const* duty = find(inputs, axis.name + ".duty");
+  double const turns = 2.0 * std::numbers::pi / axis.lead;
+  if (speed && !feed) {
+    SampledInput derived = *speed;
+    derived.name = axis.name + ".feed";
+    derived.unit = "m/s";
+    for (double& value : derived.values) value /= turns;
+    inputs.push_back(derived);
+  } else if (feed && duty && !speed && duty->times == feed->times) {
+    SampledInput derived = *feed;
+    derived.name = axis.name + ".speed";
+    derived.unit = "rad/s";
+    for (std::size_t i = 0; i < derived.values.size(); ++i)
+      derived.values[i] = std::abs(derived.values[i]) * turns * duty->values[i];
+    inputs.push_back(derived);
+  }
+}
+
+std::vector<std::string> needed_channels(Machine const& machine) {
+  auto const& network = machine.network();
+  std::vector<std::string> names(network.channel_names().begin(),
+                                 network.channel_names().begin() + network.external_channels());
+  for (auto const& displacement : machine.displacements)
+    for (auto const& term : displacement.input_terms) names.push_back(term.channel);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+/// The record without which a needed channel is unknown; empty if it can be supposed.
+std::string due_for(std::string const& channel, Machine const& machine) {
+  if (channel.starts_with("spindle.")) return "spindle.speed";
+  if (channel == "ambient.temperature" || channel == "ambient.floor_temperature") return "ambient.temperature";
+  for (auto const& axis : machine.limits.axes)
+    if (channel.starts_with(axis.name + ".")) return "";
+  for (auto const& known : suppositions())
+    if (channel == known.channel) return "";
+  return channel == "time_of_day" ? "" : channel;
+}
+
+void check_needs(MeasuredData const& data, Machine const& machine) {
+  std::vector<std::string> missing, given;
+  for (auto const& input : data.inputs) given.push_back(input.name);
+  for (auto const& channel : needed_channels(machine)) {
+    std::string const due = due_for(channel, machine);
+    if (due.empty() || find(data.inputs, due) || find(data.inputs, channel)) continue;
+    if (std::find(missing.begin(), missing.end(), due) == missing.end()) missing.push_back(due);
+  }
+  if (missing.empty()) return;
+  throw InputError(fmt::format("the machine '{}' needs inputs that the data lack: {}; the data have {}", machine.name,
+                               fmt::join(missing, ", "),
+                               given.empty() ? "none" : fmt::format("{}", fmt::join(given, ", "))));
+}
+
+void check_speed(MeasuredData const& data, Machine const& machine) {
+  SampledInput const* speed = find(data.inputs, "spindle.speed");
+  double const limit = machine.limits.max_spindle_speed;
+  if (!speed || limit <= 0.0) return;
+  double fastest = 0.0;
+  for (double const value : speed->values)
+    if (std::isfinite(value)) fastest = std::max(fastest, std::abs(value));
+  if (fastest > 1.2 * limit)
+    throw InputError(fmt::format(
+        "input 'spindle.speed' reaches {:.0f} rpm, and the machine's maximum is {:.0f} rpm; is its unit right?",
+        thermal::to_unit(fastest, "rpm"), thermal::to_unit(limit, "rpm")));
+}
+
+void remark_suppositions(MeasuredData const& data, Machine const& machine, std::vector<std::string>& remarks) {
+  auto const needed = needed_channels(machine);
+  std::vector<std::string> said;
+  for (auto const& known : suppositions()) {
+    bool const due = std::find(needed.begin(), needed.end(), known.channel) != needed.end();
+    if (due && !find(data.inputs, known.channel)) said.push_back(known.said);
+  }
+  for (auto const& axis : machine.limits.axes) {
+    bool const due =
+        std::any_of(needed.begin(), needed.end(), [&](auto const& name) { return name.starts_with(axis.name + "."); });
+    if (due && !find(data.inputs, axis.name + ".feed")) said.push_back("axis " + axis.name + " stands still");
+  }
+  if (!said.empty()) remarks.push_back(fmt::format("not in the data, and supposed: {}", fmt::join(said, "; ")));
+}
+
+void remark_gaps(MeasuredData const& data, std::vector<std::string>& remarks) {
+  for (auto const& input : data.inputs) {
+    double last = input.times.front(), longest = 0.0, from = 0.0;
+    for (std::size_t i = 0; i < input.times.size(); ++i) {
+      if (!std::isfinite(input.values[i])) continue;
+      if (input.times[i] - last > longest) {
+        longest = input.times[i] - last;
+        from = last;
+      }
+      last = input.times[i];
+    }
+    double const end = data.time[data.time.size() - 1];
+    if (end - last > longest) {
+      longest = end - last;
+      from = last;
+    }
+    if (longest > data.max_gap)
+      remarks.push_back(fmt::format("input '{}' is missing for {:.2f} h from {:.2f} h on", input.name, longest / 3600.0,
+                                    from / 3600.0));
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<thermal::Course const> course_of(MeasuredData data, Machine const& machine,
+                                                 std::vector<std::string>& remarks) {
+  scenarios::Experiment experiment;
+  experiment.duration = data.time[data.time.size() - 1];
+  if (SampledInput const* clock = find(data.inputs, "time_of_day"))
+    if (!clock->values.empty() && clock->values.front() >= 0.0 && clock->values.front() < 86400.0)
+      experiment.start_time_of_day = clock->values.front();
+  std::erase_if(data.inputs, [](SampledInput const& input) { return !recorded(input); });
+  for (auto const& axis : machine.limits.axes) complete_axis(data.inputs, axis);
+  check_needs(data, machine);
+  check_speed(data, machine);
+  remark_suppositions(data, machine, remarks);
+  remark_gaps(data, remarks);
+  for (auto const& input : data.inputs)
+    if (!is_derived(input, data)) experiment.driven.push_back(scenarios::driven_channel(input));
+  return std::make_shared<scenarios::ExperimentCourse const>(experiment, machine.limits);
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,89 @@
+#include "twin/diagnosis/measured_run.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include "output/csv.h"
+#include "output/dataset_file.h"
+#include "thermal/error.h"
+#include "thermal/units.h"
+#include "twin/diagnosis/measured_data.h"
+#include "twin/diagnosis/measurement_file.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using thermal::InputError;
+
+constexpr Eigen::Index fewest_rows = 10;
+
+scenarios::SampledInput sampled(output::Channel const& channel, Eigen::VectorXd const& time) {
+  scenarios::SampledInput input;
+  std::string const unit = channel.unit.empty() ? "1" : channel.unit;
+  input.name = channel.name;
+  input.unit = thermal::unit_of(thermal::dimension_of(unit));
+  input.absolute_temperature = unit == "degC";
+  input.times.assign(time.begin(), time.end());
+  input.values.assign(channel.values.begin(), channel.values.end());
+  thermal::from_unit(input.values, unit);
+  return input;
+}
+
+/// What a run of the twin, or of a controller, says about the place of a file.
+template <class Action>
+MeasuredRun naming(std::filesystem::path const& path, Action action) {
+  try {
+    return action();
+  } catch (InputError const& error) {
+    std::string const message = error.what();
+    if (message.find(path.string()) != std::string::npos) throw;
+    throw InputError(fmt::format("{}: {}", path.string(), message));
+  }
+}
+
+}  // namespace
+
+MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string const& name) {
+  Eigen::Index const rows = data.time.size();
+  if (rows < fewest_rows)
+    throw InputError(
+        fmt::format("the run has {} rows, too few to identify anything; at least {} are due", rows, fewest_rows));
+  MeasuredRun run;
+  run.name = name;
+  run.time = data.time;
+  run.initial_temperature = data.initial_temperature;
+  if (!data.machine.empty() && data.machine != machine.name)
+    run.remarks.push_back(fmt::format("measured on '{}', looked at with '{}'", data.machine, machine.name));
+  run.channels = channels_of(data, machine, run.remarks);
+  run.course = course_of(std::move(data), machine, run.remarks);
+  return run;
+}
+
+MeasuredRun measured_run(output::Dataset const& dataset, Machine const& machine, std::string const& name) {
+  output::check(dataset);
+  MeasuredData data;
+  double const start = dataset.time_s.size() > 0 ? dataset.time_s[0] : 0.0;
+  data.time = dataset.time_s.array() - start;
+  data.readings = dataset.readings;
+  data.displacements = dataset.displacements;
+  for (auto const& channel : dataset.inputs) data.inputs.push_back(sampled(channel, data.time));
+  MeasuredRun run = measured_run(std::move(data), machine, name);
+  if (start != 0.0) run.remarks.push_back(fmt::format("the data start at {} s; the run is counted from there", start));
+  if (!dataset.complete) run.remarks.push_back("the data set is marked as incomplete");
+  return run;
+}
+
+MeasuredRun read_measured_run(std::filesystem::path const& path, Machine const& machine) {
+  return naming(path, [&] {
+    std::string const name = path.stem().string();
+    if (path.extension() == ".toml") return measured_run(read_measurement_file(path), machine, name);
+    if (path.extension() == ".csv") return measured_run(output::import_csv(path), machine, name);
+    if (path.extension() == ".h5") return measured_run(output::read(path), machine, name);
+    throw InputError(
+        fmt::format("'{}' is no measured run; a data set (.h5), a table (.csv) or a measurement file "
+                    "(.toml) is due",
+                    path.string()));
+  });
+}
+
+}  // namespace thermotwin::twin

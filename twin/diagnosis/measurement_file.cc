@@ -1,0 +1,188 @@
+#include "twin/diagnosis/measurement_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <set>
+
+#include "scenarios/csv.h"
+#include "scenarios/recorded.h"
+#include "thermal/error.h"
+#include "thermal/units.h"
+#include "twin/file/tables.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using thermal::InputError;
+
+/// One CSV file as numbers: its times on the tables' clock, its columns as they are.
+struct LoadedTable {
+  std::vector<double> times;
+  std::vector<std::vector<double>> inputs, readings;
+};
+
+void check_times(MeasuredTable const& table, scenarios::CsvTable const& csv) {
+  auto const& times = csv.columns.front();
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    std::string const where = fmt::format("{}:{}: column '{}': ", csv.file.string(), csv.lines[row], table.time_column);
+    if (!std::isfinite(times[row])) throw InputError(where + "is missing; a number is due");
+    if (row > 0 && times[row] <= times[row - 1])
+      throw InputError(fmt::format("{}{} follows {}; time must increase", where, thermal::format_number(times[row]),
+                                   thermal::format_number(times[row - 1])));
+  }
+}
+
+LoadedTable load(MeasuredTable const& table, std::filesystem::path const& directory) {
+  if (table.inputs.empty() && table.readings.empty())
+    throw InputError(fmt::format("'{}' has neither an input nor a reading; name its columns", table.file));
+  if (thermal::dimension_of(table.time_unit) != dimension::time)
+    throw InputError(fmt::format("time_unit: '{}' is no unit of time", table.time_unit));
+  std::vector<std::string> columns = {table.time_column};
+  for (auto const& input : table.inputs) columns.push_back(input.column);
+  for (auto const& reading : table.readings) columns.push_back(reading.column);
+  auto csv = scenarios::read_csv(scenarios::resolved_path(table.file, directory), columns,
+                                 scenarios::MissingValue::keep_as_nan);
+  check_times(table, csv);
+  LoadedTable loaded{csv.columns.front(), {}, {}};
+  thermal::from_unit(loaded.times, table.time_unit);
+  for (double& t : loaded.times) t += table.clock_offset;
+  auto const first_reading = csv.columns.begin() + 1 + std::ptrdiff_t(table.inputs.size());
+  loaded.inputs.assign(csv.columns.begin() + 1, first_reading);
+  loaded.readings.assign(first_reading, csv.columns.end());
+  return loaded;
+}
+
+/// On the tables' clock [s].
+struct Window {
+  double from = std::numeric_limits<double>::infinity();
+  double to = -std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool holds(double t) const { return t >= from && t <= to; }
+};
+
+Window window_of(MeasurementFile const& file, std::vector<LoadedTable> const& tables) {
+  Window recorded;
+  for (auto const& table : tables) {
+    recorded.from = std::min(recorded.from, table.times.front());
+    recorded.to = std::max(recorded.to, table.times.back());
+  }
+  Window const window{file.from.value_or(recorded.from), file.to.value_or(recorded.to)};
+  if (window.from < window.to && window.from < recorded.to && window.to > recorded.from) return window;
+  throw InputError(fmt::format("from {:g} h to {:g} h holds nothing of the tables, which go from {:g} h to {:g} h",
+                               window.from / 3600.0, window.to / 3600.0, recorded.from / 3600.0, recorded.to / 3600.0));
+}
+
+/// Times at which anything was read, and the start of the run.
+std::vector<double> row_times(MeasurementFile const& file, std::vector<LoadedTable> const& tables,
+                              Window const& window) {
+  std::set<double> times = {window.from};
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    if (file.tables[t].readings.empty()) continue;
+    for (double const time : tables[t].times)
+      if (window.holds(time)) times.insert(time);
+  }
+  return {times.begin(), times.end()};
+}
+
+scenarios::SampledInput make_input(InputColumn const& column, LoadedTable const& table,
+                                   std::vector<double> const& numbers, double start) {
+  scenarios::SampledInput input;
+  input.name = column.channel;
+  input.unit = thermal::unit_of(thermal::dimension_of(column.unit));
+  input.absolute_temperature = column.unit == "degC";
+  input.interpolation = column.interpolation;
+  input.average = column.average;
+  input.times = table.times;
+  for (double& t : input.times) t -= start;
+  input.values = numbers;
+  thermal::from_unit(input.values, column.unit);
+  return input;
+}
+
+/// The offset in the column's unit; a temperature's is a difference.
+double offset_of(ReadingColumn const& column) {
+  if (column.offset.empty()) return 0.0;
+  double const si = thermal::parse_value(column.offset, thermal::dimension_of(column.unit));
+  return column.unit == "degC" ? si : thermal::to_unit(si, column.unit);
+}
+
+output::Channel make_reading(ReadingColumn const& column, LoadedTable const& table, std::vector<double> const& numbers,
+                             std::vector<double> const& rows, double first) {
+  double const offset = offset_of(column);
+  output::Channel channel{column.sensor, column.unit, column.column,
+                          Eigen::VectorXd::Constant(Eigen::Index(rows.size()), std::nan(""))};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    auto const row = std::lower_bound(rows.begin(), rows.end(), table.times[i]);
+    if (row == rows.end() || *row != table.times[i] || *row < first) continue;
+    channel.values[row - rows.begin()] = column.factor * numbers[i] + offset;
+  }
+  return channel;
+}
+
+void add_constants(MeasurementFile const& file, MeasuredData& data) {
+  for (auto const& constant : file.constants) {
+    auto const quantity = thermal::parse_quantity(constant.value);
+    scenarios::SampledInput input;
+    input.name = constant.channel;
+    input.unit = thermal::unit_of(quantity.dimension);
+    input.times = {0.0, data.time[data.time.size() - 1]};
+    input.values = {quantity.value, quantity.value};
+    data.inputs.push_back(std::move(input));
+  }
+}
+
+void check_names(MeasuredData const& data) {
+  std::set<std::string> names;
+  auto const claim = [&](std::string const& name, std::string const& what) {
+    if (!names.insert(what + name).second) throw InputError(fmt::format("{} '{}' is given twice", what, name));
+  };
+  for (auto const& input : data.inputs) claim(input.name, "input");
+  for (auto const* group : {&data.readings, &data.displacements})
+    for (auto const& channel : *group) claim(channel.name, "reading");
+}
+
+}  // namespace
+
+MeasuredData read_measurement_file(std::filesystem::path const& path) {
+  Value const document = read_toml(path);
+  MeasurementFile file;
+  read_fields(document, file);
+  if (file.tables.empty()) throw FileError(document.where, "the file names no [[table]]");
+  auto const directory = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  auto const& places = std::get<Value::List>(document.find("table")->content);
+  std::vector<LoadedTable> tables;
+  for (std::size_t t = 0; t < file.tables.size(); ++t)
+    located(places[t], [&] { tables.push_back(load(file.tables[t], directory)); });
+
+  MeasuredData data;
+  data.machine = file.machine;
+  data.initial_temperature = file.initial_temperature;
+  located(document, [&] {
+    Window const window = window_of(file, tables);
+    auto const rows = row_times(file, tables, window);
+    data.time = Eigen::Map<Eigen::VectorXd const>(rows.data(), Eigen::Index(rows.size())).array() - window.from;
+    double const first = file.readings_from.value_or(window.from);
+    for (std::size_t t = 0; t < tables.size(); ++t)
+      located(places[t], [&, &table = file.tables[t]] {
+        data.max_gap = t == 0 ? table.max_gap : std::max(data.max_gap, table.max_gap);
+        for (std::size_t i = 0; i < table.inputs.size(); ++i)
+          data.inputs.push_back(make_input(table.inputs[i], tables[t], tables[t].inputs[i], window.from));
+        for (std::size_t i = 0; i < table.readings.size(); ++i) {
+          auto channel = make_reading(table.readings[i], tables[t], tables[t].readings[i], rows, first);
+          auto const unit = thermal::dimension_of(channel.unit);
+          bool const temperature = unit == dimension::temperature_difference;
+          if (!temperature && unit != dimension::length && unit != dimension::angle)
+            throw InputError(fmt::format("reading '{}': '{}' is no unit of a temperature, a length or an angle",
+                                         channel.name, channel.unit));
+          (temperature ? data.readings : data.displacements).push_back(std::move(channel));
+        }
+      });
+    add_constants(file, data);
+    check_names(data);
+  });
+  return data;
+}
+
+}  // namespace thermotwin::twin
