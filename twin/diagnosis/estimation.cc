@@ -174,14 +174,16 @@ void Estimation::find_linear_columns() {
       }
     }
   }
-  whiten(linear_columns_);
+  whitened_linear_columns_ = linear_columns_;
+  whiten(whitened_linear_columns_);
 }
 
 Estimation Estimation::with(std::vector<ChannelNoise> const& noise) const {
   Estimation other = *this;
   other.noise_ = noise;
   other.make_whitenings();
-  other.find_linear_columns();
+  other.whitened_linear_columns_ = linear_columns_;
+  other.whiten(other.whitened_linear_columns_);
   return other;
 }
 
@@ -235,19 +237,21 @@ std::vector<MachineDerivative> Estimation::amplitude_derivatives(Eigen::VectorXd
 
 std::vector<Eigen::MatrixXd> Estimation::residuals_at(Eigen::VectorXd const& x) const {
   Machine const machine = Machine::build(document_at(x));
+  Eigen::VectorXd explained = Eigen::VectorXd::Zero(rows_);
+  for (std::size_t l = 0; l < linear_.size(); ++l)
+    explained += x[Eigen::Index(linear_[l])] * linear_columns_.col(Eigen::Index(l));
   std::vector<Eigen::MatrixXd> residuals;
-  for (auto const& run : *data_) residuals.push_back(run.values - LinearisedRun(machine, run).prediction());
-  for (std::size_t u = 0; u < unknowns_.size(); ++u)
-    if (unknowns_[u].kind == Unknown::Kind::offset)
-      for (std::size_t r = 0; r < residuals.size(); ++r)
-        for (std::size_t c = 0; c < (*data_)[r].run->channels.size(); ++c)
-          if ((unknowns_[u].run < 0 || unknowns_[u].run == int(r)) &&
-              (*data_)[r].run->channels[c].name == channels_[unknowns_[u].index])
-            residuals[r].col(Eigen::Index(c)).array() -= x[Eigen::Index(u)];
+  for (std::size_t r = 0; r < data_->size(); ++r) {
+    auto const& run = (*data_)[r];
+    residuals.push_back(run.values - LinearisedRun(machine, run).prediction());
+    residuals.back() -=
+        explained.segment(first_rows_[r], run.values.size()).reshaped(run.values.rows(), run.values.cols());
+  }
   return residuals;
 }
 
-bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const {
+bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian,
+                          Fit const* frozen) const {
   auto const unknowns = Eigen::Index(unknowns_.size());
   std::optional<Machine> machine;
   try {
@@ -259,9 +263,10 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
   std::vector<thermal::NetworkDerivative> heat;
   std::vector<MachineDerivative> amplitudes;
   std::vector<Eigen::Index> columns;
+  auto const known = frozen ? std::size_t(frozen->x.size()) : 0;  // unknowns whose columns are taken over
   if (jacobian) {
     amplitudes = amplitude_derivatives(x);
-    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    for (std::size_t u = known; u < unknowns_.size(); ++u) {
       auto const& unknown = unknowns_[u];
       bool const number = unknown.kind == Unknown::Kind::number;
       if (!number && unknown.kind != Unknown::Kind::amplitude) continue;
@@ -292,7 +297,7 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
       Eigen::MatrixXd const response = twin.response(*parameters);
       for (std::size_t k = 0; k < columns.size(); ++k)
         jacobian->col(columns[k]).segment(first, count) -= response.col(Eigen::Index(k));
-      for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+      for (std::size_t u = known; u < unknowns_.size(); ++u) {
         auto const& unknown = unknowns_[u];
         auto column = jacobian->col(Eigen::Index(u)).segment(first, count);
         if (unknown.kind == Unknown::Kind::number && moves_tool(number_derivatives_[unknown.index]))
@@ -315,7 +320,7 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
     if (std::isnan(residual[i])) residual[i] = 0.0;
   whiten(residual.head(rows_));
   for (std::size_t l = 0; l < linear_.size(); ++l)
-    residual.head(rows_) -= x[Eigen::Index(linear_[l])] * linear_columns_.col(Eigen::Index(l));
+    residual.head(rows_) -= x[Eigen::Index(linear_[l])] * whitened_linear_columns_.col(Eigen::Index(l));
   for (Eigen::Index u = 0; u < unknowns; ++u) {
     auto const& unknown = unknowns_[std::size_t(u)];
     residual[rows_ + u] = (x[u] - unknown.mean) / unknown.deviation;
@@ -324,14 +329,15 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
   if (!jacobian) return true;
   whiten(jacobian->topRows(rows_));
   for (std::size_t l = 0; l < linear_.size(); ++l)
-    jacobian->col(Eigen::Index(linear_[l])).head(rows_) = -linear_columns_.col(Eigen::Index(l));
+    jacobian->col(Eigen::Index(linear_[l])).head(rows_) = -whitened_linear_columns_.col(Eigen::Index(l));
+  if (frozen) jacobian->topLeftCorner(rows_, Eigen::Index(known)) = frozen->jacobian.topRows(rows_);
   return true;
 }
 
-Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
+Fit Estimation::fit(Eigen::VectorXd const& start, int iterations, Fit const* frozen) const {
   LeastSquares problem;
-  problem.evaluate = [this](Eigen::VectorXd const& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    return evaluate(x, r, J);
+  problem.evaluate = [&](Eigen::VectorXd const& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+    return evaluate(x, r, J, frozen);
   };
   auto const count = Eigen::Index(unknowns_.size());
   problem.residuals = rows_ + count;
@@ -347,7 +353,7 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   Fit fit;
   fit.x = solved.x;
   fit.converged = solved.converged;
-  if (!evaluate(fit.x, fit.residual, &fit.jacobian))
+  if (!evaluate(fit.x, fit.residual, &fit.jacobian, frozen))
     throw thermal::InputError("the machine cannot be run with its nominal values on these data");
   fit.cost = fit.residual.squaredNorm();
   Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());

@@ -232,15 +232,26 @@ Eigen::MatrixXd LinearisedRun::weights() const {
 
 Eigen::MatrixXd LinearisedRun::response(thermal::ParameterColumns const& parameters, Eigen::MatrixXd const& initial,
                                         int forced_nodes) const {
+  Eigen::Index const nodes = machine_->network().nodes();
+  Eigen::MatrixXd const start = initial.size() ? initial : Eigen::MatrixXd::Zero(nodes, parameters.count());
+  return response(
+      [&](thermal::Evaluation& evaluation, double, auto const& state, auto const& input, Eigen::MatrixXd& forcing) {
+        parameters.evaluate(evaluation, state.data(), input.data(), forcing);
+        if (forced_nodes >= 0) forcing.bottomRows(nodes - forced_nodes).setZero();
+      },
+      start);
+}
+
+Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd const& initial) const {
   auto const& network = machine_->network();
   auto const n = Eigen::Index(network.nodes());
-  auto const m = Eigen::Index(parameters.count());
+  auto const m = initial.cols();
   auto const& steps = data_->steps;
   auto const rows = data_->time.size();
   auto const views = View::of(*machine_, *data_->run);
   Eigen::MatrixXd const H = weights();
   thermal::Evaluation evaluation(network);
-  Eigen::MatrixXd S = initial.size() ? initial : Eigen::MatrixXd::Zero(n, m);
+  Eigen::MatrixXd S = initial;
   Eigen::MatrixXd from_forcing(n, m), to_forcing(n, m), first(n, m), second(n, m);
   Eigen::MatrixXd from = H * S, to(H.rows(), m), shown = from;
   Eigen::MatrixXd const at_start = from;
@@ -255,12 +266,8 @@ Eigen::MatrixXd LinearisedRun::response(thermal::ParameterColumns const& paramet
     for (std::size_t i = 0; i < input.size(); ++i) input[i] = 0.5 * (input[i] + ends_[s].input[i]);
     Eigen::MatrixXd const A = evaluation.jacobian(middle.data(), input.data());
     Eigen::MatrixXd const M = (identity - gamma * h * A).partialPivLu().inverse();
-    parameters.evaluate(evaluation, begins_[s].state.data(), begins_[s].input.data(), from_forcing);
-    parameters.evaluate(evaluation, ends_[s].state.data(), ends_[s].input.data(), to_forcing);
-    if (forced_nodes >= 0) {
-      from_forcing.bottomRows(n - forced_nodes).setZero();
-      to_forcing.bottomRows(n - forced_nodes).setZero();
-    }
+    forcing(evaluation, begins_[s].time, begins_[s].state, begins_[s].input, from_forcing);
+    forcing(evaluation, ends_[s].time, ends_[s].state, ends_[s].input, to_forcing);
     from_forcing = (1.0 - gamma) * from_forcing + gamma * to_forcing;
     first.noalias() = A * S + from_forcing;
     first = M * first;

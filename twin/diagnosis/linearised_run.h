@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "thermal/parameter_columns.h"
@@ -26,8 +27,14 @@ class LinearisedRun {
   /// The same temperatures seen by a machine whose sensors and displacements differ.
   [[nodiscard]] Eigen::MatrixXd prediction_of(Machine const& other) const;
 
-  /// ∂z/∂θ, (channel · rows + row) × parameter. `initial`: node × parameter, dy(0)/dθ; empty: the start does not
-  /// depend.
+  /// ∂f/∂θ at one end of a step, node × parameter [K/s per unit of θ].
+  using Forcing = std::function<void(thermal::Evaluation&, double time, std::vector<double> const& state,
+                                     std::vector<double> const& input, Eigen::MatrixXd& forcing)>;
+
+  /// ∂z/∂θ, (channel · rows + row) × parameter. `initial`: node × parameter, dy(0)/dθ.
+  [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial) const;
+  /// The same for numbers of the machine. `forced_nodes`: nodes from there on have no forcing, −1: all have. A mass
+  /// that a hypothesis brings along does not depend on its amplitude, as that goes to nothing.
   [[nodiscard]] Eigen::MatrixXd response(thermal::ParameterColumns const& parameters,
                                          Eigen::MatrixXd const& initial = {}, int forced_nodes = -1) const;
   /// Σ wᵢ (Tᵢ(t) − Tᵢ(0)) with other weights for the machine's displacements, row × channel: ∂z/∂θ of what moves the

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "twin/diagnosis/estimation.h"
+#include "twin/diagnosis/free_heat.h"
+#include "twin/diagnosis/score.h"
+
+namespace thermotwin::twin {
+
+/// An effect at a site as fitted.
+struct Finding {
+  Hypothesis hypothesis;
+  double amplitude = 0.0;       ///< [SI]
+  double standard_error = 0.0;  ///< [SI]
+  double strength = 0.0;        ///< 2 ln of the evidence against a machine without it
+  double weight = 0.0;          ///< among its alternatives
+  double held_out_gain = 0.0;   ///< 2 ln of the likelihood of unseen runs against a machine without it
+};
+
+/// One thing that is missing: one effect, or several that the data cannot tell apart, best first.
+struct Explanation {
+  std::vector<Finding> alternatives;
+};
+
+struct DiagnosisOptions {
+  std::vector<std::string> without;  ///< effects that are not tried
+  int most_effects = 4;
+  /// 2 ln of the evidence that an effect must have; see docs/diagnosis.md for how often chance alone reaches it.
+  double threshold = 20.0;
+  double indistinct = 9.0;  ///< alternatives within this of the best are told as well
+  std::function<void(std::string const&)> progress;
+};
+
+/// What measured runs say about a machine file (physics.md 8).
+struct Diagnosis {
+  enum class Verdict {
+    nothing,     ///< the machine explains the data
+    effect,      ///< each missing thing has one name
+    either,      ///< at least one has two or three
+    sensor,      ///< an instrument is at fault, not the machine
+    none_known,  ///< heat that no effect of the catalogue explains
+  };
+  Verdict verdict = Verdict::nothing;
+  std::vector<Explanation> explanations;
+  std::optional<FreeHeat> unknown_heat;  ///< of `none_known`
+  std::vector<FreeHeat> scan;            ///< before any effect was added, best first
+  std::vector<Score> scores;
+  std::vector<Hypothesis> hypotheses;  ///< those that were tried, as scored
+  Fit calibrated;                      ///< without any effect
+  Fit amended;                         ///< with those found, the best alternative of each
+  std::vector<Hypothesis> effects;     ///< of `amended`
+};
+
+[[nodiscard]] std::string name_of(Diagnosis::Verdict verdict);
+
+/// Calibrates, scans, names. `machine`: its document; runs to fit and runs that vote only.
+[[nodiscard]] Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs,
+                                 std::vector<BinnedRun> const& held_out, DiagnosisOptions const& options);
+
+/// The noise that is expected of a channel before the data have spoken: its instrument's, a model error of 0.1 K over
+/// ten minutes and of 2 % of what the channel goes through over hours (physics.md 8.6).
+[[nodiscard]] ChannelNoise expected_noise(Machine const& machine, std::string const& channel,
+                                          std::vector<BinnedRun> const& runs);
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,145 @@
+#include "twin/diagnosis/free_heat.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double first_deviation = 100.0;  // σ_0 [W]
+constexpr double intensities[] = {0.01, 0.1, 0.5, 2.0};
+
+Eigen::VectorXd knots_of(BinnedRun const& run) {
+  double const from = run.steps.front().begin, to = run.steps.back().end;
+  double const spacing = std::max(1800.0, (to - from) / 24.0);
+  auto const count = Eigen::Index(std::ceil((to - from) / spacing)) + 1;
+  return Eigen::VectorXd::LinSpaced(count, from, to);
+}
+
+double hat(Eigen::VectorXd const& knots, Eigen::Index k, double t) {
+  double const spacing = knots[1] - knots[0];
+  return std::max(0.0, 1.0 - std::abs(t - knots[k]) / spacing);
+}
+
+/// Whitened response to the heat at every knot of every site: sites one after another.
+Eigen::MatrixXd columns_of(Estimation const& estimation, std::size_t r, LinearisedRun const& twin,
+                           std::vector<HeatSite> const& sites, Eigen::VectorXd const& knots) {
+  auto const& capacity = twin.machine().network().capacity();
+  auto const count = knots.size();
+  Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(Eigen::Index(capacity.size()), Eigen::Index(sites.size()));
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    double whole = 0.0;
+    for (int i = 0; i < sites[s].nodes; ++i) whole += capacity[std::size_t(sites[s].first_node + i)];
+    for (int i = 0; i < sites[s].nodes; ++i) shape(sites[s].first_node + i, Eigen::Index(s)) = 1.0 / whole;
+  }
+  auto const forcing = [&](thermal::Evaluation&, double t, auto const&, auto const&, Eigen::MatrixXd& into) {
+    into.setZero(shape.rows(), shape.cols() * count);
+    for (Eigen::Index k = 0; k < count; ++k)
+      if (double const share = hat(knots, k, t); share > 0.0)
+        for (Eigen::Index s = 0; s < shape.cols(); ++s) into.col(s * count + k) = share * shape.col(s);
+  };
+  Eigen::MatrixXd const none = Eigen::MatrixXd::Zero(shape.rows(), shape.cols() * count);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(estimation.rows(), none.cols());
+  Eigen::MatrixXd const response = twin.response(forcing, none);
+  all.middleRows(estimation.first_row(r), response.rows()) = response;
+  estimation.whiten(all);
+  return all;
+}
+
+/// Precision of the random walk through all runs, each with its own start.
+Eigen::MatrixXd walk_precision(std::vector<Eigen::VectorXd> const& knots, double intensity) {
+  Eigen::Index size = 0;
+  for (auto const& k : knots) size += k.size();
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(size, size);
+  Eigen::Index at = 0;
+  for (auto const& k : knots) {
+    precision(at, at) += 1.0 / (first_deviation * first_deviation);
+    for (Eigen::Index i = 0; i + 1 < k.size(); ++i) {
+      double const p = 1.0 / (intensity * intensity * (k[i + 1] - k[i]));
+      precision(at + i, at + i) += p;
+      precision(at + i + 1, at + i + 1) += p;
+      precision(at + i, at + i + 1) -= p;
+      precision(at + i + 1, at + i) -= p;
+    }
+    at += k.size();
+  }
+  return precision;
+}
+
+double log_determinant(Eigen::LLT<Eigen::MatrixXd> const& factor) {
+  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+}
+
+FreeHeat estimate(HeatSite const& site, std::vector<Eigen::VectorXd> const& knots, Eigen::MatrixXd const& information,
+                  Eigen::VectorXd const& towards) {
+  FreeHeat best{site, 0.0, -INFINITY, knots, {}, {}, {}};
+  Eigen::VectorXd heat;
+  Eigen::VectorXd variance;
+  for (double const intensity : intensities) {
+    Eigen::MatrixXd const prior = walk_precision(knots, intensity);
+    Eigen::LLT<Eigen::MatrixXd> const posterior(information + prior), before(prior);
+    Eigen::VectorXd const q = posterior.solve(towards);
+    double const gain = q.dot(towards) - log_determinant(posterior) + log_determinant(before);
+    if (gain <= best.gain) continue;
+    best.gain = gain;
+    best.intensity = intensity;
+    heat = q;
+    variance = posterior.solve(Eigen::MatrixXd::Identity(prior.rows(), prior.rows())).diagonal();
+  }
+  Eigen::Index at = 0;
+  for (auto const& k : knots) {
+    best.heat.emplace_back(heat.segment(at, k.size()));
+    best.standard_error.emplace_back(variance.segment(at, k.size()).cwiseSqrt());
+    best.mean.push_back(heat.segment(at, k.size()).mean());
+    at += k.size();
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<HeatSite> heat_sites(Machine const& machine) {
+  std::vector<HeatSite> sites;
+  for (auto const& body : machine.geometry) {
+    int const count = int(body.cells.size());
+    int const parts = count >= 9 && count <= 60 ? 3 : 1;
+    for (int p = 0; p < parts; ++p) {
+      int const from = count * p / parts, to = count * (p + 1) / parts;
+      sites.push_back({body.name, body.first_node + from, to - from});
+    }
+  }
+  return sites;
+}
+
+std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const& fit) {
+  Machine const machine = Machine::build(estimation.document_at(fit.x));
+  auto const sites = heat_sites(machine);
+  std::vector<Eigen::VectorXd> knots;
+  for (auto const& run : estimation.data()) knots.push_back(knots_of(run));
+  std::vector<Eigen::MatrixXd> columns(knots.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t r = 0; r < knots.size(); ++r)
+    columns[r] = columns_of(estimation, r, LinearisedRun(machine, estimation.data()[r]), sites, knots[r]);
+  Eigen::MatrixXd const J = fit.jacobian.topRows(estimation.rows());
+  Eigen::LLT<Eigen::MatrixXd> const nuisance((fit.jacobian.transpose() * fit.jacobian).eval());
+  std::vector<FreeHeat> scan(sites.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    Eigen::Index width = 0;
+    for (auto const& k : knots) width += k.size();
+    Eigen::MatrixXd own(estimation.rows(), width);
+    Eigen::Index at = 0;
+    for (std::size_t r = 0; r < knots.size(); ++r) {
+      own.middleCols(at, knots[r].size()) = columns[r].middleCols(Eigen::Index(s) * knots[r].size(), knots[r].size());
+      at += knots[r].size();
+    }
+    Eigen::MatrixXd const shared = J.transpose() * own;
+    Eigen::MatrixXd const information = own.transpose() * own - shared.transpose() * nuisance.solve(shared);
+    scan[s] = estimate(sites[s], knots, information, own.transpose() * fit.residual.head(estimation.rows()));
+  }
+  std::stable_sort(scan.begin(), scan.end(), [](auto const& a, auto const& b) { return a.gain > b.gain; });
+  return scan;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "twin/diagnosis/estimation.h"
+
+namespace thermotwin::twin {
+
+/// Where heat that nobody knows may enter: a body, or a third of a bar, evenly over its capacity.
+struct HeatSite {
+  std::string body;
+  int first_node = 0, nodes = 1;
+};
+
+[[nodiscard]] std::vector<HeatSite> heat_sites(Machine const& machine);
+
+/// Heat of unknown course into one site (physics.md 8.3): straight lines between knots, a random walk from knot to
+/// knot,
+///
+///   q_0 ~ N(0, σ_0²),  q_{k+1} − q_k ~ N(0, S² Δt),
+///
+/// on top of everything that the fit could still change by its own unknowns.
+struct FreeHeat {
+  HeatSite site;
+  double intensity = 0.0;              ///< S [W/√s] that fits best
+  double gain = 0.0;                   ///< 2 ln of the evidence against no such heat
+  std::vector<Eigen::VectorXd> knots;  ///< per run [s]
+  std::vector<Eigen::VectorXd> heat;   ///< per run, at the knots [W]
+  std::vector<Eigen::VectorXd> standard_error;
+  std::vector<double> mean;  ///< per run [W]
+};
+
+/// Every site as the place of such heat, best first, from one linearisation about a fit.
+[[nodiscard]] std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const& fit);
+
+}  // namespace thermotwin::twin
