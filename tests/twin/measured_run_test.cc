@@ -1,0 +1,316 @@
+#include "twin/diagnosis/measured_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <random>
+
+#include "output/csv.h"
+#include "output/dataset_file.h"
+#include "tests/output/temporary_directory.h"
+#include "tests/scenarios/refusal.h"
+#include "twin/diagnosis/prediction.h"
+#include "twin/experiment_file.h"
+#include "twin/run.h"
+
+/// What was measured, laid over a machine: a simulated run read back is the run, and whatever is wrong with a record is
+/// told.
+namespace thermotwin::twin {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using tests::contents;
+using tests::put;
+using tests::refusal;
+using tests::TemporaryDirectory;
+
+Machine const& machine() {
+  static Machine const v450 = Machine::read(machine_file("v450"));
+  return v450;
+}
+
+output::Dataset const& simulated() {
+  static output::Dataset const dataset = [] {
+    auto const document = parse_toml(R"(
+      title = "speeds, feeds and a warming room"
+      machine = "v450"
+      duration = "3 h"
+      ambient.mean = "22 degC"
+      ambient.drift = "1.2 K/h"
+      ambient.stratification = "0.5 K/m"
+      ambient.daily_cycle.amplitude = "2 K"
+      [spindle]
+      blocks = [{duration = "50 min", speed = "4000 rpm"}, {duration = "40 min", speed = "0 rpm"},
+                {duration = "30 min", speed = "6000 rpm"}]
+      [[axes]]
+      axis = "z"
+      blocks = [{duration = "1 h", feed = "6000 mm/min"}])",
+                                     "experiment.toml");
+    return run(machine(), read_experiment(document, "experiment.toml"), {}).dataset;
+  }();
+  return dataset;
+}
+
+output::Channel& channel(std::vector<output::Channel>& channels, std::string const& name) {
+  return *std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
+}
+
+void keep_inputs(output::Dataset& dataset, std::vector<std::string> const& names) {
+  std::erase_if(dataset.inputs,
+                [&](auto const& c) { return std::find(names.begin(), names.end(), c.name) == names.end(); });
+}
+
+/// What the machine itself does along the run, against what it did [K], sensors' own errors left out.
+double worst_temperature(MeasuredRun const& run, output::Dataset const& dataset) {
+  auto sensors = machine();
+  for (auto& sensor : sensors.sensors) sensor.description.lag = sensor.description.stem_loss = 0.0;
+  auto const predicted = predict(sensors, run);
+  double worst = 0.0;
+  for (std::size_t c = 0; c < run.channels.size(); ++c) {
+    if (run.channels[c].displacement) continue;
+    auto truth = dataset.truth_readings;
+    Eigen::VectorXd const true_course = channel(truth, run.channels[c].name).values.array() + 273.15;
+    worst = std::max(worst, (predicted.col(Eigen::Index(c)) - true_course).cwiseAbs().maxCoeff());
+  }
+  return worst;
+}
+
+TEST(MeasuredRun, SimulatedDataLeadTheMachineThroughTheSameTemperatures) {
+  auto const run = measured_run(simulated(), machine(), "simulated");
+  EXPECT_EQ(run.time.size(), 181);
+  EXPECT_LT(worst_temperature(run, simulated()), 1e-3);
+}
+
+TEST(MeasuredRun, DisplacementsAreThoseOfTheRunAndInMetres) {
+  auto const run = measured_run(simulated(), machine(), "simulated");
+  auto const predicted = predict(machine(), run);
+  int displacements = 0;
+  for (std::size_t c = 0; c < run.channels.size(); ++c) {
+    if (!run.channels[c].displacement) continue;
+    auto truth = simulated().truth_displacements;
+    Eigen::VectorXd const course = channel(truth, run.channels[c].name).values * 1e-6;
+    EXPECT_LT((predicted.col(Eigen::Index(c)) - course).cwiseAbs().maxCoeff(), 2e-8) << run.channels[c].name;
+    ++displacements;
+  }
+  EXPECT_EQ(displacements, int(machine().displacements.size()));
+}
+
+TEST(MeasuredRun, WhatFollowsFromSpeedAndAirNeedNotBeRecorded) {
+  auto dataset = simulated();
+  keep_inputs(dataset, {"spindle.speed", "ambient.temperature", "ambient.gradient", "z.feed"});
+  auto const run = measured_run(dataset, machine(), "bare");
+  EXPECT_LT(worst_temperature(run, dataset), 1e-3);
+}
+
+TEST(MeasuredRun, SuppositionsAreTold) {
+  auto dataset = simulated();
+  keep_inputs(dataset, {"spindle.speed", "ambient.temperature"});
+  auto const run = measured_run(dataset, machine(), "bare");
+  EXPECT_THAT(run.remarks, Contains(HasSubstr("as warm above as below")));
+}
+
+TEST(MeasuredRun, NoisySpeedJumpsWhereTheProgrammeDoesOnly) {
+  auto dataset = simulated();
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0.0, 15.0);
+  for (double& rpm : channel(dataset.inputs, "spindle.speed").values) rpm += noise(random);
+  auto const run = measured_run(dataset, machine(), "noisy");
+  std::vector<double> jumps;
+  for (double t = run.course->next_jump(0.0); t < 3 * 3600.0; t = run.course->next_jump(t)) jumps.push_back(t / 60.0);
+  EXPECT_THAT(jumps, testing::IsSupersetOf({50.0, 90.0, 120.0}));
+  EXPECT_LE(jumps.size(), 4u);  // and the end of the feed programme
+  EXPECT_LT(worst_temperature(run, dataset), 0.05);
+}
+
+TEST(MeasuredRun, TableOfAnyoneGivesTheSameRunAsTheDataSet) {
+  TemporaryDirectory const folder;
+  output::write(simulated(), folder / "run.h5");
+  output::export_csv(simulated(), folder / "run.csv");
+  auto const from_h5 = read_measured_run(folder / "run.h5", machine());
+  auto const from_csv = read_measured_run(folder / "run.csv", machine());
+  ASSERT_EQ(from_h5.channels.size(), from_csv.channels.size());
+  EXPECT_TRUE(predict(machine(), from_h5).isApprox(predict(machine(), from_csv), 1e-9));
+}
+
+TEST(MeasuredRun, DeadSensorsAndGapsBecomeRemarks) {
+  auto dataset = simulated();
+  dataset.readings[0].values.setConstant(21.0);
+  dataset.readings[1].values.setConstant(std::nan(""));
+  dataset.readings[2].values.tail(60).setConstant(dataset.readings[2].values[120]);
+  dataset.readings[3].values.segment(60, 30).setConstant(std::nan(""));
+  dataset.readings[4].values[7] = -127.0;  // what a digital sensor says when nobody answers
+  auto const run = measured_run(dataset, machine(), "poor");
+  auto const name = [&](int i) { return "'" + dataset.readings[std::size_t(i)].name + "'"; };
+  EXPECT_THAT(run.remarks, Contains(HasSubstr(name(0) + " is dead: it never moves")));
+  EXPECT_THAT(run.remarks, Contains(HasSubstr(name(1) + " is dead: no reading")));
+  EXPECT_THAT(run.remarks, Contains(HasSubstr(name(2) + " is dead from 2.0")));
+  EXPECT_THAT(run.remarks, Contains(HasSubstr(name(3) + " has no reading for 0.52 h from 0.98 h on")));
+  EXPECT_TRUE(run.channels[0].values.array().isNaN().all());
+  EXPECT_TRUE(run.channels[2].values.tail(59).array().isNaN().all());
+  EXPECT_TRUE(std::isfinite(run.channels[2].values[100]));
+  EXPECT_TRUE(std::isnan(run.channels[4].values[7]));
+}
+
+TEST(MeasuredRun, MissingInputsAreNamed) {
+  auto dataset = simulated();
+  keep_inputs(dataset, {"z.feed"});
+  EXPECT_THAT(refusal([&] { (void)measured_run(dataset, machine(), "x"); }),
+              HasSubstr("the machine 'v450' needs inputs that the data lack: ambient.temperature, spindle.speed; the "
+                        "data have z.feed"));
+}
+
+TEST(MeasuredRun, RefusesDataOfAnotherMachine) {
+  auto dataset = simulated();
+  for (auto* group : {&dataset.readings, &dataset.displacements})
+    for (auto& c : *group) c.name = "other_" + c.name;
+  EXPECT_THAT(refusal([&] { (void)measured_run(dataset, machine(), "x"); }),
+              HasSubstr("no channel of the data is one of the machine 'v450'"));
+}
+
+TEST(MeasuredRun, RefusesUnitsThatContradict) {
+  auto dataset = simulated();
+  dataset.readings[0].unit = "um";
+  EXPECT_THAT(refusal([&] { (void)measured_run(dataset, machine(), "x"); }), HasSubstr("is in um"));
+  dataset = simulated();
+  dataset.readings[0].values.array() += 273.15;
+  EXPECT_THAT(refusal([&] { (void)measured_run(dataset, machine(), "x"); }), HasSubstr("is its unit right?"));
+  dataset = simulated();
+  channel(dataset.inputs, "spindle.speed").unit = "rad/s";
+  EXPECT_THAT(refusal([&] { (void)measured_run(dataset, machine(), "x"); }),
+              HasSubstr("and the machine's maximum is 6000 rpm; is its unit right?"));
+  dataset = simulated();
+  channel(dataset.inputs, "ambient.temperature").unit = "um";
+  EXPECT_THAT(refusal([&] { (void)measured_run(dataset, machine(), "x"); }), HasSubstr("ambient.temperature"));
+}
+
+TEST(MeasuredRun, RefusesWhatIsTooShortOrDead) {
+  auto dataset = simulated();
+  output::resize_rows(dataset, 5);
+  EXPECT_THAT(refusal([&] { (void)measured_run(dataset, machine(), "x"); }), HasSubstr("5 rows, too few"));
+  dataset = simulated();
+  for (auto* group : {&dataset.readings, &dataset.displacements})
+    for (auto& c : *group) c.values.setConstant(20.0);
+  EXPECT_THAT(refusal([&] { (void)measured_run(dataset, machine(), "x"); }), HasSubstr("every sensor is dead"));
+}
+
+/// A board that is measured by a file of two tables.
+class MeasurementFileTest : public testing::Test {
+ protected:
+  void write_tables() {
+    std::string duties = "t,h1,h2\n";
+    for (int i = 0; i <= 60; ++i) duties += fmt::format("{},{},0\n", 10 * i, i < 30 ? 70 : 0);
+    put(folder / "duty.csv", duties);
+    std::string table = "minute,a,b\n";
+    for (int i = 0; i < 40; ++i)
+      table +=
+          fmt::format("{},{},{}\n", 0.1 + 0.25 * i, i == 7 ? "" : std::to_string(20.0 + 0.1 * i), -293.0 - 0.2 * i);
+    put(folder / "readings.csv", table);
+  }
+  MeasuredRun read(std::string const& text) {
+    put(folder / "run.toml", text);
+    return read_measured_run(folder / "run.toml", board);
+  }
+
+  TemporaryDirectory folder;
+  Machine board = Machine::read(machine_file("tclab"));
+  std::string const whole = R"(
+title = "two tables"
+machine = "tclab"
+from = "30 s"
+to = "9 min"
+
+[[constant]]
+channel = "ambient.temperature"
+value = "20 degC"
+
+[[table]]
+file = "duty.csv"
+time_column = "t"
+[[table.input]]
+column = "h1"
+channel = "heater1.duty"
+unit = "%"
+[[table.input]]
+column = "h2"
+channel = "heater2.duty"
+unit = "%"
+
+[[table]]
+file = "readings.csv"
+time_column = "minute"
+time_unit = "min"
+clock_offset = "6 s"
+[[table.reading]]
+column = "a"
+sensor = "T1"
+unit = "degC"
+offset = "0.5 K"
+[[table.reading]]
+column = "b"
+sensor = "T2"
+unit = "K"
+factor = -1
+)";
+};
+
+TEST_F(MeasurementFileTest, LaysTablesOverOneAnother) {
+  write_tables();
+  auto const run = read(whole);
+  EXPECT_DOUBLE_EQ(run.time[0], 0.0);
+  EXPECT_NEAR(run.time[1], 0.1 * 60 + 2 * 15 + 6 - 30, 1e-9);
+  EXPECT_TRUE(std::isnan(run.channels[0].values[0]));  // between two rows of the readings' table
+  EXPECT_NEAR(run.channels[0].values[1], 273.15 + 20.0 + 0.2 + 0.5, 1e-9);
+  EXPECT_NEAR(run.channels[1].values[1], 293.0 + 0.4, 1e-9);
+  EXPECT_TRUE(std::isnan(run.channels[0].values[6]));  // the empty cell
+  EXPECT_DOUBLE_EQ(run.course->next_jump(0.0), 300.0 - 30.0);
+}
+
+TEST_F(MeasurementFileTest, TellsWhatIsWrongAndWhere) {
+  write_tables();
+  auto const changed = [&](std::string const& from, std::string const& to) {
+    std::string text = whole;
+    text.replace(text.find(from), from.size(), to);
+    return refusal([&] { (void)read(text); });
+  };
+  EXPECT_THAT(changed("column = \"a\"", "column = \"c\""), HasSubstr("no column 'c'"));
+  EXPECT_THAT(changed("sensor = \"T1\"", "sensr = \"T1\""), HasSubstr("run.toml:30:1: unknown key 'sensr'"));
+  EXPECT_THAT(changed("unit = \"K\"", "unit = \"W\""), HasSubstr("'W' is no unit of a temperature"));
+  EXPECT_THAT(changed("time_unit = \"min\"", "time_unit = \"K\""), HasSubstr("'K' is no unit of time"));
+  EXPECT_THAT(changed("to = \"9 min\"", "to = \"20 s\""), HasSubstr("holds nothing of the tables"));
+  EXPECT_THAT(changed("channel = \"heater2.duty\"", "channel = \"heater1.duty\""),
+              HasSubstr("input 'heater1.duty' is given twice"));
+  EXPECT_THAT(changed("channel = \"heater2.duty\"", "channel = \"heater3.duty\""),
+              HasSubstr("needs inputs that the data lack: heater2.duty"));
+}
+
+TEST_F(MeasurementFileTest, TimeMayNotRunBackwards) {
+  write_tables();
+  put(folder / "duty.csv", "t,h1,h2\n0,1,1\n20,1,1\n10,1,1\n");
+  EXPECT_THAT(refusal([&] { (void)read(whole); }),
+              HasSubstr("duty.csv:4: column 't': 10 follows 20; time must increase"));
+}
+
+class ShippedMeasurement : public testing::TestWithParam<std::pair<char const*, char const*>> {};
+
+TEST_P(ShippedMeasurement, IsReadWithItsMachine) {
+  char const* given = std::getenv("THERMOTWIN_MEASURED_DATA");
+  if (!given || !std::filesystem::exists(given)) GTEST_SKIP() << "measured data are not there";
+  auto const [file, name] = GetParam();
+  auto const folder = std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "scenarios" / "measured";
+  auto const plant = Machine::read(machine_file(name));
+  auto const run = read_measured_run(folder / (std::string(file) + ".toml"), plant);
+  EXPECT_EQ(run.channels.size(), plant.sensors.size() + plant.displacements.size());
+  EXPECT_GT(run.time.size(), 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedMeasurement,
+                         testing::Values(std::pair("water_pipe_150801", "water_pipe"),
+                                         std::pair("water_pipe_151204_1", "water_pipe"),
+                                         std::pair("tclab_energy_balance", "tclab"),
+                                         std::pair("tclab_second_order", "tclab")));
+
+}  // namespace
+}  // namespace thermotwin::twin
