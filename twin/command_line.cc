@@ -165,12 +165,15 @@ void add_challenge_command(CLI::App& app) {
       app.add_subcommand("challenge", "write measurements in which an effect is hidden, and the truth in a sealed file");
   auto options = std::make_shared<ChallengeOptions>();
   auto folder = std::make_shared<std::string>(), kind = std::make_shared<std::string>();
+  auto further = std::make_shared<std::string>();
   command->add_option("--machine,-m", options->machine, "the nominal machine, file or name")->capture_default_str();
   command->add_option("--seed", options->seed, "the same seed draws the same challenge")->capture_default_str();
   command->add_option("--kind", *kind, "one, none, outside, two or sensor; default: what the seed stands for");
   command->add_option("--output,-o", *folder, "folder to write; it must be empty or absent")->required();
-  command->callback([options, folder, kind] {
+  command->add_option("--run", *further, "experiment file: one more run of the challenge that is in the folder");
+  command->callback([options, folder, kind, further] {
     options->folder = *folder;
+    if (!further->empty()) options->further_run = *further;
     if (!kind->empty()) options->kind = case_kind(*kind);
     fmt::print("{}", write_challenge(*options));
   });

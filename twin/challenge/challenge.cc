@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "output/atomic_file.h"
@@ -10,6 +11,7 @@
 #include "thermal/error.h"
 #include "twin/challenge/challenge_runs.h"
 #include "twin/challenge/hidden_heat.h"
+#include "twin/experiment_file.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -109,9 +111,25 @@ Json sealed(HiddenWorld const& world, std::string const& machine) {
   return json;
 }
 
+/// The hidden world of a challenge goes through one more experiment.
+std::string write_further_run(ChallengeOptions const& options) {
+  std::ifstream file(options.folder / "sealed.json");
+  Json const truth = Json::parse(file, nullptr, false);
+  if (truth.is_discarded()) throw thermal::InputError(fmt::format("'{}' holds no challenge", options.folder.string()));
+  auto const target = options.folder / (options.further_run->stem().string() + ".h5");
+  if (std::filesystem::exists(target))
+    throw thermal::InputError(fmt::format("'{}' is there already; a challenge does not overwrite", target.string()));
+  auto const experiment = read_experiment(read_toml(*options.further_run), *options.further_run);
+  auto const world = draw_hidden_world(read_toml(machine_file(options.machine)), truth.at("seed").get<std::uint64_t>(),
+                                       case_kind(truth.at("kind").get<std::string>()));
+  output::write(measured(simulate(Machine::build(world.hidden), experiment), world, int(run_names.size())), target);
+  return fmt::format("{}: one more run, {:.0f} h\n", target.string(), experiment.duration / 3600.0);
+}
+
 }  // namespace
 
 std::string write_challenge(ChallengeOptions const& options) {
+  if (options.further_run) return write_further_run(options);
   require_empty(options.folder);
   auto const file = machine_file(options.machine);
   Value const nominal = read_toml(file);

@@ -15,6 +15,8 @@ struct ChallengeOptions {
   std::uint64_t seed = 1;
   std::optional<CaseKind> kind;  ///< default: what the seed stands for
   std::filesystem::path folder;
+  /// Instead of a new challenge: one more run of the one in the folder, through this experiment.
+  std::optional<std::filesystem::path> further_run;
 };
 
 /// Writes into the folder:
@@ -26,7 +28,8 @@ struct ChallengeOptions {
 /// | unseen.h5 | those of the run that is held out |
 /// | sealed.json | kind, effects, sites, amplitudes, heat per body and run, displacement moved, parameters drawn |
 ///
-/// The same options write the same bytes. InputError if the folder is there and not empty. Returns one line for people,
+/// The same options write the same bytes. InputError if the folder is there and not empty. A further run is written
+/// beside the others as <name of the experiment's file>.h5; InputError if that is there. Returns one line for people,
 /// which does not tell what is hidden.
 std::string write_challenge(ChallengeOptions const& options);
 

@@ -1,0 +1,240 @@
+#include "twin/challenge/challenge.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <sstream>
+
+#include "output/dataset_file.h"
+#include "scenarios/course.h"
+#include "thermal/block.h"
+#include "thermal/error.h"
+#include "twin/assembly.h"
+#include "twin/challenge/challenge_runs.h"
+#include "twin/challenge/document.h"
+#include "twin/challenge/hidden_heat.h"
+#include "twin/challenge/refined_form.h"
+#include "twin/run.h"
+
+namespace thermotwin::twin {
+namespace {
+
+Value nominal(std::string const& name) { return read_toml(machine_file(name)); }
+
+double total_capacity(Machine const& machine) {
+  auto const& capacity = machine.network().capacity();
+  return std::accumulate(capacity.begin(), capacity.end(), 0.0);
+}
+
+double capacity_of(Machine const& machine, std::string const& body) {
+  auto const& range = machine.network().range(body);
+  auto const first = machine.network().capacity().begin() + range.first;
+  return std::accumulate(first, first + range.count, 0.0);
+}
+
+std::string text_of(std::filesystem::path const& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class RefinedFormOf : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Machines, RefinedFormOf, testing::Values("v450", "vmc850", "g200"));
+
+TEST_P(RefinedFormOf, HasTenTimesTheNodesAndTheSameHeatCapacities) {
+  auto const document = nominal(GetParam());
+  Machine const lumped = Machine::build(document), refined = Machine::build(refined_form(document));
+  EXPECT_GE(refined.network().nodes(), 10 * lumped.network().nodes());
+  for (auto const& range : lumped.network().ranges())
+    EXPECT_NEAR(capacity_of(refined, range.name) / capacity_of(lumped, range.name), 1.0, 1e-9) << range.name;
+  EXPECT_NEAR(total_capacity(refined), total_capacity(lumped), 10.0);  // plates: 1 J/K each
+}
+
+TEST_P(RefinedFormOf, KeepsAreasOfFilmsAndLengthsOfTheLoop) {
+  auto const document = nominal(GetParam());
+  Value before = document, after = refined_form(document);
+  auto const films = tables_of(before, "film"), refined = tables_of(after, "film");
+  ASSERT_EQ(films.size(), refined.size());
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    EXPECT_EQ(name_in(*films[i]), name_in(*refined[i]));
+    EXPECT_EQ(number_in(*films[i], "area", dimension::area), number_in(*refined[i], "area", dimension::area));
+  }
+  Machine const lumped = Machine::build(document), fine = Machine::build(after);
+  ASSERT_EQ(lumped.displacements.size(), fine.displacements.size());
+  for (std::size_t c = 0; c < lumped.displacements.size(); ++c) {
+    auto const growth_of_uniform_warming = [](Displacement const& d) {
+      return std::accumulate(d.weights.begin(), d.weights.end(), 0.0,
+                             [](double s, auto const& w) { return s + w.second; });
+    };
+    EXPECT_NEAR(growth_of_uniform_warming(lumped.displacements[c]), growth_of_uniform_warming(fine.displacements[c]),
+                1e-12);
+  }
+}
+
+/// Same room, same heat: the refined machine rises like the lumped one, but not exactly so.
+TEST_P(RefinedFormOf, IsTheSameMachineWithAnotherForm) {
+  auto const document = nominal(GetParam());
+  Machine const lumped = Machine::build(document), refined = Machine::build(refined_form(document));
+  auto experiment = challenge_runs(lumped.limits, 3)[0];
+  RunOptions const options;
+  auto const a = run(lumped, experiment, options), b = run(refined, experiment, options);
+  double difference = 0.0, range = 0.0;
+  for (std::size_t s = 0; s < a.dataset.truth_readings.size(); ++s) {
+    auto const& values = a.dataset.truth_readings[s].values;
+    difference += (b.dataset.truth_readings[s].values - values).squaredNorm() / double(values.size());
+    range += std::pow(values.maxCoeff() - values.minCoeff(), 2);
+  }
+  EXPECT_GT(std::sqrt(difference / range), 0.01);
+  EXPECT_LT(std::sqrt(difference / range), 0.10);
+}
+
+TEST_P(RefinedFormOf, GivesToTheRoomWhatItsSourcesMake) {
+  Machine const machine = Machine::build(refined_form(nominal(GetParam())));
+  auto const experiment = challenge_runs(machine.limits, 3)[0];
+  RunOptions options;
+  auto const result = run(machine, experiment, options);
+  EXPECT_GT(result.summary.energy.supplied, 1e5);
+  EXPECT_LT(result.summary.energy_imbalance(), 1e-9);
+}
+
+/// A slab with one watt through one face: the face is L/(3 k A) warmer than the mean, the half cell included.
+TEST(RefinedForm, KnowsWhatASlabResists) {
+  thermal::Material metal;
+  metal.conductivity = 50.0, metal.density = 7000.0, metal.specific_heat = 500.0;
+  auto const body = thermal::make_body("slab", thermal::Block{metal, {0, 0, 0}, {0.2, 0.3, 0.4}, {40, 3, 3}, 1.0});
+  double const exact = 0.2 / (3.0 * 50.0 * 0.3 * 0.4);
+  EXPECT_NEAR(resistance_to_mean(body, site_of(body, "slab.x_max")) / exact, 1.0, 0.02);
+}
+
+TEST(RefinedForm, JoinsTwoBlocksWithTheStatedConductanceOrNearlyIt) {
+  auto const document = nominal("v450");
+  RefinedForm const form(document);
+  Value refined = form.document(), before = document;
+  for (auto const* joint : tables_of(before, "joint")) {
+    auto const stated = number_in(*joint, "conductance", dimension::conductance);
+    auto const from = texts_of(*joint, "from").at(0), to = texts_of(*joint, "to").at(0);
+    if (!stated || !form.is_block(from) || !form.is_block(to)) continue;
+    double resistance = 0.0;
+    for (auto const* part : tables_of(refined, "joint"))
+      if (auto const name = name_in(*part), whole = name_in(*joint);
+          name == whole || name == whole + "_from" || name == whole + "_to")
+        resistance += 1.0 / *number_in(*part, "conductance", dimension::conductance);
+    EXPECT_LE(resistance * *stated, 1.0 + 1e-9) << name_in(*joint);
+    EXPECT_GE(resistance * *stated, 0.05) << name_in(*joint);
+  }
+}
+
+TEST(HiddenHeat, IsTheHeatOfTheTableThatIsAdded) {
+  auto document = nominal("v450");
+  RefinedForm const form(document);
+  Value with = form.document();
+  form.append(
+      with, "heat",
+      make_table({"", 1'000'000, 1},
+                 {{"name", "hidden"}, {"at", "column_rear"}, {"power", "40 W"}, {"while_on", "spindle.running"}}));
+  Machine const hidden = Machine::build(with), healthy = Machine::build(form.document());
+  auto const experiment = challenge_runs(hidden.limits, 5)[2];
+  RunOptions options;
+  options.node_temperatures = true;
+  auto const heat = hidden_heat(hidden, healthy, experiment, run(hidden, experiment, options).dataset);
+  ASSERT_EQ(heat.size(), 1U);
+  EXPECT_NEAR(heat.at("column_rear").moving, 40.0, 1e-2);
+  EXPECT_NEAR(heat.at("column_rear").standing, 0.0, 1e-2);
+}
+
+TEST(HiddenWorld, DrawsParametersAroundTheNominalOnes) {
+  std::map<std::string, double> drawn;
+  auto const document = refined_form(nominal("v450"));
+  Value const varied = vary_parameters(document, 11, 1.0, drawn);
+  double coefficients = 0.0, capacities = 0.0;
+  int count = 0, heavy = 0;
+  for (auto const& [path, factor] : drawn) {
+    EXPECT_GT(factor, 0.4) << path;
+    EXPECT_LT(factor, 2.5) << path;
+    bool const capacity = path.ends_with("solidity") || path.ends_with("mass") || path.ends_with("weight");
+    (capacity ? capacities : coefficients) += std::pow(std::log(factor), 2);
+    ++(capacity ? heavy : count);
+  }
+  EXPECT_GT(count, 25);
+  EXPECT_NEAR(std::sqrt(coefficients / count), 0.2, 0.06);
+  EXPECT_NEAR(std::sqrt(capacities / heavy), 0.1, 0.04);
+  std::map<std::string, double> same, none;
+  EXPECT_EQ(vary_parameters(document, 11, 1.0, same).text(), varied.text());
+  EXPECT_EQ(same, drawn);
+  EXPECT_TRUE(vary_parameters(document, 11, 0.0, none).is_table());
+  for (auto const& [path, factor] : none) EXPECT_DOUBLE_EQ(factor, 1.0) << path;
+}
+
+TEST(HiddenWorld, KindsComeInTheSharesOfTheBenchmark) {
+  std::map<CaseKind, int> kinds;
+  for (std::uint64_t seed = 1; seed <= 1000; ++seed) ++kinds[case_kind(seed)];
+  EXPECT_EQ(kinds[CaseKind::one], 500);
+  EXPECT_EQ(kinds[CaseKind::none], 200);
+  EXPECT_EQ(kinds[CaseKind::outside], 100);
+  EXPECT_EQ(kinds[CaseKind::two], 100);
+  EXPECT_EQ(kinds[CaseKind::sensor], 100);
+}
+
+class ChallengeFolder : public testing::Test {
+ protected:
+  ChallengeFolder() { std::filesystem::remove_all(root_); }
+  ~ChallengeFolder() override { std::filesystem::remove_all(root_); }
+
+  [[nodiscard]] std::filesystem::path write(std::string const& name, std::uint64_t seed, CaseKind kind) const {
+    write_challenge({"v450", seed, kind, root_ / name, {}});
+    return root_ / name;
+  }
+  std::filesystem::path root_ =
+      std::filesystem::path(testing::TempDir()) /
+      ("thermotwin_challenge_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+};
+
+TEST_F(ChallengeFolder, HasTheSameBytesFromTheSameSeed) {
+  auto const a = write("a", 17, CaseKind::one), b = write("b", 17, CaseKind::one), c = write("c", 18, CaseKind::one);
+  for (std::string const file : {"machine.toml", "run1.h5", "run2.h5", "unseen.h5", "sealed.json"})
+    EXPECT_EQ(text_of(a / file), text_of(b / file)) << file;
+  EXPECT_NE(text_of(a / "run1.h5"), text_of(c / "run1.h5"));
+}
+
+TEST_F(ChallengeFolder, GivesAwayNothingButWhatWasMeasured) {
+  auto const folder = write("leak", 23, CaseKind::one);
+  EXPECT_EQ(text_of(folder / "machine.toml"), text_of(machine_file("v450")));
+  for (std::string const file : {"run1.h5", "run2.h5", "unseen.h5"}) {
+    auto const data = output::read(folder / file);
+    EXPECT_TRUE(data.truth_readings.empty() && data.truth_displacements.empty() && data.heat.empty()) << file;
+    EXPECT_TRUE(data.provenance.empty()) << file;
+    EXPECT_FALSE(data.node_temperatures) << file;
+    EXPECT_EQ(text_of(folder / file).find("hidden"), std::string::npos) << file;
+    EXPECT_EQ(text_of(folder / file).find("plate"), std::string::npos) << file;
+    EXPECT_GE(data.time_s[data.time_s.size() - 1], 12.0 * 3600.0);
+  }
+}
+
+TEST_F(ChallengeFolder, TakesOneMoreRunOfTheSameWorld) {
+  auto const folder = write("more", 29, CaseKind::none);
+  std::ofstream(root_ / "idle.toml") << "machine = \"v450\"\nduration = \"2 h\"\nsampling = \"60 s\"\n";
+  write_challenge({"v450", 1, {}, folder, root_ / "idle.toml"});
+  auto const idle = output::read(folder / "idle.h5");
+  EXPECT_TRUE(idle.provenance.empty() && idle.truth_readings.empty());
+  EXPECT_EQ(idle.time_s[idle.time_s.size() - 1], 7200.0);
+  auto const truth = nlohmann::json::parse(text_of(folder / "sealed.json"));
+  for (auto const& reading : idle.readings) {  // the same specimens, by their offsets, and a machine at rest at 20 °C
+    double const offset = truth.at("drawn").at("temperature_sensor." + reading.name + ".offset");
+    EXPECT_NEAR(reading.values.mean(), 20.0 + offset, 0.12) << reading.name;
+  }
+  EXPECT_THROW(write_challenge({"v450", 1, {}, folder, root_ / "idle.toml"}), thermal::InputError);
+}
+
+TEST_F(ChallengeFolder, RefusesToOverwrite) {
+  std::filesystem::create_directories(root_ / "full");
+  std::ofstream(root_ / "full" / "mine.txt") << "mine";
+  EXPECT_THROW(write("full", 1, CaseKind::none), thermal::InputError);
+  EXPECT_EQ(text_of(root_ / "full" / "mine.txt"), "mine");
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
