@@ -15,6 +15,7 @@
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "twin/challenge/challenge.h"
+#include "twin/diagnosis/diagnose_files.h"
 #include "twin/effect_page.h"
 #include "twin/experiment_file.h"
 #include "twin/needed_solution.h"
@@ -231,6 +232,25 @@ void add_other_commands(CLI::App& app) {
   });
 }
 
+void add_diagnose_command(CLI::App& app) {
+  auto* command = app.add_subcommand("diagnose", "find where machine and measurement disagree, and name what is missing");
+  auto files = std::make_shared<DiagnoseFiles>();
+  auto json = std::make_shared<bool>(false);
+  auto machine = std::make_shared<std::string>();
+  command->add_option("machine", *machine, "machine file or name")->required();
+  command->add_option("data", files->data, "measured runs: .h5, .csv, or a measurement file .toml")->required();
+  command->add_option("--hold-out", files->held_out, "runs that take no part in the fit");
+  command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
+  command->add_option("--without", files->without, "effects that are not to be tried");
+  command->add_flag("--json", *json, "print everything as JSON");
+  command->callback([files, json, machine] {
+    files->machine = machine_file(*machine);
+    if (!*json) files->progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
+    auto const report = diagnose_files(*files);
+    fmt::print("{}", *json ? report_json(report) : report_text(report));
+  });
+}
+
 int fail(int code, std::string_view message) {
   fmt::print(stderr, "thermotwin: {}\n", message);
   return code;
@@ -246,6 +266,7 @@ int command_line(int argc, char** argv) {
   RunCommand run_command;
   run_command.add_to(app);
   add_other_commands(app);
+  add_diagnose_command(app);
   add_challenge_command(app);
   std::signal(SIGINT, [](int) { stop_requested = true; });
   std::signal(SIGTERM, [](int) { stop_requested = true; });

@@ -178,6 +178,8 @@ Diagnosis Diagnostician::operator()() {
   }
   diagnosis.amended = fit;
   diagnosis.effects = estimation.effects();
+  diagnosis.unknowns = estimation.unknowns();
+  diagnosis.document = estimation.document_at(fit.x);
   diagnosis.verdict = verdict_of(diagnosis);
   return diagnosis;
 }

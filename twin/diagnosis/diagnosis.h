@@ -46,6 +46,8 @@ struct Diagnosis {
   };
   Verdict verdict = Verdict::nothing;
   std::vector<Explanation> explanations;
+  /// Bodies that the missing heat enters, and whether it does so while the spindle turns or while it stands.
+  std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`
   std::vector<FreeHeat> scan;            ///< before any effect was added, best first
   std::vector<Score> scores;
@@ -53,6 +55,8 @@ struct Diagnosis {
   Fit calibrated;                      ///< without any effect
   Fit amended;                         ///< with those found, the best alternative of each
   std::vector<Hypothesis> effects;     ///< of `amended`
+  std::vector<Unknown> unknowns;       ///< of `amended`
+  Value document;                      ///< the machine as amended: calibrated values and the effects
 };
 
 [[nodiscard]] std::string name_of(Diagnosis::Verdict verdict);

@@ -70,8 +70,8 @@ class Estimation {
   [[nodiscard]] std::vector<BinnedRun> const& data() const { return *data_; }
   [[nodiscard]] std::vector<ChannelNoise> const& noise() const { return noise_; }
 
-  /// `frozen`: a fit of fewer effects, whose Jacobian serves for the unknowns that it has; residuals stay exact. A tenth
-  /// of the work, for comparing many effects.
+  /// `frozen`: a fit of fewer effects, whose Jacobian serves for the unknowns that it has; residuals stay exact. A
+  /// tenth of the work, for comparing many effects.
   [[nodiscard]] Fit fit(Eigen::VectorXd const& start, int iterations = 10, Fit const* frozen = nullptr) const;
   [[nodiscard]] Eigen::VectorXd prior_mean() const;
 

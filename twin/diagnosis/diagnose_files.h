@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "twin/diagnosis/diagnosis_report.h"
+
+namespace thermotwin::twin {
+
+/// `thermotwin diagnose`.
+struct DiagnoseFiles {
+  std::filesystem::path machine;
+  std::vector<std::filesystem::path> data, held_out;
+  std::filesystem::path output;  ///< of the amended machine; empty: none
+  std::vector<std::string> without;
+  std::function<void(std::string const&)> progress;
+};
+
+/// Reads machine and data, diagnoses, and compares the machine before and after on both. InputError for files that
+/// cannot serve.
+[[nodiscard]] DiagnosisReport diagnose_files(DiagnoseFiles const& files);
+
+}  // namespace thermotwin::twin

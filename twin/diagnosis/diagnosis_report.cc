@@ -1,0 +1,162 @@
+#include "twin/diagnosis/diagnosis_report.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "thermal/units.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double two_sided_95 = 1.96;
+
+thermal::Dimension dimension_of(Hypothesis const& hypothesis) {
+  for (auto const& field : hypothesis.effect->parameters)
+    if (field.key == hypothesis.trial->amplitude) return field.dimension;
+  return {};
+}
+
+std::string amplitude_text(Finding const& finding) {
+  auto const dimension = dimension_of(finding.hypothesis);
+  return fmt::format("{} = {} ± {}", finding.hypothesis.trial->amplitude,
+                     thermal::format_quantity(finding.amplitude, dimension),
+                     thermal::format_quantity(two_sided_95 * finding.standard_error, dimension));
+}
+
+Json json_of(Finding const& finding, std::size_t group) {
+  double const half = two_sided_95 * finding.standard_error;
+  Json keys = Json::object();
+  for (auto const& [key, text] : finding.hypothesis.keys) keys[key] = text;
+  return {{"group", group},
+          {"effect", finding.hypothesis.effect->name},
+          {"site", finding.hypothesis.site},
+          {"body", finding.hypothesis.body},
+          {"parameter", finding.hypothesis.trial->amplitude},
+          {"amplitude", finding.amplitude},
+          {"low", finding.amplitude - half},
+          {"high", finding.amplitude + half},
+          {"unit", thermal::unit_of(dimension_of(finding.hypothesis))},
+          {"keys", keys},
+          {"weight", finding.weight},
+          {"strength", finding.strength},
+          {"held_out_gain", finding.held_out_gain}};
+}
+
+Json json_of(FreeHeat const& heat) {
+  double sum = 0.0, time = 0.0;
+  for (std::size_t r = 0; r < heat.mean.size(); ++r) {
+    double const span = heat.knots[r][heat.knots[r].size() - 1] - heat.knots[r][0];
+    sum += heat.mean[r] * span;
+    time += span;
+  }
+  Json runs = Json::array();
+  for (std::size_t r = 0; r < heat.mean.size(); ++r)
+    runs.push_back(
+        {{"time_s", std::vector<double>(heat.knots[r].begin(), heat.knots[r].end())},
+         {"watts", std::vector<double>(heat.heat[r].begin(), heat.heat[r].end())},
+         {"standard_error", std::vector<double>(heat.standard_error[r].begin(), heat.standard_error[r].end())}});
+  return {{"body", heat.site.body}, {"watts", sum / time}, {"gain", heat.gain}, {"runs", runs}};
+}
+
+Json json_of(std::vector<ChannelGap> const& gaps) {
+  Json list = Json::array();
+  for (auto const& gap : gaps) {
+    double const unit = gap.displacement ? 1e6 : 1.0;
+    list.push_back({{"run", gap.run},
+                    {"channel", gap.channel},
+                    {"unit", gap.displacement ? "um" : "K"},
+                    {"before", unit * gap.before},
+                    {"after", unit * gap.after}});
+  }
+  return list;
+}
+
+std::string table_of(std::vector<ChannelGap> const& gaps) {
+  std::string text = fmt::format("  {:<20} {:<10} {:>10} {:>10}\n", "run", "channel", "before", "after");
+  for (auto const& gap : gaps) {
+    double const unit = gap.displacement ? 1e6 : 1.0;
+    text += fmt::format("  {:<20} {:<10} {:>10.3f} {:>10.3f} {}\n", gap.run, gap.channel, unit * gap.before,
+                        unit * gap.after, gap.displacement ? "µm" : "K");
+  }
+  return text;
+}
+
+std::string words_of(Explanation const& explanation) {
+  auto const& all = explanation.alternatives;
+  std::string text;
+  if (all.size() > 1) text += fmt::format("One of {}; these data do not tell them apart:\n", all.size());
+  for (auto const& finding : all) {
+    text += fmt::format("  {} at {}: {}", finding.hypothesis.effect->meaning, finding.hypothesis.site,
+                        amplitude_text(finding));
+    if (all.size() > 1) text += fmt::format("  ({:.0f} %)", 100.0 * finding.weight);
+    text += fmt::format("\n      [[{}]], 2 ln evidence {:.0f}\n", finding.hypothesis.effect->name, finding.strength);
+  }
+  if (all.size() > 1 && !all[0].hypothesis.effect->separated_by.empty())
+    text += fmt::format("  What would tell them apart: {}\n", all[0].hypothesis.effect->separated_by);
+  return text;
+}
+
+std::string headline(Diagnosis const& diagnosis) {
+  switch (diagnosis.verdict) {
+    case Diagnosis::Verdict::nothing:
+      return "Nothing is missing: the machine explains these data to within their noise.";
+    case Diagnosis::Verdict::none_known:
+      return "Something is missing that no effect of the catalogue explains.";
+    case Diagnosis::Verdict::sensor:
+      return "An instrument is at fault, not the machine.";
+    case Diagnosis::Verdict::effect:
+    case Diagnosis::Verdict::either:
+      break;
+  }
+  return fmt::format("Missing: {} effect{}.", diagnosis.explanations.size(),
+                     diagnosis.explanations.size() == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string report_json(DiagnosisReport const& report) {
+  auto const& diagnosis = report.diagnosis;
+  Json json = {{"verdict", name_of(diagnosis.verdict)}, {"effects", Json::array()}};
+  for (std::size_t g = 0; g < diagnosis.explanations.size(); ++g)
+    for (auto const& finding : diagnosis.explanations[g].alternatives) json["effects"].push_back(json_of(finding, g));
+  if (diagnosis.unknown_heat) json["heat"] = json_of(*diagnosis.unknown_heat);
+  if (diagnosis.verdict == Diagnosis::Verdict::sensor)
+    json["sensor"] = {{"name", diagnosis.explanations[0].alternatives[0].hypothesis.body}};
+  json["where"] = Json::array();
+  for (auto const& [body, regime] : diagnosis.where) json["where"].push_back({{"body", body}, {"regime", regime}});
+  auto const gap = whole(report.held_out.empty() ? report.fitted : report.held_out);
+  json["gap"] = {{"before", gap.before}, {"after", gap.after}};
+  json["gaps"] = {{"fitted", json_of(report.fitted)}, {"held_out", json_of(report.held_out)}};
+  json["unaccounted_heat"] = Json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, diagnosis.scan.size()); ++i)
+    json["unaccounted_heat"].push_back(json_of(diagnosis.scan[i]));
+  json["estimates"] = Json::array();
+  for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
+    auto const i = Eigen::Index(u);
+    json["estimates"].push_back({{"name", diagnosis.unknowns[u].name},
+                                 {"estimate", diagnosis.amended.x[i]},
+                                 {"standard_error", std::sqrt(diagnosis.amended.covariance(i, i))},
+                                 {"prior", diagnosis.unknowns[u].deviation}});
+  }
+  json["remarks"] = report.remarks;
+  return json.dump(2) + "\n";
+}
+
+std::string report_text(DiagnosisReport const& report) {
+  auto const& diagnosis = report.diagnosis;
+  std::string text = "\n" + headline(diagnosis) + "\n\n";
+  for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
+  if (diagnosis.unknown_heat)
+    text += fmt::format("Heat of {:.1f} W on average into {}.\n\n", diagnosis.unknown_heat->mean[0],
+                        diagnosis.unknown_heat->site.body);
+  auto const& shown = report.held_out.empty() ? report.fitted : report.held_out;
+  text += fmt::format("Error of the twin on {} data, RMS:\n{}", report.held_out.empty() ? "the fitted" : "unseen",
+                      table_of(shown));
+  for (auto const& remark : report.remarks) text += "note: " + remark + "\n";
+  return text;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "twin/diagnosis/diagnosis.h"
+#include "twin/diagnosis/gap.h"
+
+namespace thermotwin::twin {
+
+/// A diagnosis with what it made of the machine.
+struct DiagnosisReport {
+  Diagnosis diagnosis;
+  std::vector<ChannelGap> fitted, held_out;
+  std::vector<std::string> remarks;  ///< about the data
+};
+
+/// Verdict, effects with their intervals and weights, unaccounted heat, gaps per channel, estimates: everything, for
+/// programs.
+[[nodiscard]] std::string report_json(DiagnosisReport const& report);
+
+/// In plain words, for people.
+[[nodiscard]] std::string report_text(DiagnosisReport const& report);
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,51 @@
+#include "twin/diagnosis/gap.h"
+
+#include <cmath>
+
+#include "twin/diagnosis/linearised_run.h"
+
+namespace thermotwin::twin {
+namespace {
+
+double spread(Eigen::VectorXd const& values) {
+  double sum = 0.0, squares = 0.0, count = 0.0;
+  for (double const v : values)
+    if (!std::isnan(v)) {
+      sum += v;
+      squares += v * v;
+      count += 1.0;
+    }
+  return count > 0.0 ? std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count))) : NAN;
+}
+
+}  // namespace
+
+std::vector<ChannelGap> gaps(Machine const& before, Machine const& after, std::vector<BinnedRun> const& runs) {
+  std::vector<ChannelGap> result;
+  for (auto const& run : runs) {
+    Eigen::MatrixXd const was = run.values - LinearisedRun(before, run).prediction();
+    Eigen::MatrixXd const is = run.values - LinearisedRun(after, run).prediction();
+    for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
+      auto const& channel = run.run->channels[c];
+      result.push_back({run.run->name, channel.name, channel.displacement, spread(was.col(Eigen::Index(c))),
+                        spread(is.col(Eigen::Index(c)))});
+    }
+  }
+  return result;
+}
+
+WholeGap whole(std::vector<ChannelGap> const& gaps) {
+  WholeGap sum;
+  int count = 0;
+  for (auto const& gap : gaps) {
+    if (std::isnan(gap.before) || std::isnan(gap.after)) continue;
+    double const unit = gap.displacement ? 1e-6 : 0.1;
+    sum.before += gap.before * gap.before / (unit * unit);
+    sum.after += gap.after * gap.after / (unit * unit);
+    ++count;
+  }
+  if (count == 0) return sum;
+  return {std::sqrt(sum.before / count), std::sqrt(sum.after / count)};
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "twin/diagnosis/binned_run.h"
+#include "twin/machine.h"
+
+namespace thermotwin::twin {
+
+/// How far a machine is from what a channel showed in one run.
+struct ChannelGap {
+  std::string run, channel;
+  bool displacement = false;
+  double before = 0.0, after = 0.0;  ///< RMS [K, m] of the machine as it was and as it is amended
+};
+
+/// Both machines along the same runs, channel by channel. One constant per channel and run is taken off: an
+/// instrument's offset, and the zero of a displacement, belong to no machine.
+[[nodiscard]] std::vector<ChannelGap> gaps(Machine const& before, Machine const& after,
+                                           std::vector<BinnedRun> const& runs);
+
+/// All channels in one number: RMS over channels of each RMS over 0.1 K or 1 µm.
+struct WholeGap {
+  double before = 0.0, after = 0.0;
+};
+[[nodiscard]] WholeGap whole(std::vector<ChannelGap> const& gaps);
+
+}  // namespace thermotwin::twin
