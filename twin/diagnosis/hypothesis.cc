@@ -11,10 +11,17 @@
 namespace thermotwin::twin {
 namespace {
 
-/// A value for a key, and what it acts on first.
+/// Values for keys, and what they act on first.
 struct Spot {
   std::vector<std::pair<std::string, std::string>> keys;
   std::string site, body;
+};
+
+/// Something that a machine has: one place, or two that belong together.
+struct Candidate {
+  std::string text, body;
+  std::string other = {};  ///< second place
+  std::string axis = {};   ///< that moves it
 };
 
 std::string body_of(std::string const& place) { return place.substr(0, place.find_first_of("[.")); }
@@ -26,31 +33,38 @@ class Sites {
   [[nodiscard]] std::vector<Spot> at(Trial::Site const& site) const;
 
  private:
-  void add(std::string const& kind, std::string const& text, std::string const& body);
+  void add(std::string const& kind, Candidate candidate);
   void add_bodies();
-  void add_from_tables();
+  void add_bearings();
+  void add_motors();
+  void add_nuts();
+  void add_films();
   void add_pairs();
   [[nodiscard]] std::vector<std::string> texts(Value const& table, std::string_view key) const;
   void for_tables(std::string_view kind, std::function<void(Value const&)> const& action) const;
 
   Value const& document_;
-  std::map<std::string, std::vector<std::pair<std::string, std::string>>> spots_;  ///< per kind: text, body
+  std::map<std::string, std::vector<Candidate>> candidates_;  ///< per kind
   std::vector<std::string> solids_;
-  std::set<std::pair<std::string, std::string>> joined_;
 };
 
 Sites::Sites(Value const& document, Machine const& machine) : document_(document) {
   add_bodies();
-  add_from_tables();
-  for (auto const& sensor : machine.sensors) add("sensor", sensor.description.name, sensor.description.name);
+  add_bearings();
+  add_motors();
+  add_nuts();
+  add_films();
+  add_pairs();
+  for (auto const& sensor : machine.sensors) add("sensor", {sensor.description.name, sensor.description.name});
   for (auto const& channel : machine.displacements)
-    if (!channel.rotation) add("displacement", channel.name, channel.name);
+    if (!channel.rotation) add("displacement", {channel.name, channel.name});
 }
 
-void Sites::add(std::string const& kind, std::string const& text, std::string const& body) {
-  auto& spots = spots_[kind];
-  if (std::none_of(spots.begin(), spots.end(), [&](auto const& s) { return s.first == text; }))
-    spots.emplace_back(text, body);
+void Sites::add(std::string const& kind, Candidate candidate) {
+  auto& known = candidates_[kind];
+  if (std::none_of(known.begin(), known.end(),
+                   [&](auto const& c) { return c.text == candidate.text && c.other == candidate.other; }))
+    known.push_back(std::move(candidate));
 }
 
 void Sites::for_tables(std::string_view kind, std::function<void(Value const&)> const& action) const {
@@ -76,60 +90,85 @@ void Sites::add_bodies() {
     for_tables(kind, [&](Value const& table) {
       std::string const name = texts(table, "name").at(0);
       solids_.push_back(name);
+      if (!table.find("carried_by")) add("base", {name, name});
       auto const lengths = texts(table, "length");
       double const length = lengths.empty() ? 0.0 : thermal::parse_value(lengths[0], dimension::length);
-      if (kind != "bar" || length <= longest_single) return add("solid", name, name);
+      if (kind != "bar" || length <= longest_single) return add("solid", {name, name});
       for (int third = 0; third < 3; ++third)
-        add("solid",
-            fmt::format("{}[{:.4g} mm .. {:.4g} mm]", name, 1e3 * length * third / 3.0,
-                        1e3 * length * (third + 1) / 3.0),
-            name);
+        add("solid", {fmt::format("{}[{:.4g} mm .. {:.4g} mm]", name, 1e3 * length * third / 3.0,
+                                  1e3 * length * (third + 1) / 3.0),
+                      name});
     });
 }
 
-void Sites::add_from_tables() {
-  for (std::string const kind : {"bearing", "skf_bearing", "support_bearing"})
-    for_tables(kind, [&](Value const& table) {
-      for (auto const& place : texts(table, "inner")) add("shaft", place, body_of(place));
-      for (auto const& place : texts(table, "outer")) {
-        add("ring", place, body_of(place));
-        if (kind == "bearing") add("bearing", texts(table, "name").at(0), body_of(place));
+void Sites::add_bearings() {
+  for_tables("bearing", [&](Value const& table) {
+    for (auto const& inner : texts(table, "inner"))
+      for (auto const& outer : texts(table, "outer")) {
+        add("shaft", {inner, body_of(inner)});
+        add("ring", {outer, body_of(outer)});
+        add("bearing", {inner, body_of(outer), outer});
       }
-    });
-  for (std::string const kind : {"motor_loss", "copper_loss", "loss_curve"})
+  });
+}
+
+void Sites::add_motors() {
+  for (std::string const kind : {"motor_loss", "copper_loss", "loss_curve", "motor_load", "feed_motor"})
     for_tables(kind, [&](Value const& table) {
-      for (auto const& place : texts(table, "at")) add("motor", place, body_of(place));
+      for (auto const* key : {"at", "slots", "stator", "rotor"})
+        for (auto const& place : texts(table, key)) add("motor", {place, body_of(place)});
     });
+}
+
+void Sites::add_nuts() {
+  for_tables("ball_nut", [&](Value const& table) {
+    auto const axis = texts(table, "axis");
+    for (auto const& nut : texts(table, "nut"))
+      for (auto const& screw : texts(table, "screw"))
+        add("nut", {nut, body_of(nut), screw, axis.empty() ? "z" : axis[0]});
+  });
+}
+
+void Sites::add_films() {
   for_tables("film", [&](Value const& table) {
     auto const to = texts(table, "to");
     auto const correlation = texts(table, "correlation");
     bool const turns = !correlation.empty() && correlation[0].starts_with("rotating");
     if (to.empty() || to[0] == "ambient")
-      for (auto const& place : texts(table, "on")) add(turns ? "shaft" : "room surface", place, body_of(place));
+      for (auto const& place : texts(table, "on")) add(turns ? "shaft" : "room surface", {place, body_of(place)});
   });
+}
+
+void Sites::add_pairs() {
+  std::set<std::pair<std::string, std::string>> joined;
   for (std::string const kind : {"joint", "contact_joint", "fit", "radiation"})
     for_tables(kind, [&](Value const& table) {
-      for (auto const& from : texts(table, "from"))
-        for (auto const& to : texts(table, "to")) {
-          joined_.insert({body_of(from), body_of(to)});
-          joined_.insert({body_of(to), body_of(from)});
-        }
+      for (auto const* key : {"from", "on", "inner"})
+        for (auto const* other : {"to", "outer"})
+          for (auto const& from : texts(table, key))
+            for (auto const& to : texts(table, other)) {
+              joined.insert({body_of(from), body_of(to)});
+              joined.insert({body_of(to), body_of(from)});
+            }
     });
+  for (std::size_t i = 0; i < solids_.size(); ++i)
+    for (std::size_t j = i + 1; j < solids_.size(); ++j)
+      if (!joined.contains({solids_[i], solids_[j]})) add("pair", {solids_[i], solids_[i], solids_[j]});
 }
 
 std::vector<Spot> Sites::at(Trial::Site const& site) const {
   std::vector<Spot> result;
-  if (site.kind == "pair") {
-    for (std::size_t i = 0; i < solids_.size(); ++i)
-      for (std::size_t j = i + 1; j < solids_.size(); ++j)
-        if (!joined_.contains({solids_[i], solids_[j]}))
-          result.push_back(
-              {{{site.key, solids_[i]}, {"to", solids_[j]}}, solids_[i] + " to " + solids_[j], solids_[i]});
-    return result;
+  auto const it = candidates_.find(site.kind);
+  if (it == candidates_.end()) return result;
+  for (auto const& candidate : it->second) {
+    Spot spot{{{site.key, candidate.text}}, candidate.text, candidate.body};
+    if (!site.other.empty()) {
+      spot.keys.emplace_back(site.other, candidate.other);
+      spot.site = site.kind == "bearing" ? candidate.other : candidate.text + " to " + candidate.other;
+    }
+    if (!candidate.axis.empty()) spot.keys.emplace_back("axis", candidate.axis);
+    result.push_back(std::move(spot));
   }
-  auto const it = spots_.find(site.kind);
-  if (it == spots_.end()) return result;
-  for (auto const& [text, body] : it->second) result.push_back({{{site.key, text}}, text, body});
   return result;
 }
 
