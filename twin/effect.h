@@ -26,21 +26,26 @@ class Part {
 /// How diagnosis tries an effect that a machine file does not have: as one table more, whose amplitude is small enough
 /// to change nothing, at every site of the kind that its keys ask for.
 struct Trial {
-  /// A key of the table and what may stand there: "solid" (a stretch of a body), "shaft" (one that turns), "ring" (an
-  /// outer ring or seat of a bearing), "motor", "room surface" (one with a film to the room), "bearing" (name of a
-  /// part), "sensor", "displacement", "pair" (two solids that no joint connects: the key, and `to`).
+  /// A key of the table and what may stand there, by kind:
+  ///
+  ///   solid, shaft, ring, motor   a stretch of a body; of one that turns; a bearing's outer ring or seat; with a loss
+  ///   room surface, base          one with a film to the room; a body that no other carries
+  ///   sensor, displacement        an instrument; a channel of displacement
+  ///   bearing, nut                shaft and outer ring of a spindle bearing; nut and screw (and `axis`) of a drive
+  ///   pair                        two solids that no joint connects
   struct Site {
     std::string key;
     std::string kind;
+    std::string other = {};  ///< key of the second place, of the last three kinds; empty: it has none
   };
-  std::string amplitude;     ///< key of the number that grows from nothing; the flows are linear in it
-  double largest = 0.0;      ///< plausible upper end of the amplitude [SI]
-  bool either_sign = false;  ///< it may be negative
-  std::vector<Site> sites;
+  std::string amplitude = {};  ///< key of the number that grows from nothing; the flows are linear in it
+  double largest = 0.0;        ///< plausible upper end of the amplitude [SI]
+  bool either_sign = false;    ///< it may be negative
+  std::vector<Site> sites = {};
   /// Other keys and their texts, one table per variant: {{"exponent", "0.5"}}; none: the defaults.
-  std::vector<std::vector<std::pair<std::string, std::string>>> shapes;
+  std::vector<std::vector<std::pair<std::string, std::string>>> shapes = {};
   /// Numbers in proportion to the amplitude: {"heat_capacity", 1800.0} for a mass with τ = C/G = 30 min.
-  std::vector<std::pair<std::string, double>> proportional;
+  std::vector<std::pair<std::string, double>> proportional = {};
 };
 
 /// What the catalogue says about an effect, for people; the numbers come from the fields of its struct.

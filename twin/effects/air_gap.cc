@@ -67,13 +67,18 @@ struct AirGap {
 
 Effect const& air_gap_effect() {
   static Effect const effect = make_effect<AirGap>(
-      {"air_gap", "free convection through a closed gap: behind a cover, between cabinet and column",
+      {"air_gap",
+       "free convection through a closed gap: behind a cover, between cabinet and column",
        "q = h A (T_to − T_from), h = Nu k/width;  vertical: Nu = 0.42 Pr^0.012 Ra^(1/4) (H/w)^(−1/4), turbulent 0.049 "
        "Ra^(1/3), at least 1;  horizontal, warm below: Nu = 1 up to Ra 1708, 0.208 Ra^(1/4), 0.092 Ra^(1/3); warm "
        "above: 1",
-       "link", "two walls that face each other",
+       "link",
+       "two walls that face each other",
        "grows with |ΔT|^(5/4); does not follow speed; radiation comes besides",
-       "physics.md 2.6; VDI Heat Atlas; Jungnickel 2010"});
+       "physics.md 2.6; VDI Heat Atlas; Jungnickel 2010",
+       {23},
+       {"radiation"},
+       "shield between the walls: radiation falls, convection stays"});
   return effect;
 }
 

@@ -102,14 +102,19 @@ struct BallNut {
 
 Effect const& ball_nut_effect() {
   static Effect const effect = make_effect<BallNut>(
-      {"ball_nut", "friction of a ball nut that travels along its screw, and conduction between them",
+      {"ball_nut",
+       "friction of a ball nut that travels along its screw, and conduction between them",
        "Q = T_nut |ω|;  T_nut = T_pre (1 − φ + φ √(νn/(ν40 n_r))) + |F_ax| l/2π (1/η − 1);  T_pre = 0.05 (tan "
        "β)^(−1/2) F_a0 "
        "l/2π;  G = G0 + G1 √(n/n_r);  spread over the screw by the exact overlap with the nut along its stroke",
-       "source, link", "nut and screw",
+       "source, link",
+       "nut and screw",
        "power of feed 1 to 1.5; first seen at screw and nut, 10…14 min; slope of the "
        "position error; ends at stop",
-       "physics.md 1.8, 2.4, (2.10); catalogues of NSK, THK, HIWIN"});
+       "physics.md 1.8, 2.4, (2.10); catalogues of NSK, THK, HIWIN",
+       {17},
+       {"guide", "nut_preload", "nut_reversal"},
+       "sensors on nut and rail; the same mean feed with another stroke; torque of the axis"});
   return effect;
 }
 

@@ -96,14 +96,31 @@ struct Bearing {
 
 Effect const& bearing_effect() {
   static Effect const effect =
-      make_effect<Bearing>({"bearing", "friction of a set of spindle bearings, and conduction through its balls",
+      make_effect<Bearing>({"bearing",
+                            "friction of a set of spindle bearings, and conduction through its balls",
                             "Q = n (M0 + M1) |ω|;  M0 = 4500.9 f0 (νω)^(2/3) d_m³ (νω ≥ 2.0944e-4 m²/s², else 16 f0 "
                             "d_m³);  M1 = z (P0/C0)^y P1 "
                             "d_m;  ν = A exp(B/(T[°C] + 95)) at the mean of both rings;  q = G (T_outer − T_inner)",
-                            "source, link", "shaft and outer ring",
+                            "source, link",
+                            "shaft and outer ring",
                             "power of speed 1.67, falling to 1.0…1.2 in the steady state by the "
                             "viscosity's feedback; first seen at the rings; ends at stop",
-                            "physics.md 1.1, 1.3, 2.4; Palmgren 1957; Harris & Kotzalas 2006"});
+                            "physics.md 1.1, 1.3, 2.4; Palmgren 1957; Harris & Kotzalas 2006",
+                            {4},
+                            {"fan_cooling", "rotor_windage", "preload", "grease_run_in"},
+                            "the same speed from a warm bearing: a wrong viscosity shows at once, a draught or windage "
+                            "does not; spindle current"},
+                           {{.amplitude = "grease_factor",
+                             .largest = 1.0,
+                             .sites = {{"inner", "bearing", "outer"}},
+                             .shapes = {{{"pitch_diameter", "90 mm"},
+                                         {"torque_load", "0 N"},
+                                         {"conductance", "0 W/K"},
+                                         {"viscosity_temperature", "0 K"}},
+                                        {{"pitch_diameter", "90 mm"},
+                                         {"torque_load", "0 N"},
+                                         {"conductance", "0 W/K"},
+                                         {"viscosity_temperature", "1000 K"}}}}});
   return effect;
 }
 

@@ -56,11 +56,22 @@ struct BearingShift {
 
 Effect const& bearing_shift_effect() {
   static Effect const effect = make_effect<BearingShift>(
-      {"bearing_shift", "a spring-preloaded ball bearing shifts the shaft as its contact angle changes",
+      {"bearing_shift",
+       "a spring-preloaded ball bearing shifts the shaft as its contact angle changes",
        "Δ = [cos α (r_i θ_i − r_o θ_o) + D_b ½(θ_i + θ_o)] α_b/sin α + Δ_c(ω_max) (ω/ω_max)^p;  Δ_c from the balls' "
        "centrifugal force, p so that it is exact at half and full speed",
-       "deformation", "a displacement channel; shaft and outer ring",
-       "follows the difference of the rings within minutes, and the speed at once", "physics.md 3.2, 3.7; Harris"});
+       "deformation",
+       "a displacement channel; shaft and outer ring",
+       "follows the difference of the rings within minutes, and the speed at once",
+       "physics.md 3.2, 3.7; Harris",
+       {32},
+       {"centrifugal_growth", "compensation", "held_shaft"},
+       "stop and go every few minutes: the speed's share follows at once, that of the rings within minutes"},
+      {{.amplitude = "weight",
+        .largest = 1.0,
+        .either_sign = true,
+        .sites = {{"displacement", "displacement"}, {"inner", "bearing", "outer"}},
+        .shapes = {{{"ball_diameter", "12 mm"}, {"pitch_diameter", "90 mm"}, {"preload", "300 N"}}}}});
   return effect;
 }
 

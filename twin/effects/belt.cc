@@ -49,10 +49,20 @@ struct Belt {
 
 Effect const& belt_effect() {
   static Effect const effect = make_effect<Belt>(
-      {"belt", "no-load loss of a belt drive", "P = P_b (ω/ω_max)^m,  m = 1…1.5", "source",
+      {"belt",
+       "no-load loss of a belt drive",
+       "P = P_b (ω/ω_max)^m,  m = 1…1.5",
+       "source",
        "pulley end of the shaft, motor",
        "power of speed 1 to 1.5; first seen at the pulley end of the shaft and the rear bearing; ends at stop",
-       "physics.md 1.10, §7 no. 21"});
+       "physics.md 1.10, §7 no. 21",
+       {21},
+       {"seal", "bearing", "motor_loss"},
+       "motor without belt; infrared on the pulley"},
+      {{.amplitude = "loss",
+        .largest = 80.0,
+        .sites = {{"pulley", "shaft"}, {"motor", "motor"}},
+        .shapes = {{{"exponent", "1"}}, {{"exponent", "1.5"}}}}});
   return effect;
 }
 

@@ -52,10 +52,18 @@ struct CentrifugalGrowth {
 
 Effect const& centrifugal_growth_effect() {
   static Effect const effect = make_effect<CentrifugalGrowth>(
-      {"centrifugal_growth", "displacement that follows the speed at once, without heat",
-       "ΔE = g (ω/ω_max)^p + w L ε,  ε = −ν ρ ω² (a² + b²)/(2E)", "deformation", "a displacement channel",
+      {"centrifugal_growth",
+       "displacement that follows the speed at once, without heat",
+       "ΔE = g (ω/ω_max)^p + w L ε,  ε = −ν ρ ω² (a² + b²)/(2E)",
+       "deformation",
+       "a displacement channel",
        "power of speed 2; within 10 s of a change of speed, equal and opposite at stop; no temperature answers",
-       "physics.md 3.7, §7 no. 32"});
+       "physics.md 3.7, §7 no. 32",
+       {32},
+       {"compensation", "bearing_shift", "held_shaft"},
+       "stop and go every few minutes, extrapolated to the moment of the change; the controller's compensation "
+       "switched off"},
+      {{.amplitude = "growth", .largest = 20e-6, .either_sign = true, .sites = {{"displacement", "displacement"}}}});
   return effect;
 }
 

@@ -48,13 +48,18 @@ struct ChannelFilmPart {
 
 Effect const& channel_film_effect() {
   static Effect const effect = make_effect<ChannelFilmPart>(
-      {"channel_film", "heat from a wall into the fluid of a channel that passes it, cell by cell",
+      {"channel_film",
+       "heat from a wall into the fluid of a channel that passes it, cell by cell",
        "q = A (T_wall − T_fluid)/(1/h + r);  h: laminar Nu = (3.66³ + 1.615³ Re Pr d/L)^(1/3), Gnielinski from Re 1e4, "
        "linear "
        "between, (Pr/Pr_w)^0.11",
-       "link", "wall of a pipe, jacket or hose and the [[channel]] inside",
+       "link",
+       "wall of a pipe, jacket or hose and the [[channel]] inside",
        "the fluid's front arrives late and rounded: the wall takes up and gives back heat; follows the flow",
-       "physics.md 2.7; Gnielinski 1975; VDI Heat Atlas"});
+       "physics.md 2.7; Gnielinski 1975; VDI Heat Atlas",
+       {3},
+       {"coolant_flow", "jacket"},
+       "temperatures of supply and return; a step of the flow"});
   return effect;
 }
 

@@ -79,14 +79,19 @@ struct Chiller : GivenTemperature {
 
 Effect const& chiller_effect() {
   static Effect const effect = make_effect<Chiller>(
-      {"chiller", "a chiller that holds a temperature: relay with hysteresis, or inverter",
+      {"chiller",
+       "a chiller that holds a temperature: relay with hysteresis, or inverter",
        "relay: q = −Q_max above T_set + Δ/2 until below T_set − Δ/2, off for a least time;  inverter: q = −sat(K e + "
        "K/T_i "
        "∫e dt), 0…Q_max;  T_set = constant, or channel + offset, + chiller.offset",
-       "source", "tank, jacket, body of fluid",
+       "source",
+       "tank, jacket, body of fluid",
        "relay: narrow line of period CΔ [1/Q_l + 1/(Q_max − Q_l)], which changes with the load; at standstill too; set "
        "point follows the room where it is told to",
-       "physics.md 2.12, §7 no. 5"});
+       "physics.md 2.12, §7 no. 5",
+       {5},
+       {"ambient_cycle", "stratification"},
+       "log the chiller's state: its period changes with the load, that of the room does not"});
   return effect;
 }
 

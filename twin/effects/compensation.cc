@@ -22,10 +22,21 @@ struct Compensation {
 }  // namespace
 
 Effect const& compensation_effect() {
-  static Effect const effect = make_effect<Compensation>(
-      {"compensation", "the controller's own compensation was left on while the error was measured",
-       "ΔE = −k (T_s − T_s(0))", "deformation", "a displacement channel; place of the controller's sensor",
-       "the displacement alone: collinear with one temperature, and all temperatures agree", "physics.md §7 no. 34"});
+  static Effect const effect =
+      make_effect<Compensation>({"compensation",
+                                 "the controller's own compensation was left on while the error was measured",
+                                 "ΔE = −k (T_s − T_s(0))",
+                                 "deformation",
+                                 "a displacement channel; place of the controller's sensor",
+                                 "the displacement alone: collinear with one temperature, and all temperatures agree",
+                                 "physics.md §7 no. 34",
+                                 {34},
+                                 {"centrifugal_growth", "bearing_shift", "probe_drift", "scale_expansion"},
+                                 "compensation switched off; the controller's sensor warmed alone; steps of 1 um"},
+                                {{.amplitude = "gain",
+                                  .largest = 5e-6,
+                                  .either_sign = true,
+                                  .sites = {{"displacement", "displacement"}, {"at", "solid"}}}});
   return effect;
 }
 

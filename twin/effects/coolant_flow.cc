@@ -47,11 +47,17 @@ struct CoolantFlow {
 }  // namespace
 
 Effect const& coolant_flow_effect() {
-  static Effect const effect = make_effect<CoolantFlow>(
-      {"coolant_flow", "coolant that enters at a known temperature and leaves after taking up heat",
-       "q = 2 ṁc (T_in − T_m): T_m is the mean of inlet and outlet, right for NTU < 1", "boundary",
-       "jacket, cooled stator", "pulls its neighbours to the inlet's temperature within minutes; follows the pump",
-       "physics.md 2.7, §7 nos. 3, 5"});
+  static Effect const effect =
+      make_effect<CoolantFlow>({"coolant_flow",
+                                "coolant that enters at a known temperature and leaves after taking up heat",
+                                "q = 2 ṁc (T_in − T_m): T_m is the mean of inlet and outlet, right for NTU < 1",
+                                "boundary",
+                                "jacket, cooled stator",
+                                "pulls its neighbours to the inlet's temperature within minutes; follows the pump",
+                                "physics.md 2.7, §7 nos. 3, 5",
+                                {3, 10},
+                                {"channel_film", "jacket"},
+                                "temperatures of supply and return; a step of the flow"});
   return effect;
 }
 

@@ -65,12 +65,22 @@ struct CopperLoss {
 
 Effect const& copper_loss_effect() {
   static Effect const effect = make_effect<CopperLoss>(
-      {"copper_loss", "copper loss of a motor: magnetising or holding current, and load",
-       "P = (1 + χ) m R20 [1 + 0.0039 (T − 20 °C)] I²,  I² = I_μ² + (M/k_T)²", "source", "stator, end windings",
+      {"copper_loss",
+       "copper loss of a motor: magnetising or holding current, and load",
+       "P = (1 + χ) m R20 [1 + 0.0039 (T − 20 °C)] I²,  I² = I_μ² + (M/k_T)²",
+       "source",
+       "stator, end windings",
        "power of speed 0 while enabled, at standstill too; with the square of the torque; τ 20…40 min; ends when the "
        "motor "
        "is disabled",
-       "physics.md 1.7 (1.11), §7 nos. 7, 42"});
+       "physics.md 1.7 (1.11), §7 nos. 7, 42",
+       {7, 42},
+       {"heat", "hydraulic_unit", "hot_neighbour", "motor_load"},
+       "drives on at standstill, then the machine on with its drives off"},
+      {{.amplitude = "resistance",
+        .largest = 4.0,
+        .sites = {{"slots", "motor"}},
+        .shapes = {{{"magnetising_current", "5 A"}}}}});
   return effect;
 }
 

@@ -53,9 +53,16 @@ struct CuttingHeat {
 
 Effect const& cutting_heat_effect() {
   static Effect const effect = make_effect<CuttingHeat>(
-      {"cutting_heat", "heat of cutting in tool and workpiece, and of hot chips where they lie",
-       "q = β P_c,  P_c = k_c MRR;  tool 0.03…0.1, workpiece 0.1…0.25, chips on the table 0.05…0.3", "source",
-       "spindle nose, table, bed, coolant", "only while cutting; absent in an air cut", "physics.md 1.11, §7 no. 26"});
+      {"cutting_heat",
+       "heat of cutting in tool and workpiece, and of hot chips where they lie",
+       "q = β P_c,  P_c = k_c MRR;  tool 0.03…0.1, workpiece 0.1…0.25, chips on the table 0.05…0.3",
+       "source",
+       "spindle nose, table, bed, coolant",
+       "only while cutting; absent in an air cut",
+       "physics.md 1.11, §7 no. 26",
+       {26},
+       {"heat", "motor_load"},
+       "the same programme as an air cut; with the place and the flag of a heat they are the same"});
   return effect;
 }
 

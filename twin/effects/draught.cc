@@ -38,10 +38,20 @@ struct Draught {
 
 Effect const& draught_effect() {
   static Effect const effect = make_effect<Draught>(
-      {"draught", "moving air while a door is open or the enclosure is extracted", "q = u Δh A (T_air − T),  u = 0…1",
-       "film", "table, front of head and column",
+      {"draught",
+       "moving air while a door is open or the enclosure is extracted",
+       "q = u Δh A (T_air − T),  u = 0…1",
+       "film",
+       "table, front of head and column",
        "comes and goes with the door within minutes, at standstill too; the room's own step is the experiment's",
-       "physics.md 2.13, §7 no. 15"});
+       "physics.md 2.13, §7 no. 15",
+       {15},
+       {"chiller", "stratification", "flood_coolant"},
+       "record the door; a sensor in the air before the surface"},
+      {{.amplitude = "coefficient",
+        .largest = 24.0,
+        .sites = {{"on", "room surface"}},
+        .shapes = {{{"area", "0.5 m2"}}}}});
   return effect;
 }
 

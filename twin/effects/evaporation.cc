@@ -47,11 +47,17 @@ struct Evaporation {
 }  // namespace
 
 Effect const& evaporation_effect() {
-  static Effect const effect = make_effect<Evaporation>(
-      {"evaporation", "heat that coolant takes with it when it evaporates from a wet surface",
-       "q = −A h/(ρ c_p) Le^(−2/3) h_fg (ρ_s(T) − φ ρ_s(T_air))", "source", "tank, wet table, chip washing",
-       "wet surfaces sit 2…5 K below the room; goes on at stop; does not follow the spindle",
-       "physics.md 2.14 (2.12); Magnus; Lewis analogy"});
+  static Effect const effect =
+      make_effect<Evaporation>({"evaporation",
+                                "heat that coolant takes with it when it evaporates from a wet surface",
+                                "q = −A h/(ρ c_p) Le^(−2/3) h_fg (ρ_s(T) − φ ρ_s(T_air))",
+                                "source",
+                                "tank, wet table, chip washing",
+                                "wet surfaces sit 2…5 K below the room; goes on at stop; does not follow the spindle",
+                                "physics.md 2.14 (2.12); Magnus; Lewis analogy",
+                                {10},
+                                {"heat", "flood_coolant"},
+                                "cover the tank; log its temperature and the humidity"});
   return effect;
 }
 

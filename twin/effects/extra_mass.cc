@@ -29,11 +29,29 @@ struct ExtraMass {
 
 Effect const& extra_mass_effect() {
   static Effect const effect = make_effect<ExtraMass>(
-      {"extra_mass", "a thermal mass that was left out: drawbar, cables, wall of a hose",
-       "C_m dT_m/dt = G_m (T − T_m),  q = G_m (T_m − T)", "link", "any place",
+      {"extra_mass",
+       "a thermal mass that was left out: drawbar, cables, wall of a hose",
+       "C_m dT_m/dt = G_m (T − T_m),  q = G_m (T_m − T)",
+       "link",
+       "any place",
        "nothing in the steady state; residual like a delayed slope, + early, − late, mirrored in cool-down; neighbours "
        "answer too; τ 5 min…3 h",
-       "physics.md §7 no. 41"});
+       "physics.md §7 no. 41",
+       {41},
+       {"sensor_lag"},
+       "a step and a long hold: neighbours answer to a mass, a lag stays in one channel"},
+      {{.amplitude = "conductance",
+        .largest = 20.0,
+        .sites = {{"at", "solid"}},
+        .proportional = {{"heat_capacity", 600.0}}},
+       {.amplitude = "conductance",
+        .largest = 20.0,
+        .sites = {{"at", "solid"}},
+        .proportional = {{"heat_capacity", 2400.0}}},
+       {.amplitude = "conductance",
+        .largest = 7.0,
+        .sites = {{"at", "solid"}},
+        .proportional = {{"heat_capacity", 7200.0}}}});
   return effect;
 }
 

@@ -53,11 +53,29 @@ struct FanCooling {
 
 Effect const& fan_cooling_effect() {
   static Effect const effect = make_effect<FanCooling>(
-      {"fan_cooling", "a flange, pulley or chuck cools its surroundings like a fan while it turns",
-       "q = (hA)_r (ω/ω_r)^m (T_air − T),  m = 0.5…0.8", "film", "nose, flange, front of the cartridge, pulley",
+      {"fan_cooling",
+       "a flange, pulley or chuck cools its surroundings like a fan while it turns",
+       "q = (hA)_r (ω/ω_r)^m (T_air − T),  m = 0.5…0.8",
+       "film",
+       "nose, flange, front of the cartridge, pulley",
        "sink with speed^0.5…0.8 times T − T_air: nothing at a cold start, lowers the steady temperature at high speed; "
        "nothing at stop, so that temperatures fall more slowly than while running",
-       "physics.md 2.5 (2.7), §7 no. 2"});
+       "physics.md 2.5 (2.7), §7 no. 2",
+       {2},
+       {"bearing", "preload", "rotor_windage", "purge_air"},
+       "cooling at standstill against cooling at idle speed; a shroud; the same run in a warmer room"},
+      {{.amplitude = "conductance",
+        .largest = 5.0,
+        .sites = {{"at", "shaft"}},
+        .shapes = {{{"exponent", "0.8"}}, {{"exponent", "0.5"}}}},
+       {.amplitude = "conductance",
+        .largest = 5.0,
+        .sites = {{"at", "ring"}},
+        .shapes = {{{"exponent", "0.8"}}, {{"exponent", "0.5"}}}},
+       {.amplitude = "conductance",
+        .largest = 5.0,
+        .sites = {{"at", "room surface"}},
+        .shapes = {{{"exponent", "0.8"}}, {{"exponent", "0.5"}}}}});
   return effect;
 }
 

@@ -98,13 +98,18 @@ struct FitPart {
 
 Effect const& fit_effect() {
   static Effect const effect = make_effect<FitPart>(
-      {"fit", "conduction from a ring into its seat, which changes with the clearance",
+      {"fit",
+       "conduction from a ring into its seat, which changes with the clearance",
        "q = h(g) π D b (T_outer − T_inner);  g = g0 − D (α_i θ_i − α_o θ_o);  clearance: h = k/(g/2 + ξ);  "
        "interference: "
        "besides 1.25 (k_s m/σ)(p/H)^0.95, p = −g/{D [(C_o + ν_o)/E_o + (C_i − ν_i)/E_i]}",
-       "link", "bearing ring and housing, bearing ring and shaft",
+       "link",
+       "bearing ring and housing, bearing ring and shaft",
        "difference across the seat curved over the heat flow; warm-up and cool-down differ; all neighbours see it",
-       "physics.md 2.3 (2.2)-(2.4), §7 no. 9"});
+       "physics.md 2.3 (2.2)-(2.4), §7 no. 9",
+       {9},
+       {"sensor_contact"},
+       "swap the sensor: a fit changes the heat that all sensors see, a displaced sensor its own reading only"});
   return effect;
 }
 

@@ -41,10 +41,20 @@ struct FloodCoolant {
 
 Effect const& flood_coolant_effect() {
   static Effect const effect = make_effect<FloodCoolant>(
-      {"flood_coolant", "cutting coolant that floods a surface or runs through the tool", "q = u h A (T_coolant − T)",
-       "film", "nose, tool, table, workpiece, bed",
+      {"flood_coolant",
+       "cutting coolant that floods a surface or runs through the tool",
+       "q = u h A (T_coolant − T)",
+       "film",
+       "nose, tool, table, workpiece, bed",
        "steps with the coolant's switch; pulls to the temperature of the coolant, often below the room's",
-       "physics.md §7 no. 24"});
+       "physics.md §7 no. 24",
+       {24},
+       {"draught", "purge_air", "cutting_heat"},
+       "coolant on at standstill, with its temperature logged"},
+      {{.amplitude = "coefficient",
+        .largest = 2000.0,
+        .sites = {{"on", "room surface"}},
+        .shapes = {{{"area", "0.05 m2"}}}}});
   return effect;
 }
 

@@ -29,10 +29,21 @@ struct Foundation : GivenTemperature {
 }  // namespace
 
 Effect const& foundation_effect() {
-  static Effect const effect = make_effect<Foundation>(
-      {"foundation", "conduction through feet and foundation into soil of its own temperature", "q = G (T_soil − T)",
-       "boundary", "underside of the bed",
-       "drift over days and weeks, bottom of the bed first; does not follow spindle or room", "physics.md §7 no. 40"});
+  static Effect const effect =
+      make_effect<Foundation>({"foundation",
+                               "conduction through feet and foundation into soil of its own temperature",
+                               "q = G (T_soil − T)",
+                               "boundary",
+                               "underside of the bed",
+                               "drift over days and weeks, bottom of the bed first; does not follow spindle or room",
+                               "physics.md §7 no. 40",
+                               {40},
+                               {"ambient_cycle", "heat"},
+                               "idle for days in a room of constant temperature; a sensor in the soil"},
+                              {{.amplitude = "conductance",
+                                .largest = 50.0,
+                                .sites = {{"at", "base"}},
+                                .shapes = {{{"temperature", "15 degC"}}}}});
   return effect;
 }
 

@@ -61,11 +61,20 @@ struct GreaseRunIn {
 
 Effect const& grease_run_in_effect() {
   static Effect const effect = make_effect<GreaseRunIn>(
-      {"grease_run_in", "heat of grease that is churned until it has left the track",
-       "Q = P (ω/ω_r)^(5/3) e^(−t_on/τ),  slow form e^(−N/N_c) with the revolutions N", "source",
+      {"grease_run_in",
+       "heat of grease that is churned until it has left the track",
+       "Q = P (ω/ω_r)^(5/3) e^(−t_on/τ),  slow form e^(−N/N_c) with the revolutions N",
+       "source",
        "both rings of a bearing",
        "peak in the first 0.5…3 h, then decay at constant speed; smaller the next day where revolutions count",
-       "physics.md §7 no. 14"});
+       "physics.md §7 no. 14",
+       {14},
+       {"preload", "bearing"},
+       "the same run on the next day: only fresh grease has changed"},
+      {{.amplitude = "power",
+        .largest = 200.0,
+        .sites = {{"inner", "bearing", "outer"}},
+        .shapes = {{{"decay_time", "0.5 h"}}, {{"decay_time", "1.5 h"}}, {{"decay_time", "5 h"}}}}});
   return effect;
 }
 

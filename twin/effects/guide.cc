@@ -107,13 +107,22 @@ struct Guide {
 
 Effect const& guide_effect() {
   static Effect const effect = make_effect<Guide>(
-      {"guide", "friction of linear guides or slideways of an axis",
+      {"guide",
+       "friction of linear guides or slideways of an axis",
        "Q = d F v, d the share of time in motion;  rolling: F = μ W + F_seal + F_v (ν(T)/ν40) v/v_r;  sliding: F = W "
        "[μ_c + (μ_s − "
        "μ_c) e^(−(v/v_s)²) + k v/v_r]",
-       "source", "rail on column or bed, carriage",
+       "source",
+       "rail on column or bed, carriage",
        "proportional to the feed, spread over the stroke; bends the column (front warm); 5…60 W per axis; ends at stop",
-       "physics.md 1.10, 2.11, §7 no. 19"});
+       "physics.md 1.10, 2.11, §7 no. 19",
+       {19},
+       {"ball_nut", "nut_reversal", "nut_preload"},
+       "sensors on rail and nut; the same mean feed with another stroke; torque of the axis"},
+      {{.amplitude = "load",
+        .largest = 1e5,
+        .sites = {{"rail", "solid"}, {"carriage", "nut"}},
+        .shapes = {{{"seal_force", "0 N"}}}}});
   return effect;
 }
 

@@ -30,9 +30,21 @@ struct Heat {
 
 Effect const& heat_effect() {
   static Effect const effect = make_effect<Heat>(
-      {"heat", "heat at a constant rate while something is on: pump, electronics, brake", "q = P·u,  u = 0…1", "source",
-       "any place", "power of speed 0; follows its flag, not the spindle; at stop it goes on while the flag is up",
-       "physics.md 1.10, 1.7, §7 nos. 22, 39, 42"});
+      {"heat",
+       "heat at a constant rate while something is on: pump, electronics, brake",
+       "q = P·u,  u = 0…1",
+       "source",
+       "any place",
+       "power of speed 0; follows its flag, not the spindle; at stop it goes on while the flag is up",
+       "physics.md 1.10, 1.7, §7 nos. 22, 39, 42",
+       {10, 22, 39, 42},
+       {"hot_neighbour", "copper_loss", "hydraulic_unit", "cutting_heat", "motor_load", "stratification"},
+       "pumps, drives and machine switched off one after another at standstill; power meter; all off overnight"},
+      {{.amplitude = "power",
+        .largest = 300.0,
+        .either_sign = true,
+        .sites = {{"at", "solid"}},
+        .shapes = {{{"while_on", "machine.on"}}, {{"while_on", "spindle.running"}}, {{"while_on", "coolant.on"}}}}});
   return effect;
 }
 

@@ -52,10 +52,20 @@ struct HotNeighbour : GivenTemperature {
 
 Effect const& hot_neighbour_effect() {
   static Effect const effect = make_effect<HotNeighbour>(
-      {"hot_neighbour", "radiation and warm air from a cabinet, another machine or the sun",
-       "q = u [σ ε A F (T_n⁴ − T⁴) + G (T_n − T)],  u = 0…1", "boundary", "one side of head, column or bed",
+      {"hot_neighbour",
+       "radiation and warm air from a cabinet, another machine or the sun",
+       "q = u [σ ε A F (T_n⁴ − T⁴) + G (T_n − T)],  u = 0…1",
+       "boundary",
+       "one side of head, column or bed",
        "does not follow the spindle but hours of its own; one-sided: tilt, E_X in a symmetric machine; 5…100 W",
-       "physics.md 2.9, §7 no. 13"});
+       "physics.md 2.9, §7 no. 13",
+       {13},
+       {"heat", "stratification", "copper_loss"},
+       "reflective screen; thermography; the neighbour's own hours"},
+      {{.amplitude = "area",
+        .largest = 2.0,
+        .sites = {{"on", "room surface"}},
+        .shapes = {{{"temperature", "60 degC"}}}}});
   return effect;
 }
 

@@ -43,10 +43,17 @@ struct HydraulicUnit {
 }  // namespace
 
 Effect const& hydraulic_unit_effect() {
-  static Effect const effect = make_effect<HydraulicUnit>(
-      {"hydraulic_unit", "heat of a hydraulic or lubrication unit, and of its oil where it is throttled",
-       "q_tank = d P − Δp V̇,  q_consumers = Δp V̇", "source", "oil tank, side of the bed, rear of the column",
-       "power of speed 0; follows machine-on, not the spindle; tank 1…3 h", "physics.md 1.10, §7 no. 22"});
+  static Effect const effect =
+      make_effect<HydraulicUnit>({"hydraulic_unit",
+                                  "heat of a hydraulic or lubrication unit, and of its oil where it is throttled",
+                                  "q_tank = d P − Δp V̇,  q_consumers = Δp V̇",
+                                  "source",
+                                  "oil tank, side of the bed, rear of the column",
+                                  "power of speed 0; follows machine-on, not the spindle; tank 1…3 h",
+                                  "physics.md 1.10, §7 no. 22",
+                                  {22},
+                                  {"heat", "copper_loss", "stratification"},
+                                  "unit off; power meter; with the place and the flag of a heat they are the same"});
   return effect;
 }
 

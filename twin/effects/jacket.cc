@@ -111,15 +111,20 @@ struct Jacket : GivenTemperature {
 
 Effect const& jacket_effect() {
   static Effect const effect = make_effect<Jacket>(
-      {"jacket", "a cooling jacket: flow and film from its geometry, any number of transfer units",
+      {"jacket",
+       "a cooling jacket: flow and film from its geometry, any number of transfer units",
        "q = ṁc (1 − e^(−NTU)) (T_in − T_wall),  NTU = A/(1/h + r)/ṁc,  V̇ = V̇0 (ν0/ν)^γ;  h: laminar Nu = (3.66³ + "
        "1.615³ Re "
        "Pr d/L)^(1/3), Gnielinski from Re 1e4, linear between;  helix: from Re_cr = 2300 [1 + 8.6 (d/D)^0.45] to 2.2e4",
-       "boundary, link", "housing, stator, nut, screw bore",
+       "boundary, link",
+       "housing, stator, nut, screw bore",
        "all places near the jacket scaled alike, τ 1…5 min; return less supply; cold oil flows less where pressure "
        "drives "
        "it",
-       "physics.md 2.7, §7 no. 3; Gnielinski 1975; VDI Heat Atlas Gc"});
+       "physics.md 2.7, §7 no. 3; Gnielinski 1975; VDI Heat Atlas Gc",
+       {3},
+       {"coolant_flow", "channel_film"},
+       "temperatures of supply and return; a step of the flow"});
   return effect;
 }
 

@@ -73,9 +73,16 @@ struct LossCurve {
 
 Effect const& loss_curve_effect() {
   static Effect const effect = make_effect<LossCurve>(
-      {"loss_curve", "loss measured over speed: a motor that is hottest below its highest speed",
-       "P = k P(ω), linear between the points, constant beyond them", "source", "stator, gear box, pulley",
-       "as its points say; not monotone where the field is weakened", "physics.md 1.7, §7 nos. 6, 7"});
+      {"loss_curve",
+       "loss measured over speed: a motor that is hottest below its highest speed",
+       "P = k P(ω), linear between the points, constant beyond them",
+       "source",
+       "stator, gear box, pulley",
+       "as its points say; not monotone where the field is weakened",
+       "physics.md 1.7, §7 nos. 6, 7",
+       {6, 7},
+       {"motor_loss", "copper_loss"},
+       "steps of the speed without load; a fit of motor_loss shows whether the field is weakened"});
   return effect;
 }
 

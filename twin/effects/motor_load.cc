@@ -43,9 +43,16 @@ struct MotorLoad {
 
 Effect const& motor_load_effect() {
   static Effect const effect = make_effect<MotorLoad>(
-      {"motor_load", "loss of a motor under load, from its efficiency; the slip's share in the rotor",
-       "P = P_m (1/η − 1),  of it in the rotor P_m s/(1 − s)", "source", "stator and rotor",
-       "only under load; rotor and shaft of an induction motor warm from inside", "physics.md 1.7"});
+      {"motor_load",
+       "loss of a motor under load, from its efficiency; the slip's share in the rotor",
+       "P = P_m (1/η − 1),  of it in the rotor P_m s/(1 − s)",
+       "source",
+       "stator and rotor",
+       "only under load; rotor and shaft of an induction motor warm from inside",
+       "physics.md 1.7",
+       {7},
+       {"heat", "cutting_heat", "copper_loss"},
+       "no load against load at one speed; with the place and the flag of a heat they are the same"});
   return effect;
 }
 

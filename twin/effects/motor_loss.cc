@@ -52,11 +52,25 @@ struct MotorLoss {
 
 Effect const& motor_loss_effect() {
   static Effect const effect = make_effect<MotorLoss>(
-      {"motor_loss", "no-load loss of the spindle motor: magnetising, hysteresis and eddy currents",
-       "P = P0 + Ph r + Pe r²,  r = ω/ω_rated; above the base speed Ph r_b²/r and Pe r_b²", "source", "stator or rotor",
+      {"motor_loss",
+       "no-load loss of the spindle motor: magnetising, hysteresis and eddy currents",
+       "P = P0 + Ph r + Pe r²,  r = ω/ω_rated; above the base speed Ph r_b²/r and Pe r_b²",
+       "source",
+       "stator or rotor",
        "power of speed 0 to 2 below the base speed; first seen at the motor, 20…40 min; ends when the motor is "
        "disabled",
-       "physics.md 1.7, §7 nos. 6, 7"});
+       "physics.md 1.7, §7 nos. 6, 7",
+       {6, 7},
+       {"copper_loss", "belt", "rotor_windage", "radiation"},
+       "no load against load; coast-down; the spindle turned by another motor"},
+      {{.amplitude = "eddy",
+        .largest = 300.0,
+        .sites = {{"at", "motor"}},
+        .shapes = {{}, {{"base_speed_ratio", "0.3"}}}},
+       {.amplitude = "hysteresis",
+        .largest = 300.0,
+        .sites = {{"at", "motor"}},
+        .shapes = {{}, {{"base_speed_ratio", "0.3"}}}}});
   return effect;
 }
 

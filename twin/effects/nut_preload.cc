@@ -61,10 +61,20 @@ struct NutPreload {
 
 Effect const& nut_preload_effect() {
   static Effect const effect = make_effect<NutPreload>(
-      {"nut_preload", "friction that a ball nut gains or loses as screw and nut warm differently",
-       "ΔQ = T_pre [(1 + δ/δ0)₊^(3/2) − 1] ω,  δ = r (α_s θ_screw − α_n θ_nut)", "source", "nut and screw",
+      {"nut_preload",
+       "friction that a ball nut gains or loses as screw and nut warm differently",
+       "ΔQ = T_pre [(1 + δ/δ0)₊^(3/2) − 1] ω,  δ = r (α_s θ_screw − α_n θ_nut)",
+       "source",
+       "nut and screw",
        "torque of the axis falls 20…30 % in warm-up when the nut is the warmer one; power of feed 1; ends at stop",
-       "physics.md 1.8, 1.4 (1.8)"});
+       "physics.md 1.8, 1.4 (1.8)",
+       {17},
+       {"ball_nut", "nut_reversal", "guide"},
+       "torque of the axis along a warm-up at constant feed"},
+      {{.amplitude = "torque",
+        .largest = 2.0,
+        .sites = {{"nut", "nut", "screw"}},
+        .shapes = {{{"deflection", "5 um"}, {"nominal_diameter", "40 mm"}}}}});
   return effect;
 }
 

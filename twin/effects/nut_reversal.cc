@@ -57,10 +57,20 @@ struct NutReversal {
 
 Effect const& nut_reversal_effect() {
   static Effect const effect = make_effect<NutReversal>(
-      {"nut_reversal", "heat of a ball nut each time that its axis reverses", "Q = ΔE f,  f = v d/stroke", "source",
+      {"nut_reversal",
+       "heat of a ball nut each time that its axis reverses",
+       "Q = ΔE f,  f = v d/stroke",
+       "source",
        "nut and screw",
        "proportional to the number of reversals: at one mean feed more with short strokes; ends at stop",
-       "physics.md 1.8, §7 no. 17"});
+       "physics.md 1.8, §7 no. 17",
+       {17},
+       {"ball_nut", "nut_preload", "guide"},
+       "the same mean feed with another stroke"},
+      {{.amplitude = "energy",
+        .largest = 5.0,
+        .sites = {{"nut", "nut", "screw"}},
+        .shapes = {{{"nut_length", "60 mm"}}}}});
   return effect;
 }
 

@@ -112,14 +112,30 @@ struct Preload {
 
 Effect const& preload_effect() {
   static Effect const effect = make_effect<Preload>(
-      {"preload", "heat that a rigidly preloaded bearing makes more or less as its preload changes",
+      {"preload",
+       "heat that a rigidly preloaded bearing makes more or less as its preload changes",
        "ΔQ = M1 [(F/F0)^(1+y) − 1] ω;  F/F0 = (1 + δ/δ0)₊^(3/2);  δ = cos α [α_b (r_i θ_i − r_o θ_o) + u(ω)] + α_b D_b "
        "θ_b "
        "∓ ½ sin α [α_s ∫θ_s dz − α_h ∫θ_h dz];  δ0 = 4.36e-4 mm (Q²/D_b)^(1/3), Q in N, D_b in mm",
-       "source", "both rings of a bearing with rigid preload",
+       "source",
+       "both rings of a bearing with rigid preload",
        "grows with T_i − T_o: bearing temperature overshoots 5…30 min after a start, power of speed 1.5 to 2.5; little "
        "after slow ramps; a cold start differs from a warm one",
-       "physics.md 1.4 (1.7), (1.8), (1.9), §7 no. 1; Stein & Tu 1994; Bossmanns & Tu 1999"});
+       "physics.md 1.4 (1.7), (1.8), (1.9), §7 no. 1; Stein & Tu 1994; Bossmanns & Tu 1999",
+       {1},
+       {"bearing", "rotor_windage", "fan_cooling", "grease_run_in"},
+       "fast start from cold against a slow ramp; restart within 10 min; torque or current of the spindle"},
+      {{.amplitude = "torque",
+        .largest = 0.1,
+        .sites = {{"inner", "bearing", "outer"}},
+        .shapes = {{{"ball_diameter", "12 mm"},
+                    {"pitch_diameter", "90 mm"},
+                    {"axial_preload", "300 N"},
+                    {"deflection", "2 um"}},
+                   {{"ball_diameter", "12 mm"},
+                    {"pitch_diameter", "90 mm"},
+                    {"axial_preload", "300 N"},
+                    {"deflection", "5 um"}}}}});
   return effect;
 }
 

@@ -37,10 +37,18 @@ struct PurgeAir : GivenTemperature {
 
 Effect const& purge_air_effect() {
   static Effect const effect = make_effect<PurgeAir>(
-      {"purge_air", "sealing air, or the air of oil-air lubrication, that cools what it passes",
-       "q = V̇ ρ c (T_air − T)", "boundary", "spindle nose, bearings",
+      {"purge_air",
+       "sealing air, or the air of oil-air lubrication, that cools what it passes",
+       "q = V̇ ρ c (T_air − T)",
+       "boundary",
+       "spindle nose, bearings",
        "power of speed 0; there while the air is on, at standstill too; pulls to the temperature of the air line",
-       "physics.md 1.6, §7 no. 25"});
+       "physics.md 1.6, §7 no. 25",
+       {25},
+       {"fan_cooling", "flood_coolant"},
+       "air off at standstill"},
+      {{.amplitude = "flow", .largest = 1.7e-3, .sites = {{"through", "shaft"}}},
+       {.amplitude = "flow", .largest = 1.7e-3, .sites = {{"through", "ring"}}}});
   return effect;
 }
 

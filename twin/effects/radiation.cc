@@ -43,7 +43,7 @@ struct Radiation {
   }
 
   void add_to(Assembly& assembly) const {
-    Place place = assembly.surface(on);
+    Place place = area ? assembly.place(on) : assembly.surface(on);
     if (area) place.site = thermal::with_area(place.site, *area);
     if (!(place.area() > 0.0))
       throw thermal::InputError("radiation '" + name + "': '" + on + "' has no area of its own; give one");
@@ -60,13 +60,19 @@ struct Radiation {
 
 Effect const& radiation_effect() {
   static Effect const effect =
-      make_effect<Radiation>({"radiation", "radiation between two surfaces, or from one to the room",
-                              "q = σ ε12 A F12 (T2⁴ − T1⁴),  ε12 = ε1 ε2/(1 − (1 − ε1)(1 − ε2) F12 F21)", "link, film",
+      make_effect<Radiation>({"radiation",
+                              "radiation between two surfaces, or from one to the room",
+                              "q = σ ε12 A F12 (T2⁴ − T1⁴),  ε12 = ε1 ε2/(1 − (1 − ε1)(1 − ε2) F12 F21)",
+                              "link, film",
                               "surfaces that see each other: motor and column, cover and bed; any surface and the room",
                               "proportional to the difference of two temperatures, about 5 W/K per m²; does not follow "
                               "speed; a room film holds "
                               "radiation already",
-                              "physics.md 2.9, §7 no. 23"});
+                              "physics.md 2.9, §7 no. 23",
+                              {23},
+                              {"air_gap", "motor_loss"},
+                              "a shield between both; what remains is the loss itself"},
+                             {{.amplitude = "area", .largest = 1.0, .sites = {{"on", "pair", "to"}}}});
   return effect;
 }
 

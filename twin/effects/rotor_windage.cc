@@ -113,14 +113,21 @@ struct RotorWindage {
 
 Effect const& rotor_windage_effect() {
   static Effect const effect = make_effect<RotorWindage>(
-      {"rotor_windage", "air friction of a motor's rotor in its gap, of a disc or a chuck",
+      {"rotor_windage",
+       "air friction of a motor's rotor in its gap, of a disc or a chuck",
        "known: P = P_r (ω/ω_r)^m;  gap: P = π C_f ρ ω³ r⁴ L, 1/√C_f = 2.04 + 1.768 ln(Re_δ √C_f);  disc: P = ½ C_M ρ "
        "ω³ r⁵, "
        "C_M = 3.87 Re^(−1/2), turbulent 0.146 Re^(−1/5)",
-       "source", "rotor and stator, shaft, chuck",
+       "source",
+       "rotor and stator, shaft, chuck",
        "power of speed 3 (2.7 in a turbulent gap): only above 70 % of the maximum speed; does not depend on "
        "temperature; ends at stop",
-       "physics.md 1.7, 1.12, §7 no. 18; Vrancik 1968; Dorfman 1963"});
+       "physics.md 1.7, 1.12, §7 no. 18; Vrancik 1968; Dorfman 1963",
+       {18},
+       {"bearing", "preload", "motor_loss", "fan_cooling"},
+       "runs at 60, 80 and 100 % of the speed; coast-down: a torque with the square of the speed"},
+      {{.amplitude = "power", .largest = 150.0, .sites = {{"rotor", "shaft"}}, .shapes = {{{"rotor_share", "1"}}}},
+       {.amplitude = "power", .largest = 150.0, .sites = {{"rotor", "motor"}}, .shapes = {{{"rotor_share", "1"}}}}});
   return effect;
 }
 

@@ -68,12 +68,18 @@ struct Seal {
 
 Effect const& seal_effect() {
   static Effect const effect = make_effect<Seal>(
-      {"seal", "friction of a seal that touches the shaft",
-       "Q = M ω;  lip: M = ½π μ p d²;  contact seals of a bearing: M[N mm] = K₁ d^β + K₂, d in mm", "source",
+      {"seal",
+       "friction of a seal that touches the shaft",
+       "Q = M ω;  lip: M = ½π μ p d²;  contact seals of a bearing: M[N mm] = K₁ d^β + K₂, d in mm",
+       "source",
        "nose, shaft and housing at the front bearing",
        "power of speed 1 exactly, whatever the temperature; shaft and housing together; seen at 200…1000 rpm, where "
        "bearing friction has vanished; ends at stop",
-       "physics.md 1.6, §7 no. 8; SKF 2006"});
+       "physics.md 1.6, §7 no. 8; SKF 2006",
+       {8},
+       {"belt", "bearing"},
+       "200…1000 rpm, where bearing friction has vanished; torque at speed 0 by extrapolation"},
+      {{.amplitude = "torque", .largest = 0.5, .sites = {{"shaft", "bearing", "housing"}}}});
   return effect;
 }
 

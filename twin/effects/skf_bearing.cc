@@ -85,14 +85,19 @@ struct SkfBearingPart {
 
 Effect const& skf_bearing_effect() {
   static Effect const effect = make_effect<SkfBearingPart>(
-      {"skf_bearing", "friction of angular contact ball bearings after SKF: screw supports, or a bound",
+      {"skf_bearing",
+       "friction of angular contact ball bearings after SKF: screw supports, or a bound",
        "Q = n (M_rr + M_sl) ω;  M_rr = Φ_ish Φ_rs R1 d_m^1.97 (F_r + R3 d_m⁴ n² + R2 F_a)^0.54 (νn)^0.6;  M_sl = μ S1 "
        "d_m^0.26 [(F_r + S3 d_m⁴ n²)^(4/3) + S2 F_a^(4/3)];  in N mm, mm, 1/min, mm²/s",
-       "source, link", "end of a screw and its bearing ring; n d_m below 4e5 mm/min",
+       "source, link",
+       "end of a screw and its bearing ring; n d_m below 4e5 mm/min",
        "power of speed 1.3 to 1.6, less in the steady state; offset of the position error, equal at all positions; "
        "ends "
        "at stop",
-       "physics.md 1.2 (1.5), §7 no. 20; SKF General Catalogue 2003, Rolling bearings 2013"});
+       "physics.md 1.2 (1.5), §7 no. 20; SKF General Catalogue 2003, Rolling bearings 2013",
+       {20},
+       {"ball_nut"},
+       "error of position at the ends of the stroke against its middle; torque without the nut"});
   return effect;
 }
 

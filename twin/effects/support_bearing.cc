@@ -60,12 +60,17 @@ struct SupportBearing {
 
 Effect const& support_bearing_effect() {
   static Effect const effect = make_effect<SupportBearing>(
-      {"support_bearing", "friction of the thrust bearings of a ball screw, and conduction through them",
-       "Q = M |ω|;  M = M_b (0.3 + 0.7 (νn/(ν40 n_r))^(2/3));  q = G (T_ring − T_shaft)", "source, link",
+      {"support_bearing",
+       "friction of the thrust bearings of a ball screw, and conduction through them",
+       "Q = M |ω|;  M = M_b (0.3 + 0.7 (νn/(ν40 n_r))^(2/3));  q = G (T_ring − T_shaft)",
+       "source, link",
        "end of a screw and its bearing ring",
        "power of feed 1 to 1.7; offset of the position error, equal at all "
        "positions; ends at stop",
-       "physics.md 1.9 (1.15), §7 no. 20; NSK catalogue"});
+       "physics.md 1.9 (1.15), §7 no. 20; NSK catalogue",
+       {20},
+       {"ball_nut"},
+       "error of position at the ends of the stroke against its middle; torque without the nut"});
   return effect;
 }
 
