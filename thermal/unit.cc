@@ -77,7 +77,9 @@ Unit times(Unit const& a, Unit const& b, int power) {
                           a.dimension.current + power * d.current};
   double const over = power > 0 ? b.numerator : b.denominator;
   double const under = power > 0 ? b.denominator : b.numerator;
-  return {product, a.numerator * raised(over), a.denominator * raised(under)};
+  double const numerator = a.numerator * raised(over), denominator = a.denominator * raised(under);
+  if (numerator == denominator) return {product, 1.0, 1.0};  // kg: no rounding on the way to and from SI
+  return {product, numerator, denominator};
 }
 
 std::vector<std::string> known_symbols() {

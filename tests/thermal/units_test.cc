@@ -180,9 +180,10 @@ TEST(FormatQuantity, ReadsWell) {
 }
 
 TEST(FormatQuantity, ParsesBackToTheSameDouble) {
-  std::vector<Dimension> const all = {dimension::length,      dimension::angular_speed,    dimension::speed,
-                                      dimension::volume_flow, dimension::temperature_rate, dimension::expansion,
-                                      dimension::pressure,    dimension::dimensionless,    Dimension{2, 0, 1, 0, 0}};
+  std::vector<Dimension> const all = {dimension::length,        dimension::angular_speed,    dimension::speed,
+                                      dimension::volume_flow,   dimension::temperature_rate, dimension::expansion,
+                                      dimension::pressure,      dimension::dimensionless,    dimension::mass,
+                                      dimension::heat_capacity, dimension::conductance,      Dimension{2, 0, 1, 0, 0}};
   for (Dimension const& d : all) {
     double value = 1e-9;
     for (int i = 0; i < 200; ++i, value *= -1.37) {
