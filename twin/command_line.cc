@@ -15,6 +15,7 @@
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "twin/challenge/challenge.h"
+#include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnose_files.h"
 #include "twin/effect_page.h"
 #include "twin/experiment_file.h"
@@ -232,6 +233,21 @@ void add_other_commands(CLI::App& app) {
   });
 }
 
+void add_compare_command(CLI::App& app) {
+  auto* command = app.add_subcommand("compare", "two machines against the same measurements, side by side");
+  auto before = std::make_shared<std::string>(), after = std::make_shared<std::string>();
+  auto data = std::make_shared<std::vector<std::filesystem::path>>();
+  auto json = std::make_shared<bool>(false);
+  command->add_option("machine", *before, "machine file or name")->required();
+  command->add_option("amended", *after, "the other one")->required();
+  command->add_option("data", *data, "measured runs: .h5, .csv, or a measurement file .toml")->required();
+  command->add_flag("--json", *json, "print everything as JSON");
+  command->callback([before, after, data, json] {
+    auto const comparison = compare_files(machine_file(*before), machine_file(*after), *data);
+    fmt::print("{}", *json ? comparison_json(comparison) : comparison_table(comparison));
+  });
+}
+
 void add_diagnose_command(CLI::App& app) {
   auto* command = app.add_subcommand("diagnose", "find where machine and measurement disagree, and name what is missing");
   auto files = std::make_shared<DiagnoseFiles>();
@@ -267,6 +283,7 @@ int command_line(int argc, char** argv) {
   run_command.add_to(app);
   add_other_commands(app);
   add_diagnose_command(app);
+  add_compare_command(app);
   add_challenge_command(app);
   std::signal(SIGINT, [](int) { stop_requested = true; });
   std::signal(SIGTERM, [](int) { stop_requested = true; });

@@ -1,0 +1,93 @@
+#include "twin/diagnosis/comparison.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "twin/experiment_file.h"
+#include "twin/run.h"
+
+/// Two machines along the same run: one has what the run was made with, the other lacks it.
+namespace thermotwin::twin {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Value document() { return read_toml(machine_file("v450")); }
+
+Machine nominal() { return Machine::build(document()); }
+/// Its front bearing has stiffer grease.
+Machine worse() {
+  auto other = document();
+  set_parameter(other, "bearing.front.grease_factor", "1.5");
+  return Machine::build(other);
+}
+
+/// What an ideal instrument shows, and each offset by something of its own.
+MeasuredRun measured(Machine const& machine) {
+  auto const experiment = parse_toml(R"(
+    title = "one start and one stop"
+    machine = "v450"
+    duration = "2 h"
+    spindle.blocks = [{duration = "1 h", speed = "5000 rpm"}, {duration = "1 h", speed = "0 rpm"}])",
+                                     "experiment.toml");
+  auto dataset = run(machine, read_experiment(experiment, "experiment.toml"), {}).dataset;
+  dataset.readings = dataset.truth_readings;
+  dataset.displacements = dataset.truth_displacements;
+  double offset = 0.0;
+  for (auto* group : {&dataset.readings, &dataset.displacements})
+    for (auto& channel : *group) channel.values.array() += (offset += 0.1);
+  return measured_run(dataset, machine, "made");
+}
+
+Machine without_lag(Machine machine) {
+  for (auto& sensor : machine.sensors) sensor.description.lag = sensor.description.stem_loss = 0.0;
+  return machine;
+}
+
+TEST(Comparison, MachineThatMadeTheDataHasNoGapAndTheOtherHas) {
+  auto const right = without_lag(worse()), wrong = without_lag(nominal());
+  auto const comparison = compare(wrong, right, {measured(right)});
+  auto const kelvin = total(comparison, "K"), micrometres = total(comparison, "um");
+  EXPECT_GT(kelvin.before, 0.1);
+  EXPECT_LT(kelvin.after, 1e-3);
+  EXPECT_GT(micrometres.before, 0.1);
+  EXPECT_LT(micrometres.after, 1e-2);
+}
+
+TEST(Comparison, OffsetsOfInstrumentsAreTakenOffAndTold) {
+  auto const machine = without_lag(nominal());
+  auto const comparison = compare(machine, machine, {measured(machine)});
+  auto const& channels = comparison.runs[0].channels;
+  EXPECT_NEAR(channels[0].offset_before, 0.1, 1e-3);
+  EXPECT_NEAR(channels[3].offset_after, 0.4, 1e-3);
+}
+
+TEST(Comparison, RegimesAreSpeedsAndTheirSquaresAddUp) {
+  auto const right = without_lag(worse()), wrong = without_lag(nominal());
+  auto const run = compare(wrong, right, {measured(right)}).runs[0];
+  EXPECT_THAT(run.regimes, ElementsAre("idle", "5000 rpm"));
+  for (auto const& channel : run.channels) {
+    if (channel.whole.samples == 0) continue;
+    double squares = 0.0;
+    for (auto const& part : channel.parts) squares += part.before * part.before * double(part.samples);
+    EXPECT_NEAR(std::sqrt(squares / double(channel.whole.samples)), channel.whole.before, 1e-12);
+  }
+  EXPECT_EQ(run.channels[0].parts[1].samples, 60);
+}
+
+TEST(Comparison, PageAndJsonSayTheSame) {
+  auto const right = without_lag(worse()), wrong = without_lag(nominal());
+  auto const comparison = compare(wrong, right, {measured(right)});
+  auto const json = nlohmann::json::parse(comparison_json(comparison));
+  auto const& channel = comparison.runs[0].channels[0];
+  EXPECT_DOUBLE_EQ(json["runs"][0]["channels"][0]["regimes"]["5000 rpm"]["before"], channel.parts[1].before);
+  EXPECT_DOUBLE_EQ(json["total"]["K"]["after"], total(comparison, "K").after);
+  EXPECT_THAT(comparison_table(comparison), HasSubstr(fmt::format("{:>8.3g}", channel.whole.before)));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

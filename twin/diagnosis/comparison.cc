@@ -1,0 +1,154 @@
+#include "twin/diagnosis/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "thermal/error.h"
+#include "thermal/units.h"
+#include "twin/diagnosis/prediction.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double distinct_speed = 10.0;  // rpm
+constexpr std::size_t most_speeds = 8;
+
+/// Names of a run's regimes, and for each row the one that it belongs to.
+struct Regimes {
+  std::vector<std::string> names;
+  std::vector<std::size_t> of_row;
+};
+
+std::vector<double> speeds_of(MeasuredRun const& run) {
+  auto const& channels = run.course->channels();
+  auto const speed =
+      std::find_if(channels.begin(), channels.end(), [](auto const& c) { return c.name == "spindle.speed"; });
+  std::vector<double> values(channels.size()), speeds;
+  for (double const t : run.time) {
+    run.course->evaluate(t, values);
+    double const si = speed == channels.end() ? 0.0 : values[std::size_t(speed - channels.begin())];
+    speeds.push_back(distinct_speed * std::round(thermal::to_unit(si, "rpm") / distinct_speed));
+  }
+  return speeds;
+}
+
+Regimes regimes_of(MeasuredRun const& run) {
+  auto speeds = speeds_of(run);
+  double const fastest = *std::max_element(speeds.begin(), speeds.end());
+  std::map<double, std::size_t> order;
+  for (double const speed : speeds) order[speed] = 0;
+  bool const quarters = order.size() > most_speeds;
+  if (quarters) {
+    order.clear();
+    for (double& speed : speeds) {
+      speed = fastest / 4.0 * std::ceil(4.0 * speed / fastest);
+      order[speed] = 0;
+    }
+  }
+  Regimes regimes;
+  for (auto& [speed, index] : order) {
+    index = regimes.names.size();
+    regimes.names.push_back(speed == 0.0 ? "idle"
+                            : quarters   ? fmt::format("to {:.0f} rpm", speed)
+                                         : fmt::format("{:.0f} rpm", speed));
+  }
+  for (double const speed : speeds) regimes.of_row.push_back(order.at(speed));
+  return regimes;
+}
+
+double mean_of_finite(Eigen::VectorXd const& values) {
+  double sum = 0.0;
+  int count = 0;
+  for (double const value : values)
+    if (std::isfinite(value)) {
+      sum += value;
+      ++count;
+    }
+  return count > 0 ? sum / count : NAN;
+}
+
+/// RMS over the rows of one regime, or over all.
+GapPair gap(Eigen::VectorXd const& before, Eigen::VectorXd const& after, Regimes const& regimes,
+            std::ptrdiff_t only = -1) {
+  GapPair sum;
+  for (Eigen::Index r = 0; r < before.size(); ++r) {
+    if (!std::isfinite(before[r])) continue;
+    if (only >= 0 && regimes.of_row[std::size_t(r)] != std::size_t(only)) continue;
+    sum.before += before[r] * before[r];
+    sum.after += after[r] * after[r];
+    ++sum.samples;
+  }
+  if (sum.samples == 0) return {NAN, NAN, 0};
+  return {std::sqrt(sum.before / double(sum.samples)), std::sqrt(sum.after / double(sum.samples)), sum.samples};
+}
+
+std::string unit_of(MeasuredChannel const& channel, Machine const& machine) {
+  if (!channel.displacement) return "K";
+  auto const found = std::find_if(machine.displacements.begin(), machine.displacements.end(),
+                                  [&](auto const& d) { return d.name == channel.name; });
+  return found != machine.displacements.end() && found->rotation ? "urad" : "um";
+}
+
+ComparedChannel compare_channel(MeasuredChannel const& channel, std::string const& unit, Eigen::VectorXd const& before,
+                                Eigen::VectorXd const& after, Regimes const& regimes) {
+  double const scale = unit == "K" ? 1.0 : 1e6;
+  Eigen::VectorXd was = scale * (channel.values - before), is = scale * (channel.values - after);
+  ComparedChannel result{channel.name, unit, {}, {}, mean_of_finite(was), mean_of_finite(is)};
+  was.array() -= result.offset_before;
+  is.array() -= result.offset_after;
+  result.whole = gap(was, is, regimes);
+  for (std::size_t i = 0; i < regimes.names.size(); ++i)
+    result.parts.push_back(gap(was, is, regimes, std::ptrdiff_t(i)));
+  return result;
+}
+
+ComparedRun compare_run(Machine const& before, Machine const& after, MeasuredRun const& run) {
+  auto const regimes = regimes_of(run);
+  Eigen::MatrixXd const was = predict(before, run), is = predict(after, run);
+  ComparedRun result{run.name, regimes.names, {}, run.remarks};
+  for (std::size_t c = 0; c < run.channels.size(); ++c)
+    result.channels.push_back(compare_channel(run.channels[c], unit_of(run.channels[c], before),
+                                              was.col(Eigen::Index(c)), is.col(Eigen::Index(c)), regimes));
+  return result;
+}
+
+}  // namespace
+
+Comparison compare(Machine const& before, Machine const& after, std::vector<MeasuredRun> const& runs) {
+  Comparison comparison{before.name, after.name, {}};
+  for (auto const& run : runs) comparison.runs.push_back(compare_run(before, after, run));
+  return comparison;
+}
+
+Comparison compare_files(std::filesystem::path const& before, std::filesystem::path const& after,
+                         std::vector<std::filesystem::path> const& data) {
+  Machine const was = Machine::read(before), is = Machine::read(after);
+  std::vector<MeasuredRun> runs;
+  for (auto const& path : data) {
+    runs.push_back(read_measured_run(path, was));
+    static_cast<void>(read_measured_run(path, is));  // what only the second machine needs must be there, too
+  }
+  Comparison comparison = compare(was, is, runs);
+  comparison.before = before.string();
+  comparison.after = after.string();
+  return comparison;
+}
+
+GapPair total(Comparison const& comparison, std::string const& unit) {
+  GapPair sum;
+  int channels = 0;
+  for (auto const& run : comparison.runs)
+    for (auto const& channel : run.channels) {
+      if (channel.unit != unit || channel.whole.samples == 0) continue;
+      sum.before += channel.whole.before * channel.whole.before;
+      sum.after += channel.whole.after * channel.whole.after;
+      sum.samples += channel.whole.samples;
+      ++channels;
+    }
+  if (channels == 0) return {NAN, NAN, 0};
+  return {std::sqrt(sum.before / channels), std::sqrt(sum.after / channels), sum.samples};
+}
+
+}  // namespace thermotwin::twin
