@@ -101,13 +101,10 @@ Json sealed(HiddenWorld const& world, std::string const& machine) {
     json["effects"].push_back(effect_json(effect));
     if (world.kind == CaseKind::outside) json["removed"].push_back(effect.hypothesis.effect->name);
   }
+  json["sensor"] = nullptr;
   if (world.fault)
-    json["sensor"] = {{"name", world.fault->sensor}, {"fault", world.fault->kind}, {"jump_K", world.fault->jump}};
-  else if (world.kind == CaseKind::sensor)
-    json["sensor"] = {{"name", world.effects.at(0).hypothesis.body},
-                      {"fault", world.effects.at(0).hypothesis.effect->name}};
-  else
-    json["sensor"] = nullptr;
+    json["sensor"] = {
+        {"name", world.fault->sensor}, {"fault", world.fault->kind}, {"amplitude", world.fault->amplitude}};
   return json;
 }
 

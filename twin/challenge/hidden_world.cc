@@ -119,7 +119,11 @@ void draw_sensors(Value& document, RandomStream& stream, std::map<std::string, d
   }
 }
 
-bool about_sensor(Hypothesis const& hypothesis) { return hypothesis.effect->name.starts_with("sensor_"); }
+/// What a sensor does is a fault, not an effect of the machine.
+bool about_sensor(Hypothesis const& hypothesis) {
+  auto const& sites = hypothesis.trial->sites;
+  return std::any_of(sites.begin(), sites.end(), [](auto const& site) { return site.kind == "sensor"; });
+}
 
 /// What the nominal machine shows, without instruments.
 struct Shown {
@@ -155,7 +159,7 @@ class EffectDraw {
         held_out_(challenge_runs(machine_.limits, seed).back()),
         all_(hypotheses(nominal, machine_)) {}
 
-  HiddenEffect draw(bool sensor, std::vector<HiddenEffect> const& others);
+  HiddenEffect draw(std::vector<HiddenEffect> const& others);
   /// The hidden world's document with the effect; a source on a block takes a part of it. InputError if it cannot be
   /// there.
   [[nodiscard]] Value with(Value document, HiddenEffect const& effect, std::string const& name);
@@ -184,24 +188,22 @@ HiddenEffect EffectDraw::pick(std::vector<Hypothesis const*> const& candidates) 
   for (auto const* candidate : candidates)
     if (candidate->effect->name == *name) of_effect.push_back(candidate);
   Hypothesis const& chosen = *of_effect[std::size_t(stream_.uniform() * double(of_effect.size()))];
-  double const least = about_sensor(chosen) ? 0.4 : least_amplitude;
-  double amplitude = chosen.trial->largest * stream_.log_uniform(least, most_amplitude);
+  double amplitude = chosen.trial->largest * stream_.log_uniform(least_amplitude, most_amplitude);
   if (chosen.trial->either_sign && stream_.uniform() < 0.5) amplitude = -amplitude;
   return {chosen, amplitude};
 }
 
 bool EffectDraw::matters(HiddenEffect const& effect) {
-  if (about_sensor(effect.hypothesis)) return true;
   if (!without_) without_ = show(nominal_, held_out_);
   auto const with = show(with_hypothesis(nominal_, effect.hypothesis, "hidden", effect.amplitude), held_out_);
   auto const [displacement, rise] = with.largest_difference(*without_);
   return (displacement >= least_displacement || rise >= least_rise) && rise <= most_rise;
 }
 
-HiddenEffect EffectDraw::draw(bool sensor, std::vector<HiddenEffect> const& others) {
+HiddenEffect EffectDraw::draw(std::vector<HiddenEffect> const& others) {
   std::vector<Hypothesis const*> candidates;
   for (auto const& hypothesis : all_)
-    if (about_sensor(hypothesis) == sensor && std::none_of(others.begin(), others.end(), [&](auto const& other) {
+    if (!about_sensor(hypothesis) && std::none_of(others.begin(), others.end(), [&](auto const& other) {
           return other.hypothesis.effect == hypothesis.effect;
         }))
       candidates.push_back(&hypothesis);
@@ -215,7 +217,7 @@ HiddenEffect EffectDraw::draw(bool sensor, std::vector<HiddenEffect> const& othe
       continue;  // not on this form of the machine
     }
   }
-  throw InputError(fmt::format("the machine has no site where a hidden {} would show", sensor ? "fault" : "effect"));
+  throw InputError("the machine has no site where a hidden effect would show");
 }
 
 /// A box of between half and all of each edge.
@@ -247,28 +249,42 @@ Value EffectDraw::with(Value document, HiddenEffect const& effect, std::string c
   throw InputError(fmt::format("{} cannot act on the other form of the machine", effect.hypothesis.label()));
 }
 
-SensorFault draw_fault(Value const& nominal, RandomStream& stream, std::uint64_t seed) {
-  Value document = nominal;
-  std::vector<std::string> sensors;
-  for (auto const* table : tables_of(document, "temperature_sensor"))
-    if (texts_of(*table, "at") != std::vector<std::string>{"ambient"}) sensors.push_back(name_in(*table));
+SensorFault draw_fault(Value& document, RandomStream& stream) {
+  std::vector<Value*> sensors;
+  for (auto* table : tables_of(document, "temperature_sensor"))
+    if (texts_of(*table, "at") != std::vector<std::string>{"ambient"}) sensors.push_back(table);
+  if (sensors.empty()) throw InputError("the machine has no sensor that could be faulty");
+  Value& table = *sensors[std::size_t(stream.uniform() * double(sensors.size()))];
   SensorFault fault;
-  fault.sensor = sensors[std::size_t(stream.uniform() * double(sensors.size()))];
-  fault.kind = stream.uniform() < 0.5 ? "stuck" : "jumping";
+  fault.sensor = name_in(table);
+  fault.kind =
+      std::array<char const*, 5>{"drift", "lag", "contact", "stuck", "jumping"}[std::size_t(5 * stream.uniform())];
+  double const sign = stream.uniform() < 0.5 ? -1.0 : 1.0;
   fault.from = stream.uniform(0.1, 0.6);
-  fault.jump = stream.uniform(0.7, 2.0) * (stream.uniform() < 0.5 ? -1.0 : 1.0);
-  fault.seed = seed;
+  if (fault.kind == "drift") {
+    fault.amplitude = sign * stream.log_uniform(0.25, 0.5) / 86400.0;
+    set_key(table, "drift", fmt::format("{:.9g} K/day", fault.amplitude * 86400.0));
+  } else if (fault.kind == "lag") {
+    fault.amplitude = stream.log_uniform(200.0, 900.0);
+    set_key(table, "lag", fmt::format("{:.9g} s", fault.amplitude));
+  } else if (fault.kind == "contact") {
+    fault.amplitude = stream.log_uniform(0.1, 0.3);
+    set_key(table, "stem_loss", fault.amplitude);
+  } else if (fault.kind == "jumping") {
+    fault.amplitude = sign * stream.uniform(0.7, 2.0);
+  }
   return fault;
 }
 
-void break_sensor(output::Channel& channel, SensorFault const& fault, int run) {
+void break_sensor(output::Channel& channel, SensorFault const& fault, std::uint64_t seed, int run) {
   Eigen::Index const rows = channel.values.size();
   if (fault.kind == "stuck") {
     auto const from = run == 0 ? Eigen::Index(fault.from * double(rows)) : 0;
     channel.values.tail(rows - from).setConstant(channel.values[from]);
     return;
   }
-  RandomStream stream(fault.seed, fmt::format("jumps {}", run));
+  if (fault.kind != "jumping") return;
+  RandomStream stream(seed, fmt::format("jumps {}", run));
   bool off = false;
   double const mean_interval = double(rows) / 6.0;
   for (Eigen::Index r = 0, next = 0; r < rows; ++r) {
@@ -276,7 +292,7 @@ void break_sensor(output::Channel& channel, SensorFault const& fault, int run) {
       if (r > 0) off = !off;
       next = r + 1 + Eigen::Index(stream.uniform(0.4, 1.6) * mean_interval);
     }
-    if (off) channel.values[r] += fault.jump;
+    if (off) channel.values[r] += fault.amplitude;
   }
 }
 
@@ -319,13 +335,13 @@ HiddenWorld draw_hidden_world(Value const& nominal, std::uint64_t seed, CaseKind
   world.hidden = world.healthy;
   if (kind == CaseKind::none) return world;
 
-  EffectDraw draw(nominal, form, effects, seed);
-  if (kind == CaseKind::sensor && effects.uniform() < 0.4) {
-    world.fault = draw_fault(nominal, effects, seed);
+  if (kind == CaseKind::sensor) {
+    world.fault = draw_fault(world.hidden, effects);
     return world;
   }
+  EffectDraw draw(nominal, form, effects, seed);
   for (int i = 0; i < (kind == CaseKind::two ? 2 : 1); ++i) {
-    world.effects.push_back(draw.draw(kind == CaseKind::sensor, world.effects));
+    world.effects.push_back(draw.draw(world.effects));
     world.hidden = draw.with(world.hidden, world.effects.back(), fmt::format("hidden_{}", i + 1));
   }
   return world;
@@ -351,7 +367,7 @@ void disturb(output::Dataset& dataset, HiddenWorld const& world, int run) {
   }
   if (!world.fault) return;
   for (auto& channel : dataset.readings)
-    if (channel.name == world.fault->sensor) break_sensor(channel, *world.fault, run);
+    if (channel.name == world.fault->sensor) break_sensor(channel, *world.fault, world.seed, run);
 }
 
 }  // namespace thermotwin::twin

@@ -28,13 +28,12 @@ struct HiddenEffect {
   double amplitude = 0.0;
 };
 
-/// A sensor whose readings go wrong; what a part of the machine file can say (drift, lag, contact) is a hidden effect.
+/// A sensor whose readings go wrong (physics.md §7 nos. 27 to 29).
 struct SensorFault {
   std::string sensor;
-  std::string kind;   ///< "stuck" or "jumping"
-  double from = 0.0;  ///< share of run 1 after which it is stuck; all of the other runs
-  double jump = 0.0;  ///< [K]
-  std::uint64_t seed = 0;
+  std::string kind;        ///< "drift", "lag", "contact", "stuck" or "jumping"
+  double amplitude = 0.0;  ///< drift [K/s], lag [s], share of the way to the air [1], jump [K]; of a stuck one 0
+  double from = 0.0;       ///< share of run 1 after which it is stuck; it is throughout the other runs
 };
 
 /// The measured machine behind a challenge: another form of the network, other parameters, imperfect instruments, and
