@@ -25,7 +25,7 @@ struct ComparedChannel {
 };
 
 /// One run: gaps per channel, whole and per regime. A regime is a speed of the spindle: idle, 2500 rpm; where there are
-/// more than eight, idle and quarters of the fastest.
+/// more than eight, idle and quarters of the fastest; none, where all of the run is one.
 struct ComparedRun {
   std::string name;
   std::vector<std::string> regimes;

@@ -127,8 +127,9 @@ void add_constants(MeasurementFile const& file, MeasuredData& data) {
     scenarios::SampledInput input;
     input.name = constant.channel;
     input.unit = thermal::unit_of(quantity.dimension);
-    input.times = {0.0, data.time[data.time.size() - 1]};
-    input.values = {quantity.value, quantity.value};
+    input.absolute_temperature = quantity.absolute_temperature;
+    input.times.assign(data.time.begin(), data.time.end());
+    input.values.assign(input.times.size(), quantity.value);
     data.inputs.push_back(std::move(input));
   }
 }
