@@ -146,6 +146,11 @@ void ExperimentCourse::add_clock(Experiment const& experiment) {
   Signal const last_midnight(times, midnights, Interpolation::step);
   add({"time_of_day", "s", "clock"}, [last_midnight](double t) { return t - last_midnight.at(t); });
   add_jumps(last_midnight.jumps());
+  auto const angle = [start = experiment.start_time_of_day](double t) {
+    return 2.0 * std::numbers::pi * (start + t) / day;
+  };
+  add({"clock.day_cosine", "1", "1 at midnight, -1 at noon"}, [angle](double t) { return std::cos(angle(t)); });
+  add({"clock.day_sine", "1", "1 at six in the morning"}, [angle](double t) { return std::sin(angle(t)); });
 }
 
 void ExperimentCourse::replace_or_add(DrivenChannel const& driven) {

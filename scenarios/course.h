@@ -32,6 +32,7 @@ namespace thermotwin::scenarios {
 /// | coolant.temperature | K | of the supply |
 /// | chiller.offset | K | added to the machine's set point |
 /// | time_of_day | s | 0 to 86400 |
+/// | clock.day_cosine, clock.day_sine | 1 | of 2π time_of_day/86400 s |
 ///
 /// Recorded columns and input programmes replace a channel of the same name, or add one. A replaced spindle.speed or
 /// <axis>.feed carries along what follows from it.

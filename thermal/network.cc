@@ -151,6 +151,12 @@ Port NetworkBuilder::add_boundary(Boundary boundary) {
   return {Port::Kind::boundary, int(network_.boundaries_.size()) - 1};
 }
 
+void NetworkBuilder::add_to_boundary(Port boundary, double offset, std::vector<Boundary::Term> const& terms) {
+  auto& known = network_.boundaries_.at(std::size_t(boundary.index));
+  known.offset += offset;
+  known.terms.insert(known.terms.end(), terms.begin(), terms.end());
+}
+
 Port NetworkBuilder::add_average(Average average) {
   double sum = 0.0;
   for (double w : average.weights) sum += w;

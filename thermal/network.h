@@ -149,6 +149,8 @@ class NetworkBuilder {
   /// A controller's state: ds/dt = "heat flow" of the laws that write to it, no body, not in the energy balance.
   Port add_signal(std::string const& name);
   Port add_boundary(Boundary boundary);
+  /// Raises a boundary that is there by an offset and further terms.
+  void add_to_boundary(Port boundary, double offset, std::vector<Boundary::Term> const& terms);
   Port add_average(Average average);
   /// The channel that carries the weight of entry i of a moving average: the share of the moving part that is there.
   [[nodiscard]] int weight_channel(Port average, int entry) const;

@@ -206,6 +206,15 @@ thermal::Port Assembly::air(Eigen::Vector3d const& point) {
               {{builder_.channel("ambient.floor_temperature"), 1.0}, {builder_.channel("ambient.gradient"), height}}});
 }
 
+void Assembly::add_air_terms() {
+  for (auto const& [height, port] : airs_)
+    for (auto const& term : air_terms_) {
+      std::vector<thermal::Boundary::Term> follows;
+      if (!term.channel.empty()) follows.push_back({builder_.channel(term.channel), term.rise});
+      builder_.add_to_boundary(port, term.gradient * (height - term.reference_height), follows);
+    }
+}
+
 thermal::Port Assembly::boundary(std::string const& channel, double offset) {
   auto const key = std::pair(channel, offset);
   auto const it = boundaries_.find(key);

@@ -48,6 +48,15 @@ struct TemperatureTerm {
   double coefficient = 0.0;  ///< [m/K] or [rad/K]
 };
 
+/// How the air at the machine departs from what the experiment says of the room: by a rise that follows an input, or
+/// with height, at height z: rise · u[channel] + gradient · (z − reference_height).
+struct AirTerm {
+  std::string channel = {};
+  double rise = 0.0;              ///< [K]
+  double gradient = 0.0;          ///< [K/m]
+  double reference_height = 0.0;  ///< [m]
+};
+
 /// What a part does to the reading of one instrument.
 struct ReadingTerm {
   std::string channel;     ///< sensor, or displacement channel
@@ -55,6 +64,7 @@ struct ReadingTerm {
   double lag = 0.0;        ///< of first order, besides the instrument's own [s]
   double air_share = 0.0;  ///< of the way from the body's temperature to that of the air [1]
   double per_air = 0.0;    ///< of a displacement, per kelvin of the air near the tool since the start [m/K]
+  bool of_displacement = false;
 };
 
 /// What the parts of a machine file are added to: the network while it is built, and the names of everything in it.
@@ -79,7 +89,7 @@ class Assembly {
   [[nodiscard]] thermal::Port port(Place const& place);
   [[nodiscard]] thermal::Port port(std::string const& text) { return port(place(text)); }
   [[nodiscard]] thermal::Port node(Place const& place, int local) const;
-  /// Room air at the height of a point [m].
+  /// Air at the height of a point [m]: the room's, with what the parts add to it.
   [[nodiscard]] thermal::Port air(Eigen::Vector3d const& point);
   /// A boundary whose temperature is an input channel plus an offset [K].
   [[nodiscard]] thermal::Port boundary(std::string const& channel, double offset = 0.0);
@@ -91,6 +101,9 @@ class Assembly {
 
   void displace(InputTerm term) { input_terms_.push_back(std::move(term)); }
   void displace(TemperatureTerm term) { temperature_terms_.push_back(std::move(term)); }
+  void warm_air(AirTerm term) { air_terms_.push_back(std::move(term)); }
+  /// Gives all boundaries of air what the parts add to them, whichever came first; once, when all parts are there.
+  void add_air_terms();
   void misread(ReadingTerm term) { reading_terms_.push_back(std::move(term)); }
   [[nodiscard]] std::vector<ReadingTerm> const& reading_terms() const { return reading_terms_; }
   [[nodiscard]] std::vector<InputTerm> const& input_terms() const { return input_terms_; }
@@ -115,6 +128,7 @@ class Assembly {
   std::vector<InputTerm> input_terms_;
   std::vector<TemperatureTerm> temperature_terms_;
   std::vector<ReadingTerm> reading_terms_;
+  std::vector<AirTerm> air_terms_;
   double maximum_spindle_speed_ = 0.0;
   Eigen::Vector3d up_;
   int part_ = 0;

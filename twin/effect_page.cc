@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace thermotwin::twin {
 namespace {
@@ -99,22 +101,51 @@ std::string field_rows(std::vector<FieldRecord> const& fields, std::string const
   return text;
 }
 
+/// "conductance up to 5 W/K at shaft; conductance up to 5 W/K at ring"
+std::string tried(Effect const& effect) {
+  std::vector<std::string> lines;
+  for (auto const& trial : effect.trials) {
+    auto const field = std::find_if(effect.parameters.begin(), effect.parameters.end(),
+                                    [&](auto const& f) { return f.key == trial.amplitude; });
+    std::string sites;
+    for (auto const& site : trial.sites) sites += (sites.empty() ? " at every " : " by ") + site.kind;
+    lines.push_back(fmt::format("{} up to {}{}{}", trial.amplitude, trial.either_sign ? "± " : "",
+                                thermal::format_quantity(trial.largest, field->dimension), sites));
+  }
+  return fmt::format("{}", fmt::join(lines, "; "));
+}
+
+/// Titles and texts of an effect, those that it has, in the order in which people read them.
+std::vector<std::pair<std::string, std::string>> texts(Effect const& effect) {
+  std::vector<std::pair<std::string, std::string>> all = {
+      {"Equation", effect.equation},
+      {"Changes", effect.changes},
+      {"Places", effect.places},
+      {"Signature", effect.signature},
+      {"Looks like", fmt::format("{}", fmt::join(effect.confusable, ", "))},
+      {"Told apart", effect.separated_by},
+      {"Tried", tried(effect)},
+      {"Number", fmt::format("{}", fmt::join(effect.numbers, ", "))},
+      {"Source", effect.source}};
+  std::erase_if(all, [](auto const& entry) { return entry.second.empty(); });
+  return all;
+}
+
 std::string effect_section(Effect const& effect) {
+  std::string list;
+  for (auto const& [title, text] : texts(effect)) list += fmt::format("- {}: {}\n", title, text);
   return fmt::format(
-      "\n## {}\n\n{}.\n\n"
-      "- Equation: {}\n- Changes: {}\n- Places: {}\n- Signature: {}\n- Source: {}\n\n"
+      "\n## {}\n\n{}.\n\n{}\n"
       "| parameter | kind | default | plausible | meaning |\n|---|---|---|---|---|\n{}",
-      effect.name, effect.meaning, effect.equation, effect.changes, effect.places, effect.signature, effect.source,
-      field_rows(effect.parameters, ""));
+      effect.name, effect.meaning, list, field_rows(effect.parameters, ""));
 }
 
 }  // namespace
 
 std::string effect_page(Effect const& effect) {
-  return wrapped(effect.name + ": " + effect.meaning, 0) + "\n" + entry("Equation", effect.equation) +
-         entry("Changes", effect.changes) + entry("Places", effect.places) + entry("Signature", effect.signature) +
-         entry("Source", effect.source) + fmt::format("\nParameters of [[{}]]:\n\n", effect.name) +
-         field_lines(effect.parameters, 2);
+  std::string page = wrapped(effect.name + ": " + effect.meaning, 0) + "\n";
+  for (auto const& [title, text] : texts(effect)) page += entry(title, text);
+  return page + fmt::format("\nParameters of [[{}]]:\n\n", effect.name) + field_lines(effect.parameters, 2);
 }
 
 std::string effect_list() {

@@ -9,7 +9,8 @@
 /// the file uses, so that it cannot differ from what the program does. At most 100 columns wide.
 namespace thermotwin::twin {
 
-/// One effect: meaning, equation, what it changes, places, signature, source, and a table of its parameters.
+/// One effect: meaning, equation, what it changes, places, signature, what looks like it and how to tell, how diagnosis
+/// tries it, source, and a table of its parameters.
 [[nodiscard]] std::string effect_page(Effect const& effect);
 
 /// A line for each effect of the catalogue.

@@ -6,6 +6,7 @@
 #include "scenarios/feed_program.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
+#include "twin/instruments/temperature_specimen.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -24,13 +25,25 @@ void note(output::Dataset& dataset, std::string const& instrument, std::map<std:
     dataset.provenance["instrument." + instrument + "." + property] = thermal::format_number(value);
 }
 
+/// The sensor as it was drawn, with what the machine's parts do to its reading.
+SensorDescription misread(SensorDescription sensor, Machine const& machine, InstrumentChannel const& channel) {
+  for (auto const& term : machine.reading_terms) {
+    if (term.of_displacement || term.channel != sensor.name) continue;
+    auto const drawn = draw_specimen(sensor, channel);
+    sensor.drift = drawn.drift + term.drift;
+    sensor.lag = drawn.lag + term.lag;
+    sensor.stem_loss = drawn.stem_loss + term.air_share;
+  }
+  return sensor;
+}
+
 void measure_temperatures(History const& history, InstrumentChannel channel, output::Dataset& dataset) {
   auto const times = history.times();
   auto const& sensors = history.machine->sensors;
   for (std::size_t s = 0; s < sensors.size(); ++s) {
     channel.name = sensors[s].description.name;
     auto const readings =
-        read(sensors[s].description, channel,
+        read(misread(sensors[s].description, *history.machine, channel), channel,
              {times, history.column(history.sensor_body, s), history.column(history.sensor_air, s)}, times);
     note(dataset, channel.name, readings.drawn);
     dataset.readings[s].values = readings.values;
@@ -86,6 +99,18 @@ void measure_nest(History const& history, InstrumentChannel channel, output::Dat
     dataset.displacements.push_back({name, "um", title, readings.probes.col(k)});
     dataset.truth_displacements.push_back({name, "um", title, readings.truth_probes.col(k)});
   }
+}
+
+/// What the machine's parts do to the readings of displacements.
+void misread_displacements(History const& history, output::Dataset& dataset) {
+  auto const times = history.times();
+  auto const air = Eigen::Map<Eigen::VectorXd const>(history.air.data(), times.size());
+  auto const& channels = history.machine->displacements;
+  for (auto const& term : history.machine->reading_terms)
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      if (term.of_displacement && channels[c].name == term.channel)
+        dataset.displacements[c].values +=
+            to_um * (term.drift * times.array() + term.per_air * (air.array() - air[0])).matrix();
 }
 
 void measure_positions(History const& history, scenarios::Experiment const& experiment, InstrumentChannel channel,
@@ -162,6 +187,7 @@ void measure(History const& history, scenarios::Experiment const& experiment, ou
   measure_temperatures(history, channel, dataset);
   measure_displacements(history, channel, dataset);
   measure_nest(history, channel, dataset);
+  misread_displacements(history, dataset);
   measure_positions(history, experiment, channel, dataset);
 }
 

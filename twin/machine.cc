@@ -150,21 +150,26 @@ void MachineBuilder::read_parts() {
   }
 }
 
-/// What parts add to displacements must find one of that name.
+/// What parts add to displacements and readings must find one of that name.
 void MachineBuilder::check_terms() const {
-  std::vector<std::string> names;
-  for (auto const& kind : {"displacement", "rotation"})
-    for (auto const& table : tables_.of(kind))
-      if (Value const* name = table.is_table() ? table.find("name") : nullptr; name && name->is_text())
-        names.push_back(std::get<std::string>(name->content));
-  auto const check = [&](auto const& terms) {
-    for (auto const& term : terms)
-      if (std::find(names.begin(), names.end(), term.displacement) == names.end())
-        throw InputError(fmt::format("unknown displacement '{}'; {}", term.displacement,
-                                     thermal::did_you_mean(term.displacement, names)));
+  auto const names_of = [&](std::vector<std::string> const& kinds) {
+    std::vector<std::string> names;
+    for (auto const& kind : kinds)
+      for (auto const& table : tables_.of(kind))
+        if (Value const* name = table.is_table() ? table.find("name") : nullptr; name && name->is_text())
+          names.push_back(std::get<std::string>(name->content));
+    return names;
   };
-  check(assembly_.input_terms());
-  check(assembly_.temperature_terms());
+  auto const check = [](std::string const& kind, std::string const& name, std::vector<std::string> const& names) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError(fmt::format("unknown {} '{}'; {}", kind, name, thermal::did_you_mean(name, names)));
+  };
+  auto const displacements = names_of({"displacement", "rotation"}), sensors = names_of({"temperature_sensor"});
+  for (auto const& term : assembly_.input_terms()) check("displacement", term.displacement, displacements);
+  for (auto const& term : assembly_.temperature_terms()) check("displacement", term.displacement, displacements);
+  for (auto const& term : assembly_.reading_terms())
+    check(term.of_displacement ? "displacement" : "sensor", term.channel,
+          term.of_displacement ? displacements : sensors);
 }
 
 void MachineBuilder::read_sensors() {
@@ -289,6 +294,7 @@ Machine MachineBuilder::operator()() {
   read_screws();
   read_displacement_instruments();
   machine_.reading_terms = assembly_.reading_terms();
+  assembly_.add_air_terms();
   build_network();
   hang_bodies();
   return std::move(machine_);

@@ -156,6 +156,10 @@ TEST(ExperimentCourse, TellsTheTimeOfDay) {
   EXPECT_EQ(at(course, "time_of_day", 0.0), 22 * 3600.0);
   EXPECT_EQ(at(course, "time_of_day", 7200.0), 0.0);
   EXPECT_EQ(at(course, "time_of_day", 7300.0), 100.0);
+  EXPECT_NEAR(at(course, "clock.day_cosine", 7200.0), 1.0, 1e-12);  // midnight
+  EXPECT_NEAR(at(course, "clock.day_cosine", 14 * 3600.0), -1.0, 1e-12);
+  EXPECT_NEAR(at(course, "clock.day_sine", 8 * 3600.0), 1.0, 1e-12);
+  EXPECT_NEAR(at(course, "clock.day_sine", 0.0), -0.5, 1e-12);
 }
 
 TEST(ExperimentCourse, CarriesTheAir) {

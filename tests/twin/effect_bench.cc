@@ -74,6 +74,8 @@ double bench_input(std::string const& channel) {
                                                        {"ambient.gradient", 0.5},
                                                        {"ambient.door", 1.0},
                                                        {"ambient.floor_temperature", 293.5},
+                                                       {"clock.day_cosine", 0.6},
+                                                       {"clock.day_sine", 0.8},
                                                        {"coolant.on", 1.0},
                                                        {"coolant.temperature", 289.0},
                                                        {"chiller.on", 1.0},

@@ -20,6 +20,10 @@ TEST(EffectPage, ShowsTextsAndParametersWithin100Columns) {
   auto const page = effect_page(effect("fan_cooling"));
   EXPECT_NE(page.find("conductance [W/K]; required, plausible 0.2 W/K to 5 W/K"), std::string::npos) << page;
   EXPECT_NE(page.find("Signature   sink with speed"), std::string::npos) << page;
+  EXPECT_NE(page.find("Looks like  bearing, preload"), std::string::npos) << page;
+  EXPECT_NE(page.find("Told apart  cooling at standstill"), std::string::npos) << page;
+  EXPECT_NE(page.find("Tried       conductance up to 5 W/K at every shaft"), std::string::npos) << page;
+  EXPECT_EQ(effect_page(effect("annular_gap")).find("Looks like"), std::string::npos);
 }
 
 TEST(EffectPage, ListsEveryEffectOnALineOfItsOwn) {

@@ -31,7 +31,7 @@ Effect const& compensation_effect() {
                                  "the displacement alone: collinear with one temperature, and all temperatures agree",
                                  "physics.md §7 no. 34",
                                  {34},
-                                 {"centrifugal_growth", "bearing_shift", "probe_drift", "scale_expansion"},
+                                 {"centrifugal_growth", "bearing_shift", "probe_drift"},
                                  "compensation switched off; the controller's sensor warmed alone; steps of 1 um"},
                                 {{.amplitude = "gain",
                                   .largest = 5e-6,
