@@ -28,7 +28,7 @@ struct BinnedRun {
 };
 
 /// Rows of at most `interval` [s]. Steps grow from `first_step` after each jump, up to the row's length.
-[[nodiscard]] BinnedRun bin(MeasuredRun const& run, double interval, double first_step = 10.0);
+[[nodiscard]] BinnedRun bin(MeasuredRun const& run, double interval, double first_step = 20.0);
 
 /// The interval that gives a run at most `rows` rows, and each at least one sample; at least five minutes unless the
 /// run is short.

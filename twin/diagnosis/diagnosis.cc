@@ -11,7 +11,7 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr std::size_t most_refits = 8;
+constexpr std::size_t most_refits = 5;
 constexpr double worth_a_refit = 12.0;  // score statistic
 
 std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs) {
@@ -45,8 +45,8 @@ std::vector<ChannelNoise> observed_noise(Estimation const& estimation, Eigen::Ve
   std::vector<ChannelNoise> noise = expected;
   for (std::size_t c = 0; c < noise.size(); ++c) {
     double best = INFINITY;
-    for (double const fast : {0.7, 1.0, 1.5, 2.5, 4.0})
-      for (double const slow : {0.3, 0.6, 1.0, 1.5, 2.5, 4.0}) {
+    for (double const fast : {1.0, 1.5, 2.5, 4.0})
+      for (double const slow : {1.0, 1.5, 2.5, 4.0}) {
         ChannelNoise trial = expected[c];
         trial.fast *= fast;
         trial.slow *= slow;

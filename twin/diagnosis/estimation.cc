@@ -71,6 +71,12 @@ bool changes_heat(thermal::NetworkDerivative const& d) {
          std::any_of(d.boundary_weights.begin(), d.boundary_weights.end(), any);
 }
 
+/// Every sensor one second slower.
+Machine later(Machine machine) {
+  for (auto& sensor : machine.sensors) sensor.description.lag = sensor.description.lag.value_or(0.0) + 1.0;
+  return machine;
+}
+
 std::string table_name(std::size_t effect) { return fmt::format("diagnosed_{}", effect + 1); }
 
 /// What people see of an added effect acts through sensors or displacements, not through heat alone.
@@ -113,7 +119,7 @@ void Estimation::add_unknowns() {
     }
     if (!sensor) continue;
     unknowns_.push_back({Kind::offset, "offset of " + channels_[c], 0.0, offset_deviation, -INFINITY, INFINITY, c, -1});
-    unknowns_.push_back({Kind::lag, "lag of " + channels_[c], 0.0, lag_deviation, -INFINITY, INFINITY, c, -1});
+    unknowns_.push_back({Kind::lag, "lag of " + channels_[c], usual_lag, lag_deviation, 0.0, INFINITY, c, -1});
   }
   for (std::size_t r = 0; r < data_->size(); ++r) {
     unknowns_.push_back({Kind::start, fmt::format("warm start of run {}", r + 1), 0.0, start_deviation, -INFINITY,
@@ -142,11 +148,12 @@ void Estimation::whiten(Eigen::Ref<Eigen::MatrixXd> signals) const {
   }
 }
 
-/// Offsets, lags, the start and the air: small, so that their response at the prior machine serves throughout.
+/// Offsets, the start and the air: small, so that their response at the prior machine serves throughout.
 void Estimation::find_linear_columns() {
   linear_.clear();
   for (std::size_t u = 0; u < unknowns_.size(); ++u)
-    if (unknowns_[u].kind != Unknown::Kind::number && unknowns_[u].kind != Unknown::Kind::amplitude)
+    if (unknowns_[u].kind == Unknown::Kind::offset || unknowns_[u].kind == Unknown::Kind::start ||
+        unknowns_[u].kind == Unknown::Kind::air)
       linear_.push_back(u);
   linear_columns_.setZero(rows_, Eigen::Index(linear_.size()));
   Machine const machine = Machine::build(document_);
@@ -158,7 +165,7 @@ void Estimation::find_linear_columns() {
   for (std::size_t r = 0; r < data_->size(); ++r) {
     auto const& run = (*data_)[r];
     LinearisedRun const twin(machine, run);
-    Eigen::MatrixXd const slope = twin.slope(), response = twin.response(both, initial);
+    Eigen::MatrixXd const response = twin.response(both, initial);
     auto const rows = run.time.size();
     for (std::size_t l = 0; l < linear_.size(); ++l) {
       auto const& unknown = unknowns_[linear_[l]];
@@ -169,8 +176,6 @@ void Estimation::find_linear_columns() {
       for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
         if (run.run->channels[c].name != channels_[unknown.index]) continue;
         if (unknown.kind == Unknown::Kind::offset) column.segment(Eigen::Index(c) * rows, rows).setOnes();
-        if (unknown.kind == Unknown::Kind::lag)
-          column.segment(Eigen::Index(c) * rows, rows) = slope.col(Eigen::Index(c));
       }
     }
   }
@@ -221,6 +226,16 @@ Value Estimation::document_at(Eigen::VectorXd const& x) const {
   return document;
 }
 
+Machine Estimation::machine_at(Eigen::VectorXd const& x) const {
+  Machine machine = Machine::build(document_at(x));
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    if (unknowns_[u].kind == Unknown::Kind::lag)
+      for (auto& sensor : machine.sensors)
+        if (sensor.description.name == channels_[unknowns_[u].index])
+          sensor.description.lag = sensor.description.lag.value_or(0.0) + x[Eigen::Index(u)];
+  return machine;
+}
+
 /// One per effect, in units of its trial's largest.
 std::vector<MachineDerivative> Estimation::amplitude_derivatives(Eigen::VectorXd const& x) const {
   std::vector<MachineDerivative> derivatives;
@@ -236,7 +251,7 @@ std::vector<MachineDerivative> Estimation::amplitude_derivatives(Eigen::VectorXd
 }
 
 std::vector<Eigen::MatrixXd> Estimation::residuals_at(Eigen::VectorXd const& x) const {
-  Machine const machine = Machine::build(document_at(x));
+  Machine const machine = machine_at(x);
   Eigen::VectorXd explained = Eigen::VectorXd::Zero(rows_);
   for (std::size_t l = 0; l < linear_.size(); ++l)
     explained += x[Eigen::Index(linear_[l])] * linear_columns_.col(Eigen::Index(l));
@@ -255,7 +270,7 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
   auto const unknowns = Eigen::Index(unknowns_.size());
   std::optional<Machine> machine;
   try {
-    machine.emplace(Machine::build(document_at(x)));
+    machine.emplace(machine_at(x));
   } catch (thermal::InputError const&) {
     return false;  // a number left the range that a machine may have
   }
@@ -294,12 +309,20 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
       Eigen::MatrixXd const difference = run.values - twin.prediction();
       residual.segment(first, count) = difference.reshaped();
       if (!jacobian) continue;
+      Eigen::MatrixXd const slower = twin.prediction_of(later(*machine));
       Eigen::MatrixXd const response = twin.response(*parameters);
       for (std::size_t k = 0; k < columns.size(); ++k)
         jacobian->col(columns[k]).segment(first, count) -= response.col(Eigen::Index(k));
       for (std::size_t u = known; u < unknowns_.size(); ++u) {
         auto const& unknown = unknowns_[u];
         auto column = jacobian->col(Eigen::Index(u)).segment(first, count);
+        if (unknown.kind == Unknown::Kind::lag)
+          for (std::size_t c = 0; c < run.run->channels.size(); ++c)
+            if (run.run->channels[c].name == channels_[unknown.index]) {
+              auto const rows = run.time.size();
+              column.segment(Eigen::Index(c) * rows, rows) =
+                  (difference - (run.values - slower)).col(Eigen::Index(c)) * -1.0;
+            }
         if (unknown.kind == Unknown::Kind::number && moves_tool(number_derivatives_[unknown.index]))
           column -= numbers_[unknown.index].nominal * std::exp(x[Eigen::Index(u)]) *
                     twin.growth(number_derivatives_[unknown.index].displacements).reshaped();
@@ -307,7 +330,7 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
           double const step = relative_step * std::max(std::abs(x[Eigen::Index(u)]), 1e-3);
           Eigen::VectorXd plus = x;
           plus[Eigen::Index(u)] += step;
-          column -= ((twin.prediction_of(Machine::build(document_at(plus))) - twin.prediction()) / step).reshaped();
+          column -= ((twin.prediction_of(machine_at(plus)) - twin.prediction()) / step).reshaped();
         }
       }
     } catch (std::exception const&) {

@@ -77,6 +77,8 @@ class Estimation {
 
   /// The machine's document with the estimates in it, effects included.
   [[nodiscard]] Value document_at(Eigen::VectorXd const& x) const;
+  /// That machine, with the instruments' lags.
+  [[nodiscard]] Machine machine_at(Eigen::VectorXd const& x) const;
   /// Measured minus predicted and minus offsets, lags, start and air, row × channel of each run, not whitened.
   [[nodiscard]] std::vector<Eigen::MatrixXd> residuals_at(Eigen::VectorXd const& x) const;
 

@@ -125,8 +125,11 @@ void LinearisedRun::trace() {
   for (auto const& step : steps) times.push_back(step.end);
   scenarios::Experiment start;
   start.initial_temperature = data_->run->initial_temperature;
+  thermal::IntegrationOptions options;
+  options.relative_tolerance = 1e-5;  // 3 mK
+  options.absolute_tolerance = 1e-4;
   std::vector<std::vector<double>> states, inputs;
-  thermal::integrate(machine_->network(), course, initial_temperatures(*machine_, start, course), times, {},
+  thermal::integrate(machine_->network(), course, initial_temperatures(*machine_, start, course), times, options,
                      [&](thermal::Sample const& sample) {
                        states.emplace_back(sample.state.begin(), sample.state.end());
                        inputs.emplace_back(sample.input.begin(), sample.input.end());
@@ -203,18 +206,6 @@ Eigen::MatrixXd LinearisedRun::growth(std::vector<NodeWeights> const& displaceme
   Eigen::MatrixXd rows;
   average(std::vector<double>(views.size(), 0.0), begins, ends, rows);
   return rows;
-}
-
-Eigen::MatrixXd LinearisedRun::slope() const {
-  auto const& steps = data_->steps;
-  auto const views = View::of(*machine_, *data_->run);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(data_->time.size(), Eigen::Index(views.size()));
-  for (std::size_t c = 0; c < views.size(); ++c)
-    for (std::size_t s = 0; s < steps.size(); ++s)
-      result(steps[s].row, Eigen::Index(c)) +=
-          (steps[s].at_begin + steps[s].at_end) / (steps[s].end - steps[s].begin) *
-          (views[c].shown(*this, begins_[s], begins_[s].time) - views[c].shown(*this, ends_[s], ends_[s].time));
-  return result;
 }
 
 Eigen::MatrixXd LinearisedRun::weights() const {

@@ -40,9 +40,6 @@ class LinearisedRun {
   /// Σ wᵢ (Tᵢ(t) − Tᵢ(0)) with other weights for the machine's displacements, row × channel: ∂z/∂θ of what moves the
   /// tool and no temperature.
   [[nodiscard]] Eigen::MatrixXd growth(std::vector<NodeWeights> const& displacements) const;
-  /// −dz/dt of every channel, row × channel: the response to a lag.
-  [[nodiscard]] Eigen::MatrixXd slope() const;
-
   [[nodiscard]] BinnedRun const& data() const { return *data_; }
   [[nodiscard]] Machine const& machine() const { return *machine_; }
   /// Heat of one part into bodies [W], at the begin of every step.

@@ -115,7 +115,7 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
   std::vector<std::size_t> shared, alone;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) (shares_network(hypotheses[h]) ? shared : alone).push_back(h);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(estimation.rows(), Eigen::Index(hypotheses.size()));
-  Machine const machine = Machine::build(document);
+  Machine const machine = estimation.machine_at(fit.x);
   SharedNetwork const all(document, hypotheses, shared);
   thermal::ParameterColumns const parameters(all.machine().network(), all.derivatives());
   std::vector<LinearisedRun> twins;
