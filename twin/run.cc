@@ -72,7 +72,9 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
       inputs_(course.channels().size()),
       watts_(machine.network().parts().size()) {
   for (std::size_t i = 0; i < course.channels().size(); ++i)
-    if (course.channels()[i].name != "ambient.floor_temperature") shown_inputs_.push_back(i);
+    if (auto const& name = course.channels()[i].name;
+        name != "ambient.floor_temperature" && !name.starts_with("clock."))
+      shown_inputs_.push_back(i);
   for (std::size_t p = 0; p < machine.network().parts().size(); ++p)
     if (!machine.network().parts()[p].starts_with("joint.") && machine.network().parts()[p] != "conduction")
       shown_parts_.push_back(p);

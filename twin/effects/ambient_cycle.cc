@@ -28,7 +28,7 @@ struct AmbientCycle {
 Effect const& ambient_cycle_effect() {
   static Effect const effect =
       make_effect<AmbientCycle>({"ambient_cycle",
-                                 "the air at the machine follows a daily cycle that the room's sensor does not tell",
+                                 "a daily cycle of the air that the room's sensor does not tell",
                                  "T_air = T_room + a cos(2π t/24 h) + b sin(2π t/24 h)",
                                  "boundary, input",
                                  "all surfaces in the air",

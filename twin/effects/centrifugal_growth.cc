@@ -42,7 +42,7 @@ struct CentrifugalGrowth {
 
   void add_to(Assembly& assembly) const {
     double const full_speed = assembly.maximum_spindle_speed();
-    if (growth != 0.0)
+    if (growth != 0.0 && full_speed > 0.0)
       assembly.displace(InputTerm{displacement, "spindle.speed", growth / std::pow(full_speed, power), power});
     if (shaft_length > 0.0) assembly.displace(InputTerm{displacement, "spindle.speed", weight * shortening(), 2.0});
   }

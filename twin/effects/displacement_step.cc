@@ -25,7 +25,7 @@ struct DisplacementStep {
 Effect const& displacement_step_effect() {
   static Effect const effect = make_effect<DisplacementStep>(
       {"displacement_step",
-       "the tool jumps at events: tool change, orientation of the spindle, clamping, slip of a joint",
+       "the tool jumps at events: tool change, clamping, slip of a joint",
        "ΔE = s (u − u(0))",
        "deformation",
        "a displacement channel",
