@@ -156,10 +156,12 @@ class EffectDraw {
         form_(form),
         stream_(stream),
         machine_(Machine::build(nominal)),
+        hardest_(challenge_runs(machine_.limits, seed).front()),
         held_out_(challenge_runs(machine_.limits, seed).back()),
         all_(hypotheses(nominal, machine_)) {}
 
-  HiddenEffect draw(std::vector<HiddenEffect> const& others);
+  /// Adds the effect to the document of the hidden world.
+  HiddenEffect draw(Value& document, std::vector<HiddenEffect> const& others);
   /// The hidden world's document with the effect; a source on a block takes a part of it. InputError if it cannot be
   /// there.
   [[nodiscard]] Value with(Value document, HiddenEffect const& effect, std::string const& name);
@@ -173,7 +175,7 @@ class EffectDraw {
   RefinedForm const& form_;
   RandomStream& stream_;
   Machine machine_;
-  scenarios::Experiment held_out_;
+  scenarios::Experiment hardest_, held_out_;
   std::vector<Hypothesis> all_;
   std::optional<Shown> without_;
 };
@@ -200,7 +202,7 @@ bool EffectDraw::matters(HiddenEffect const& effect) {
   return (displacement >= least_displacement || rise >= least_rise) && rise <= most_rise;
 }
 
-HiddenEffect EffectDraw::draw(std::vector<HiddenEffect> const& others) {
+HiddenEffect EffectDraw::draw(Value& document, std::vector<HiddenEffect> const& others) {
   std::vector<Hypothesis const*> candidates;
   for (auto const& hypothesis : all_)
     if (!about_sensor(hypothesis) && std::none_of(others.begin(), others.end(), [&](auto const& other) {
@@ -211,10 +213,14 @@ HiddenEffect EffectDraw::draw(std::vector<HiddenEffect> const& others) {
     auto effect = pick(candidates);
     try {
       if (!matters(effect)) continue;
-      Machine const possible = Machine::build(with(form_.document(), effect, "hidden"));
+      Value changed = with(document, effect, fmt::format("hidden_{}", others.size() + 1));
+      show(changed, hardest_);
+      document = std::move(changed);
       return effect;
     } catch (InputError const&) {
       continue;  // not on this form of the machine
+    } catch (thermal::IntegrationError const&) {
+      continue;  // it runs away
     }
   }
   throw InputError("the machine has no site where a hidden effect would show");
@@ -340,10 +346,8 @@ HiddenWorld draw_hidden_world(Value const& nominal, std::uint64_t seed, CaseKind
     return world;
   }
   EffectDraw draw(nominal, form, effects, seed);
-  for (int i = 0; i < (kind == CaseKind::two ? 2 : 1); ++i) {
-    world.effects.push_back(draw.draw(world.effects));
-    world.hidden = draw.with(world.hidden, world.effects.back(), fmt::format("hidden_{}", i + 1));
-  }
+  for (int i = 0; i < (kind == CaseKind::two ? 2 : 1); ++i)
+    world.effects.push_back(draw.draw(world.hidden, world.effects));
   return world;
 }
 
