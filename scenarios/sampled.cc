@@ -27,10 +27,12 @@ Course finite_part(SampledInput const& input) {
   return course;
 }
 
+/// Of the samples that are not zero: at rest a programme repeats itself, however noisy its record.
 double median_step(std::vector<double> const& values) {
-  if (values.size() < 2) return 0.0;
   std::vector<double> steps;
-  for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(std::abs(values[i] - values[i - 1]));
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] != 0.0 && values[i - 1] != 0.0) steps.push_back(std::abs(values[i] - values[i - 1]));
+  if (steps.empty()) return 0.0;
   auto const middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   return *middle;
@@ -38,7 +40,9 @@ double median_step(std::vector<double> const& values) {
 
 bool is_held(SampledInput const& input, std::vector<double> const& values) {
   if (input.interpolation != "automatic") return input.interpolation == "step";
-  if (input.absolute_temperature || input.unit == "s" || input.name.ends_with(".position")) return false;
+  if (input.absolute_temperature || input.unit == "s" || input.name.ends_with(".position") ||
+      input.name.ends_with(".revolutions") || input.name.starts_with("clock."))
+    return false;
   auto const dimension = thermal::dimension_of(input.unit);
   return dimension == thermal::dimension::angular_speed || dimension == thermal::dimension::speed ||
          dimension == thermal::dimension::dimensionless || median_step(values) == 0.0;

@@ -23,10 +23,10 @@ struct SampledInput {
 /// Automatic: temperatures, positions and clocks go along straight lines; speeds, feeds, shares and flags, and whatever
 /// repeats its last value more often than not, is a programme and held until the next sample.
 ///
-/// What is held may be noisy, and would jump at every sample. Unless more than half of the samples repeat the one
-/// before, a sample belongs to the running block while it is within max(2 % of the channel's largest magnitude, 5 σ) of
-/// the block's mean, which is then the block's value; σ = 1.05 median |Δ| of neighbours. A noisy block whose mean is
-/// below 2 % of the largest stands still: 0.
+/// What is held may be noisy, and would jump at every sample. Unless more than half of the samples that are not
+/// zero repeat the one before, a sample belongs to the running block while it is within max(2 % of the channel's
+/// largest magnitude, 5 σ) of the block's mean, which is then the block's value; σ = 1.05 median |Δ| of neighbours. A
+/// noisy block whose mean is below 2 % of the largest stands still: 0.
 ///
 /// Throws InputError when no sample is finite.
 DrivenChannel driven_channel(SampledInput const& input);

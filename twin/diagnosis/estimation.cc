@@ -14,7 +14,8 @@ namespace {
 
 constexpr double offset_deviation = 0.3;     // of a temperature sensor [K]
 constexpr double zero_deviation = 1e-6;      // of a displacement's zero [m]
-constexpr double lag_deviation = 60.0;       // [s]
+constexpr double usual_lag = 30.0;           // [s]
+constexpr double lag_deviation = 25.0;       // [s]
 constexpr double start_deviation = 0.3;      // [K]
 constexpr double air_deviation = 0.2;        // [K]
 constexpr double amplitude_deviation = 0.5;  // of the trial's largest

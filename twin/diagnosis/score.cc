@@ -14,11 +14,18 @@ namespace {
 constexpr double nothing = 1e-8;  // amplitude of a hypothesis that changes nothing, of its largest
 constexpr double step = 1e-3;
 
-/// Heat alone, in parts of its own: hypotheses that can share one network.
-bool shares_network(Hypothesis const& hypothesis) {
+/// How the response to a hypothesis is found.
+enum class Way {
+  shared,    ///< heat, by parts of its own: all such hypotheses share one network
+  readings,  ///< other sensors or displacements, at the same temperatures
+  air,       ///< another temperature of the machine's own boundaries
+};
+
+Way way_of(Hypothesis const& hypothesis) {
   auto const& changes = hypothesis.effect->changes;
-  return changes.find("sensor") == std::string::npos && changes.find("deformation") == std::string::npos &&
-         changes.find("boundary") == std::string::npos;
+  if (changes.find("sensor") != std::string::npos || changes.find("deformation") != std::string::npos)
+    return Way::readings;
+  return hypothesis.site == "machine" ? Way::air : Way::shared;
 }
 
 std::string table_name(std::size_t hypothesis) { return fmt::format("trial_{}", hypothesis); }
@@ -99,9 +106,8 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
   for (std::size_t r = 0; r < twins.size(); ++r) {
     auto const& run = estimation.data()[r];
     auto column = columns.col(Eigen::Index(index)).segment(estimation.first_row(r), run.values.size());
-    if (hypothesis.effect->changes.find("boundary") != std::string::npos) {
-      LinearisedRun const twin(without, run);
-      column = twin.response(thermal::ParameterColumns(without.network(), {&derivative.network}));
+    if (way_of(hypothesis) == Way::air) {
+      column = twins[r].response(thermal::ParameterColumns(twins[r].machine().network(), {&derivative.network}));
     } else {
       column = ((twins[r].prediction_of(with) - twins[r].prediction_of(without)) / (2.0 * step)).reshaped();
     }
@@ -113,7 +119,8 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
 Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::vector<Hypothesis> const& hypotheses) {
   Value const document = estimation.document_at(fit.x);
   std::vector<std::size_t> shared, alone;
-  for (std::size_t h = 0; h < hypotheses.size(); ++h) (shares_network(hypotheses[h]) ? shared : alone).push_back(h);
+  for (std::size_t h = 0; h < hypotheses.size(); ++h)
+    (way_of(hypotheses[h]) == Way::shared ? shared : alone).push_back(h);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(estimation.rows(), Eigen::Index(hypotheses.size()));
   Machine const machine = estimation.machine_at(fit.x);
   SharedNetwork const all(document, hypotheses, shared);
