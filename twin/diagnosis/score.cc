@@ -107,7 +107,10 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
     auto const& run = estimation.data()[r];
     auto column = columns.col(Eigen::Index(index)).segment(estimation.first_row(r), run.values.size());
     if (way_of(hypothesis) == Way::air) {
-      column = twins[r].response(thermal::ParameterColumns(twins[r].machine().network(), {&derivative.network}));
+      Machine airy = without;  // its air may follow inputs that the other's does not
+      airy.sensors = twins[r].machine().sensors;
+      LinearisedRun const twin(airy, run);
+      column = twin.response(thermal::ParameterColumns(airy.network(), {&derivative.network}));
     } else {
       column = ((twins[r].prediction_of(with) - twins[r].prediction_of(without)) / (2.0 * step)).reshaped();
     }
