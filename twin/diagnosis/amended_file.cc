@@ -103,6 +103,16 @@ class TomlText {
   std::vector<std::size_t> lines_;
 };
 
+std::string as_comment(std::string_view text, std::string const& newline) {
+  std::string result;
+  for (std::size_t from = 0; from < text.size();) {
+    std::size_t const end = std::min(text.find('\n', from), text.size());
+    result += fmt::format("# {}{}", text.substr(from, end - from), newline);
+    from = end + 1;
+  }
+  return result;
+}
+
 /// A piece of the text that becomes another; an empty one is an insertion.
 struct Edit {
   std::size_t length = 0;
@@ -180,12 +190,7 @@ std::string amended_text(std::string_view text, std::vector<AddedTable> const& t
   std::string result(text);
   if (!result.empty() && !result.ends_with('\n')) result += newline;
   for (auto const& table : tables) {
-    result += newline;
-    for (std::size_t from = 0; from < table.comment.size();) {
-      std::size_t const end = std::min(table.comment.find('\n', from), table.comment.size());
-      result += "# " + table.comment.substr(from, end - from) + newline;
-      from = end + 1;
-    }
+    result += newline + as_comment(table.comment, newline);
     result += "[[" + table.effect + "]]" + newline;
     for (auto const& key : table.keys) result += line_of(key) + newline;
   }
@@ -199,6 +204,11 @@ std::string with_values(std::string_view text, std::vector<ChangedValue> const& 
   std::string result = editor.result();
   static_cast<void>(parse_toml(result, "amended machine file"));
   return result;
+}
+
+std::string with_last_words(std::string_view text, std::string_view comment) {
+  std::string const newline = newline_of(text);
+  return amended_text(text, {}) + newline + as_comment(comment, newline);
 }
 
 void write_amended(fs::path const& machine_file, fs::path const& path, std::string_view text) {

@@ -35,6 +35,9 @@ struct ChangedValue {
 /// InputError with the nearest name for a path that leads nowhere.
 [[nodiscard]] std::string with_values(std::string_view text, std::vector<ChangedValue> const& changes);
 
+/// A machine file's text with a comment as its last lines.
+[[nodiscard]] std::string with_last_words(std::string_view text, std::string_view comment);
+
 /// Writes `text`, which `machine_file` became, to `path`, atomically, and copies the machine's influence weights beside
 /// it where none are. InputError when both are the same file: a user's file is never overwritten.
 void write_amended(std::filesystem::path const& machine_file, std::filesystem::path const& path, std::string_view text);

@@ -11,8 +11,8 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr std::size_t most_refits = 5;
-constexpr double worth_a_refit = 12.0;  // score statistic
+constexpr std::size_t most_refits = 12;
+constexpr std::size_t most_alternatives = 3;
 
 std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs) {
   std::vector<std::string> names;
@@ -46,7 +46,7 @@ std::vector<ChannelNoise> observed_noise(Estimation const& estimation, Eigen::Ve
   for (std::size_t c = 0; c < noise.size(); ++c) {
     double best = INFINITY;
     for (double const fast : {1.0, 1.5, 2.5, 4.0})
-      for (double const slow : {1.0, 1.5, 2.5, 4.0}) {
+      for (double const slow : {1.0, 2.0, 4.0}) {
         ChannelNoise trial = expected[c];
         trial.fast *= fast;
         trial.slow *= slow;
@@ -60,25 +60,18 @@ std::vector<ChannelNoise> observed_noise(Estimation const& estimation, Eigen::Ve
   return noise;
 }
 
-/// 2 ln of the evidence for an effect from its score alone.
-double evidence_of(Score const& score, Hypothesis const& hypothesis, double deviation) {
-  if (score.statistic <= 0.0) return 0.0;
-  double const a = score.information, b = score.amplitude * a;
-  double const gain = b * b / (a + 1.0 / (deviation * deviation)) - std::log1p(a * deviation * deviation);
-  return hypothesis.trial->either_sign ? gain : gain + 2.0 * std::log(2.0);
-}
-
-/// The most promising hypotheses, one shape per effect and site.
-std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector<Hypothesis> const& hypotheses) {
+/// The most promising hypotheses, one per effect and site, strongest first: all within `behind` of the strongest.
+std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector<Hypothesis> const& hypotheses,
+                                   double least, double behind) {
+  std::vector<double> evidence;
+  for (std::size_t k = 0; k < scores.size(); ++k) evidence.push_back(evidence_of(scores[k], hypotheses[k], 0.5));
   std::vector<std::size_t> order(scores.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return evidence_of(scores[a], hypotheses[a], 0.5) > evidence_of(scores[b], hypotheses[b], 0.5);
-  });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return evidence[a] > evidence[b]; });
   std::vector<std::size_t> chosen;
   std::map<std::string, int> seen;
   for (std::size_t const k : order) {
-    if (scores[k].statistic < worth_a_refit || chosen.size() == most_refits) break;
+    if (evidence[k] < std::max(least, evidence[order[0]] - behind) || chosen.size() == most_refits) break;
     if (seen[hypotheses[k].label()]++ == 0) chosen.push_back(k);
   }
   return chosen;
@@ -87,45 +80,83 @@ std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector
 /// A fit with one effect more.
 struct Refit {
   Hypothesis hypothesis;
-  Fit fit;
+  double amplitude = 0.0, standard_error = 0.0;  ///< in units of the trial's largest
+  Eigen::VectorXd x;
   double strength = -INFINITY;
 };
 
 class Diagnostician {
  public:
   Diagnostician(Value const& machine, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options)
-      : options_(options), machine_(machine), runs_(runs) {}
+      : options_(options), document_(machine), runs_(runs), machine_(Machine::build(machine)) {}
   Diagnosis operator()();
 
  private:
   void say(std::string const& what) const {
     if (options_.progress) options_.progress(what);
   }
-  [[nodiscard]] std::vector<Refit> refits(Estimation const& estimation, Fit const& fit);
+  void calibrate();
+  [[nodiscard]] bool add_effect(int round);
+  [[nodiscard]] std::vector<Refit> refits(Fit const& about, std::vector<std::size_t> const& chosen,
+                                          std::vector<Score> const& scores) const;
+  [[nodiscard]] std::vector<std::size_t> most_promising(std::vector<Score> const& scores) const;
+  [[nodiscard]] std::vector<Refit> instead_of(Refit const& best) const;
+  [[nodiscard]] Eigen::MatrixXd whitened_signatures() const;
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
-  [[nodiscard]] Diagnosis::Verdict verdict_of(Diagnosis const& diagnosis) const;
+  void listen_to_noise();
+  [[nodiscard]] bool is_unknown() const;
+  [[nodiscard]] Diagnosis::Verdict verdict() const;
 
   DiagnosisOptions const& options_;
-  Value const& machine_;
+  Value const& document_;
   std::vector<BinnedRun> const& runs_;
+  Machine machine_;
+  std::vector<ChannelNoise> expected_;
   std::vector<Hypothesis> hypotheses_;
+  std::optional<Estimation> estimation_;
+  Fit fit_;
+  Diagnosis diagnosis_;
 };
 
-std::vector<Refit> Diagnostician::refits(Estimation const& estimation, Fit const& fit) {
-  auto const scores = score(fit, signatures(estimation, fit, hypotheses_), hypotheses_);
-  auto const chosen = promising(scores, hypotheses_);
+void Diagnostician::calibrate() {
+  auto const channels = channels_of(runs_);
+  for (auto const& channel : channels) expected_.push_back(expected_noise(machine_, channel, runs_));
+  estimation_.emplace(document_, runs_, channels, expected_);
+  fit_ = estimation_->fit(estimation_->prior_mean(), 6);
+  listen_to_noise();
+}
+
+/// The noise that the present fit leaves, and the fit with it.
+void Diagnostician::listen_to_noise() {
+  estimation_ = estimation_->with(observed_noise(*estimation_, fit_.x, expected_));
+  fit_ = estimation_->fit(fit_.x, 6);
+}
+
+Eigen::MatrixXd Diagnostician::whitened_signatures() const {
+  Eigen::MatrixXd columns = signatures(*estimation_, fit_, hypotheses_);
+  estimation_->whiten(columns);
+  return columns;
+}
+
+/// One effect more, each of those chosen, about a fit without it.
+std::vector<Refit> Diagnostician::refits(Fit const& about, std::vector<std::size_t> const& chosen,
+                                         std::vector<Score> const& scores) const {
   std::vector<Refit> result(chosen.size());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     auto& refit = result[i];
     refit.hypothesis = hypotheses_[chosen[i]];
-    Eigen::VectorXd start(fit.x.size() + 1);
-    start << fit.x, scores[chosen[i]].amplitude;
+    Eigen::VectorXd start(about.x.size() + 1);
+    start << about.x, scores[chosen[i]].amplitude;
+    auto const last = about.x.size();
     bool const both = refit.hypothesis.trial->either_sign;
-    start[fit.x.size()] = std::clamp(start[fit.x.size()], both ? -1.0 : 1e-3, 1.0);
+    start[last] = std::clamp(start[last], both ? -1.5 : 1e-3, 1.5);
     try {
-      refit.fit = estimation.with(std::vector<Hypothesis>{refit.hypothesis}).fit(start, 8, &fit);
-      refit.strength = fit.evidence - refit.fit.evidence;
+      Fit const fit = estimation_->with(std::vector<Hypothesis>{refit.hypothesis}).fit(start, 6, &about);
+      refit.x = fit.x;
+      refit.amplitude = fit.x[last];
+      refit.standard_error = std::sqrt(fit.covariance(last, last));
+      refit.strength = fit_.evidence - fit.evidence;
     } catch (std::exception const&) {
       refit.strength = -INFINITY;
     }
@@ -134,16 +165,43 @@ std::vector<Refit> Diagnostician::refits(Estimation const& estimation, Fit const
   return result;
 }
 
+/// What could stand in the place of the effect that was added last, about the fit that has it: near enough for what
+/// looks alike that the linearisation decides.
+std::vector<Refit> Diagnostician::instead_of(Refit const& best) const {
+  auto const last = int(fit_.x.size()) - 1;
+  auto const scores = score(fit_, whitened_signatures(), hypotheses_, last);
+  auto const of_best = [&](std::size_t k) {
+    return hypotheses_[k].label() == best.hypothesis.label() && hypotheses_[k].keys == best.hypothesis.keys;
+  };
+  double own = 0.0;
+  for (std::size_t k = 0; k < scores.size(); ++k)
+    if (of_best(k)) own = evidence_of(scores[k], hypotheses_[k], 0.5);
+  std::vector<Refit> result;
+  for (std::size_t const k : promising(scores, hypotheses_, 0.0, options_.indistinct)) {
+    Refit refit{hypotheses_[k], scores[k].amplitude, 1.0 / std::sqrt(scores[k].information), fit_.x,
+                best.strength + evidence_of(scores[k], hypotheses_[k], 0.5) - own};
+    refit.x[last] = refit.amplitude;
+    if (of_best(k)) {
+      refit.amplitude = fit_.x[last];
+      refit.standard_error = std::sqrt(fit_.covariance(last, last));
+    }
+    result.push_back(std::move(refit));
+  }
+  return result;
+}
+
+/// One per name: the best site speaks for the effect.
 Explanation Diagnostician::explanation_of(std::vector<Refit> const& refits) const {
   Explanation explanation;
   double sum = 0.0;
   for (auto const& refit : refits) {
     double const behind = refits[0].strength - refit.strength;
-    if (behind > options_.indistinct) break;
-    auto const last = refit.fit.x.size() - 1;
+    if (behind > options_.indistinct || explanation.alternatives.size() == most_alternatives) break;
+    auto const same = [&](Finding const& f) { return f.hypothesis.effect == refit.hypothesis.effect; };
+    if (std::any_of(explanation.alternatives.begin(), explanation.alternatives.end(), same)) continue;
     double const unit = refit.hypothesis.trial->largest;
-    Finding finding{refit.hypothesis, refit.fit.x[last] * unit, std::sqrt(refit.fit.covariance(last, last)) * unit,
-                    refit.strength,   std::exp(-0.5 * behind),  0.0};
+    Finding finding{refit.hypothesis, refit.amplitude * unit,  refit.standard_error * unit,
+                    refit.strength,   std::exp(-0.5 * behind), 0.0};
     sum += finding.weight;
     explanation.alternatives.push_back(std::move(finding));
   }
@@ -151,48 +209,89 @@ Explanation Diagnostician::explanation_of(std::vector<Refit> const& refits) cons
   return explanation;
 }
 
-Diagnosis Diagnostician::operator()() {
-  Diagnosis diagnosis;
-  Machine const machine = Machine::build(machine_);
-  auto const channels = channels_of(runs_);
-  std::vector<ChannelNoise> expected;
-  for (auto const& channel : channels) expected.push_back(expected_noise(machine, channel, runs_));
-  say("calibrating");
-  Estimation estimation(machine_, runs_, channels, expected);
-  Fit fit = estimation.fit(estimation.prior_mean());
-  estimation = estimation.with(observed_noise(estimation, fit.x, expected));
-  fit = estimation.fit(fit.x);
-  diagnosis.calibrated = fit;
-  hypotheses_ = hypotheses(machine_, machine, options_.without);
-  diagnosis.hypotheses = hypotheses_;
-  say("scanning for heat that the machine does not know");
-  diagnosis.scan = scan_for_free_heat(estimation, fit);
-  for (int round = 0; round < options_.most_effects; ++round) {
-    say(fmt::format("{} effects at their sites, round {}", hypotheses_.size(), round + 1));
-    auto found = refits(estimation, fit);
-    if (found.empty() || found[0].strength < options_.threshold) break;
-    diagnosis.explanations.push_back(explanation_of(found));
-    estimation = estimation.with(std::vector<Hypothesis>{found[0].hypothesis});
-    estimation = estimation.with(observed_noise(estimation, found[0].fit.x, expected));
-    fit = estimation.fit(found[0].fit.x);
+/// By the score: the strongest of each of the three strongest effects.
+std::vector<std::size_t> Diagnostician::most_promising(std::vector<Score> const& scores) const {
+  std::vector<std::size_t> chosen;
+  for (std::size_t const k : promising(scores, hypotheses_, 0.6 * options_.threshold, INFINITY)) {
+    auto const same = [&](std::size_t other) { return hypotheses_[other].effect == hypotheses_[k].effect; };
+    if (chosen.size() < 3 && std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back(k);
   }
-  diagnosis.amended = fit;
-  diagnosis.effects = estimation.effects();
-  diagnosis.unknowns = estimation.unknowns();
-  diagnosis.document = estimation.document_at(fit.x);
-  diagnosis.verdict = verdict_of(diagnosis);
-  return diagnosis;
+  return chosen;
 }
 
-Diagnosis::Verdict Diagnostician::verdict_of(Diagnosis const& diagnosis) const {
+/// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
+bool Diagnostician::add_effect(int round) {
+  say(fmt::format("{} effects at their sites, round {}", hypotheses_.size(), round));
+  auto const scores = score(fit_, whitened_signatures(), hypotheses_);
+  auto const first = refits(fit_, most_promising(scores), scores);
+  if (first.empty() || first[0].strength < options_.threshold) return false;
+  Estimation const before = *estimation_;
+  Fit const base = fit_;
+  std::vector<Refit> all;
+  Refit best = first[0];
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
+    fit_ = estimation_->fit(best.x, 6);
+    best.strength = base.evidence - fit_.evidence;
+    all = instead_of(best);
+    if (all[0].strength < best.strength + 2.0) break;
+    auto const other = all[0];
+    best = other;
+  }
+  if (best.strength < options_.threshold) {
+    estimation_ = before;
+    fit_ = base;
+    return false;
+  }
+  diagnosis_.explanations.push_back(explanation_of(all));
+  listen_to_noise();
+  return true;
+}
+
+Diagnosis Diagnostician::operator()() {
+  say("calibrating");
+  calibrate();
+  diagnosis_.calibrated = fit_;
+  hypotheses_ = hypotheses(document_, machine_, options_.without);
+  say("scanning for heat that the machine does not know");
+  diagnosis_.scan = scan_for_free_heat(*estimation_, fit_);
+  for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
+  diagnosis_.hypotheses = hypotheses_;
+  diagnosis_.amended = fit_;
+  diagnosis_.effects = estimation_->effects();
+  diagnosis_.unknowns = estimation_->unknowns();
+  diagnosis_.document = estimation_->document_at(fit_.x);
+  diagnosis_.verdict = verdict();
+  if (diagnosis_.verdict == Diagnosis::Verdict::none_known) diagnosis_.unknown_heat = diagnosis_.scan[0];
+  return diagnosis_;
+}
+
+/// Heat of free course explains more than the best effect at its best site, or it took two effects on one body: the
+/// catalogue does not have what acts there.
+bool Diagnostician::is_unknown() const {
+  auto const& found = diagnosis_.explanations;
+  if (found.empty()) return false;
+  auto const& first = found[0].alternatives[0];
+  if (first.hypothesis.effect->changes.find("source") == std::string::npos &&
+      first.hypothesis.effect->changes.find("film") == std::string::npos &&
+      first.hypothesis.effect->changes.find("boundary") == std::string::npos)
+    return false;
+  if (diagnosis_.scan[0].gain > first.strength) return true;
+  for (std::size_t i = 1; i < found.size(); ++i)
+    if (found[i].alternatives[0].hypothesis.body == first.hypothesis.body) return true;
+  return false;
+}
+
+Diagnosis::Verdict Diagnostician::verdict() const {
   using Verdict = Diagnosis::Verdict;
-  if (diagnosis.explanations.empty()) return Verdict::nothing;
+  if (diagnosis_.explanations.empty()) return Verdict::nothing;
+  if (is_unknown()) return Verdict::none_known;
   bool const sensors =
-      std::all_of(diagnosis.explanations.begin(), diagnosis.explanations.end(), [](Explanation const& explanation) {
+      std::all_of(diagnosis_.explanations.begin(), diagnosis_.explanations.end(), [](Explanation const& explanation) {
         return explanation.alternatives[0].hypothesis.effect->changes.find("sensor") != std::string::npos;
       });
   if (sensors) return Verdict::sensor;
-  bool const single = std::all_of(diagnosis.explanations.begin(), diagnosis.explanations.end(),
+  bool const single = std::all_of(diagnosis_.explanations.begin(), diagnosis_.explanations.end(),
                                   [](Explanation const& explanation) { return explanation.alternatives.size() == 1; });
   return single ? Verdict::effect : Verdict::either;
 }

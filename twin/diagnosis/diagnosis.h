@@ -50,13 +50,12 @@ struct Diagnosis {
   std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`
   std::vector<FreeHeat> scan;            ///< before any effect was added, best first
-  std::vector<Score> scores;
-  std::vector<Hypothesis> hypotheses;  ///< those that were tried, as scored
-  Fit calibrated;                      ///< without any effect
-  Fit amended;                         ///< with those found, the best alternative of each
-  std::vector<Hypothesis> effects;     ///< of `amended`
-  std::vector<Unknown> unknowns;       ///< of `amended`
-  Value document;                      ///< the machine as amended: calibrated values and the effects
+  std::vector<Hypothesis> hypotheses;    ///< those that were tried
+  Fit calibrated;                        ///< without any effect
+  Fit amended;                           ///< with those found, the best alternative of each
+  std::vector<Hypothesis> effects;       ///< of `amended`
+  std::vector<Unknown> unknowns;         ///< of `amended`
+  Value document;                        ///< the machine as amended: calibrated values and the effects
 };
 
 [[nodiscard]] std::string name_of(Diagnosis::Verdict verdict);

@@ -19,6 +19,13 @@ double lagged(double before, double from, double to, double lag, double step) {
   return to - slope * lag + (before - from + slope * lag) * decay;
 }
 
+/// sum += M f for columns f that are zero but for a few entries.
+void add_sparse_product(Eigen::MatrixXd const& M, Eigen::MatrixXd const& f, Eigen::MatrixXd& sum) {
+  for (Eigen::Index k = 0; k < f.cols(); ++k)
+    for (Eigen::Index i = 0; i < f.rows(); ++i)
+      if (f(i, k) != 0.0) sum.col(k) += f(i, k) * M.col(i);
+}
+
 int channel_index(thermal::Course const& course, std::string const& name) {
   auto const& channels = course.channels();
   for (std::size_t i = 0; i < channels.size(); ++i)
@@ -243,7 +250,7 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
   Eigen::MatrixXd const H = weights();
   thermal::Evaluation evaluation(network);
   Eigen::MatrixXd S = initial;
-  Eigen::MatrixXd from_forcing(n, m), to_forcing(n, m), first(n, m), second(n, m);
+  Eigen::MatrixXd from_forcing(n, m), to_forcing(n, m), first(n, m), second(n, m), middle_S(n, m);
   Eigen::MatrixXd from = H * S, to(H.rows(), m), shown = from;
   Eigen::MatrixXd const at_start = from;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows * H.rows(), m);
@@ -257,13 +264,15 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
     for (std::size_t i = 0; i < input.size(); ++i) input[i] = 0.5 * (input[i] + ends_[s].input[i]);
     Eigen::MatrixXd const A = evaluation.jacobian(middle.data(), input.data());
     Eigen::MatrixXd const M = (identity - gamma * h * A).partialPivLu().inverse();
+    Eigen::MatrixXd const MA = (M - identity) / (gamma * h);
     forcing(evaluation, begins_[s].time, begins_[s].state, begins_[s].input, from_forcing);
     forcing(evaluation, ends_[s].time, ends_[s].state, ends_[s].input, to_forcing);
     from_forcing = (1.0 - gamma) * from_forcing + gamma * to_forcing;
-    first.noalias() = A * S + from_forcing;
-    first = M * first;
-    second.noalias() = A * (S + (1.0 - gamma) * h * first) + to_forcing;
-    second = M * second;
+    first.noalias() = MA * S;
+    add_sparse_product(M, from_forcing, first);
+    middle_S = S + (1.0 - gamma) * h * first;
+    second.noalias() = MA * middle_S;
+    add_sparse_product(M, to_forcing, second);
     S += h * ((1.0 - gamma) * first + gamma * second);
     to.noalias() = H * S;
     for (Eigen::Index c = 0; c < H.rows(); ++c) {

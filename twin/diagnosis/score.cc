@@ -139,27 +139,32 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
           response.col(Eigen::Index(k));
   }
   for (std::size_t const h : alone) add_alone(estimation, document, hypotheses[h], h, twins, columns);
-  estimation.whiten(columns);
   return columns;
 }
 
-Eigen::MatrixXd projected(Fit const& fit, Eigen::MatrixXd const& signatures) {
-  Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());
-  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(fit.jacobian.rows(), signatures.cols());
-  padded.topRows(signatures.rows()) = signatures;
-  return padded - fit.jacobian * information.solve(fit.jacobian.topRows(signatures.rows()).transpose() * signatures);
-}
-
-std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std::vector<Hypothesis> const& hypotheses) {
-  Eigen::MatrixXd const left = projected(fit, signatures);
+std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std::vector<Hypothesis> const& hypotheses,
+                         int left_out) {
+  auto const rows = signatures.rows();
+  Eigen::MatrixXd J = fit.jacobian;
+  Eigen::VectorXd residual = fit.residual;
+  if (left_out >= 0) {
+    residual -= J.col(left_out) * fit.x[left_out];
+    residual[rows + left_out] = 0.0;
+    J.col(left_out).setZero();
+    J(rows + left_out, left_out) = 1.0;
+  }
+  Eigen::LLT<Eigen::MatrixXd> const information((J.transpose() * J).eval());
+  Eigen::MatrixXd const shared = J.topRows(rows).transpose() * signatures;
+  Eigen::MatrixXd const taken = information.solve(shared);
+  Eigen::VectorXd const explained = information.solve(J.transpose() * residual);
   std::vector<Score> scores;
   for (Eigen::Index k = 0; k < signatures.cols(); ++k) {
     Score score;
     double const whole = signatures.col(k).squaredNorm();
-    score.information = left.col(k).squaredNorm();
-    double const b = left.col(k).dot(fit.residual);
-    score.kept = whole > 0.0 ? std::sqrt(score.information / whole) : 0.0;
-    if (score.information > 1e-12 * whole && whole > 0.0) {
+    score.information = whole - shared.col(k).dot(taken.col(k));
+    double const b = signatures.col(k).dot(residual.head(rows)) - shared.col(k).dot(explained);
+    score.kept = whole > 0.0 ? std::sqrt(std::max(0.0, score.information) / whole) : 0.0;
+    if (score.information > 1e-9 * whole && whole > 0.0) {
       score.amplitude = b / score.information;
       bool const allowed = score.amplitude > 0.0 || hypotheses[std::size_t(k)].trial->either_sign;
       score.statistic = allowed ? b * score.amplitude : 0.0;
@@ -167,6 +172,13 @@ std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std:
     scores.push_back(score);
   }
   return scores;
+}
+
+double evidence_of(Score const& score, Hypothesis const& hypothesis, double deviation) {
+  if (score.statistic <= 0.0) return 0.0;
+  double const a = score.information, b = score.amplitude * a;
+  double const gain = b * b / (a + 1.0 / (deviation * deviation)) - std::log1p(a * deviation * deviation);
+  return hypothesis.trial->either_sign ? gain : gain + 2.0 * std::log(2.0);
 }
 
 }  // namespace thermotwin::twin

@@ -20,15 +20,16 @@ struct Score {
   double kept = 0.0;         ///< |s⊥|/|s|: what nuisance parameters leave of the signature
 };
 
-/// The whitened responses of hypotheses about a fit of an estimation, one column each: one linearisation for all.
-/// Hypotheses that the machine cannot be built with have a zero column.
+/// The responses of hypotheses about a fit of an estimation, one column each, not whitened: one linearisation for all.
 [[nodiscard]] Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit,
                                          std::vector<Hypothesis> const& hypotheses);
 
-/// What is left of signatures when everything that the fit could explain by its own unknowns is taken away.
-[[nodiscard]] Eigen::MatrixXd projected(Fit const& fit, Eigen::MatrixXd const& signatures);
-
+/// `signatures` whitened as the fit is. `left_out`: an unknown of the fit that counts as unknown no more, as if its
+/// effect had not been added; −1: none.
 [[nodiscard]] std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures,
-                                       std::vector<Hypothesis> const& hypotheses);
+                                       std::vector<Hypothesis> const& hypotheses, int left_out = -1);
+
+/// 2 ln of the evidence for an effect from its score alone: T less what a prior N(0, deviation²) on ψ costs.
+[[nodiscard]] double evidence_of(Score const& score, Hypothesis const& hypothesis, double deviation);
 
 }  // namespace thermotwin::twin
