@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "twin/diagnosis/binned_run.h"
+#include "twin/diagnosis/noise_model.h"
+#include "twin/experiment_file.h"
+#include "twin/file/value.h"
+#include "twin/run.h"
+
+/// Machines that hide something, and what they show: for the tests of the diagnosis.
+namespace thermotwin::twin::tests {
+
+/// The lumped machine with sensors that show what is there.
+inline Value v450() {
+  Value document = read_toml(std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "twin/machines/v450.toml");
+  for (int i = 1; i <= 10; ++i) set_parameter(document, "temperature_sensor.T" + std::to_string(i) + ".kind", "ideal");
+  return document;
+}
+
+inline Value with_table(Value document, std::string const& text) {
+  Value const addition = parse_toml(text, "addition.toml");
+  auto& content = std::get<Value::Table>(document.content);
+  for (auto const& entry : std::get<Value::Table>(addition.content)) {
+    Value* list = document.find(entry.key);
+    if (!list) {
+      content.push_back(entry);
+      continue;
+    }
+    for (auto const& table : std::get<Value::List>(entry.value.content))
+      std::get<Value::List>(list->content).push_back(table);
+  }
+  return document;
+}
+
+inline scenarios::Experiment experiment(std::string const& text) {
+  return read_experiment(parse_toml("machine = \"v450\"\n" + text, "experiment.toml"), "experiment.toml");
+}
+
+/// Two speeds and a rest, in a room that swings.
+inline scenarios::Experiment two_speeds() {
+  return experiment(R"(
+    duration = "4 h"
+    ambient.mean = "22 degC"
+    ambient.daily_cycle.amplitude = "1.5 K"
+    [spindle]
+    blocks = [{duration = "80 min", speed = "5000 rpm"}, {duration = "50 min", speed = "2500 rpm"},
+              {duration = "50 min", speed = "0 rpm"}, {duration = "1 h", speed = "4000 rpm"}])");
+}
+
+/// A run of a machine, as the twin of another is shown it.
+inline MeasuredRun measured(Value const& truth, scenarios::Experiment const& experiment) {
+  Machine const machine = Machine::build(truth);
+  return measured_run(run(machine, experiment, {}).dataset, machine, "hidden");
+}
+
+/// White noise on every sample: of the sensors [K], of the displacements [m].
+inline void add_noise(MeasuredRun& run, double kelvin, double metres, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (auto& channel : run.channels)
+    for (double& value : channel.values) value += (channel.displacement ? metres : kelvin) * normal(random);
+}
+
+inline std::vector<std::string> channels_of(MeasuredRun const& run) {
+  std::vector<std::string> names;
+  for (auto const& channel : run.channels) names.push_back(channel.name);
+  return names;
+}
+
+/// That noise, and next to no error of the model.
+inline std::vector<ChannelNoise> noise_of(MeasuredRun const& run, double kelvin, double metres) {
+  std::vector<ChannelNoise> noise;
+  for (auto const& channel : run.channels) {
+    double const unit = channel.displacement ? metres : kelvin;
+    noise.push_back({unit, 0.05 * unit, 0.05 * unit, 600.0, 0.05 * unit, 3.0 * 3600.0});
+  }
+  return noise;
+}
+
+}  // namespace thermotwin::twin::tests

@@ -1,0 +1,137 @@
+#include "twin/diagnosis/hypothesis.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/sensitivity.h"
+
+namespace thermotwin::twin {
+namespace {
+
+struct Subject {
+  explicit Subject(std::string const& name)
+      : document(read_toml(machine_file(name))),
+        machine(Machine::build(document)),
+        all(hypotheses(document, machine)) {}
+  Value document;
+  Machine machine;
+  std::vector<Hypothesis> all;
+};
+
+std::string text_of(Hypothesis const& hypothesis) {
+  std::string text = hypothesis.effect->name;
+  for (auto const& [key, value] : hypothesis.keys) text += fmt::format(" {}={}", key, value);
+  return text;
+}
+
+class HypothesesOf : public testing::TestWithParam<char const*> {};
+
+TEST_P(HypothesesOf, CanBeBuiltAlone) {
+  Subject const subject(GetParam());
+  int const nodes = subject.machine.network().nodes();
+  for (auto const& hypothesis : subject.all) {
+    double const amplitude = 1e-6 * hypothesis.trial->largest;
+    try {
+      auto const machine = Machine::build(with_hypothesis(subject.document, hypothesis, "trial", amplitude));
+      EXPECT_GE(machine.network().nodes(), nodes) << text_of(hypothesis);
+    } catch (std::exception const& error) {
+      ADD_FAILURE() << text_of(hypothesis) << ": " << error.what();
+    }
+  }
+}
+
+TEST_P(HypothesesOf, AreAllDifferent) {
+  Subject const subject(GetParam());
+  std::set<std::pair<Trial const*, std::string>> seen;
+  for (auto const& hypothesis : subject.all)
+    EXPECT_TRUE(seen.insert({hypothesis.trial, text_of(hypothesis)}).second) << text_of(hypothesis);
+}
+
+/// What bears one label is one effect at one place, in several shapes.
+TEST_P(HypothesesOf, OfOneLabelDifferInTheirShapeOnly) {
+  Subject const subject(GetParam());
+  std::map<std::string, std::string> places;
+  for (auto const& hypothesis : subject.all) {
+    std::string place = hypothesis.body;
+    for (auto const& site : hypothesis.trial->sites)
+      for (auto const& [key, value] : hypothesis.keys)
+        if (key == site.key || key == site.other || key == "axis") place += fmt::format(" {}={}", key, value);
+    auto const [it, isnew] = places.insert({hypothesis.label(), place});
+    EXPECT_TRUE(isnew || it->second == place) << hypothesis.label() << ": " << it->second << " and " << place;
+  }
+}
+
+TEST_P(HypothesesOf, NameSitesThatTheMachineHas) {
+  Subject const subject(GetParam());
+  std::set<std::string> names = {"machine"};
+  for (auto const& body : subject.machine.geometry) names.insert(body.name);
+  for (auto const& sensor : subject.machine.sensors) names.insert(sensor.description.name);
+  for (auto const& displacement : subject.machine.displacements) names.insert(displacement.name);
+  for (auto const& hypothesis : subject.all) EXPECT_TRUE(names.contains(hypothesis.body)) << text_of(hypothesis);
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, HypothesesOf, testing::Values("v450", "vmc850", "g200"),
+                         [](auto const& info) { return std::string(info.param); });
+
+class Hypotheses : public testing::Test {
+ protected:
+  Subject const v450{"v450"};
+  [[nodiscard]] std::vector<std::string> labels(std::vector<Hypothesis> const& all) const {
+    std::vector<std::string> result;
+    for (auto const& hypothesis : all) result.push_back(hypothesis.label());
+    return result;
+  }
+  [[nodiscard]] bool has(std::vector<Hypothesis> const& all, std::string const& label) const {
+    auto const known = labels(all);
+    return std::find(known.begin(), known.end(), label) != known.end();
+  }
+};
+
+TEST_F(Hypotheses, SeekHeatEverywhereAndInThreeStretchesOfALongBar) {
+  EXPECT_TRUE(has(v450.all, "heat at motor"));
+  EXPECT_TRUE(has(v450.all, "heat at column_rear"));
+  EXPECT_TRUE(has(v450.all, "heat at shaft[140 mm .. 280 mm]"));
+  EXPECT_FALSE(has(v450.all, "heat at shaft"));
+  EXPECT_TRUE(has(v450.all, "sensor_drift at T4"));
+}
+
+TEST_F(Hypotheses, LeaveOutWhatTheCallerDoes) {
+  auto const others = hypotheses(v450.document, v450.machine, {"heat"});
+  EXPECT_LT(others.size(), v450.all.size());
+  for (auto const& hypothesis : others) EXPECT_NE(hypothesis.effect->name, "heat");
+}
+
+TEST_F(Hypotheses, LeaveOutWhatStandsInTheFile) {
+  auto const known = tests::with_table(v450.document, R"(
+    [[heat]]
+    name = "pump"
+    at = "bed"
+    power = "40 W"
+    while_on = "machine.on")");
+  auto const others = hypotheses(known, Machine::build(known));
+  EXPECT_EQ(others.size(), v450.all.size() - 1);
+  for (auto const& hypothesis : others)
+    EXPECT_FALSE(hypothesis.label() == "heat at bed" &&
+                 std::count(hypothesis.keys.begin(), hypothesis.keys.end(),
+                            std::pair<std::string, std::string>("while_on", "machine.on")) > 0);
+}
+
+TEST_F(Hypotheses, StandInTheFileWithTheirAmplitude) {
+  for (auto const& hypothesis : v450.all) {
+    double const amplitude = 0.25 * hypothesis.trial->largest;
+    auto const with = with_hypothesis(v450.document, hypothesis, "found", amplitude);
+    std::string const table = hypothesis.effect->name + ".found.";
+    EXPECT_NEAR(find_number(with, table + hypothesis.trial->amplitude).value, amplitude, 1e-9 * amplitude)
+        << text_of(hypothesis);
+    for (auto const& [key, factor] : hypothesis.trial->proportional)
+      EXPECT_NEAR(find_number(with, table + key).value, factor * amplitude, 1e-9 * std::abs(factor * amplitude))
+          << text_of(hypothesis);
+  }
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

@@ -1,0 +1,214 @@
+#include "twin/diagnosis/linearised_run.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "thermal/integrate.h"
+#include "twin/diagnosis/prediction.h"
+#include "twin/sensitivity.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using tests::v450;
+
+Machine const& machine() {
+  static Machine const v450 = Machine::build(tests::v450());
+  return v450;
+}
+
+output::Dataset const& dataset() {
+  static output::Dataset const truth = [] {
+    auto dataset = run(machine(), tests::two_speeds(), {}).dataset;
+    dataset.readings = dataset.truth_readings;
+    dataset.displacements = dataset.truth_displacements;
+    return dataset;
+  }();
+  return truth;
+}
+
+MeasuredRun const& measured() {
+  static MeasuredRun const run = measured_run(dataset(), machine(), "truth");
+  return run;
+}
+
+char const* const numbers[] = {"bearing.front.grease_factor", "joint.front_seat.coefficient", "film.motor.coefficient",
+                               "lump.head_front.mass", "motor_loss.stator.eddy"};
+
+std::vector<thermal::NetworkDerivative> derivatives() {
+  std::vector<thermal::NetworkDerivative> result;
+  for (auto const* path : numbers) result.push_back(differentiate(v450(), path).network);
+  return result;
+}
+
+/// Forward sensitivities of CVODES at every sample, seen by the channels and averaged to the rows.
+MatrixXd forward(BinnedRun const& binned) {
+  auto const& run = *binned.run;
+  thermal::IntegrationOptions options;
+  options.relative_tolerance = options.absolute_tolerance = 1e-8;
+  options.parameters = derivatives();
+  auto const rows = binned.time.size();
+  auto const channels = Index(run.channels.size());
+  std::vector<NodeWeights const*> weights;
+  for (auto const& sensor : machine().sensors) weights.push_back(&sensor.weights);
+  for (auto const& displacement : machine().displacements) weights.push_back(&displacement.weights);
+  EXPECT_EQ(Index(weights.size()), channels);
+  std::vector<int> row_of;
+  for (Index r = 0; r < rows; ++r) row_of.insert(row_of.end(), std::size_t(binned.samples(r, 0)), int(r));
+  MatrixXd result = MatrixXd::Zero(rows * channels, Index(options.parameters.size()));
+  std::vector<double> const times(run.time.begin(), run.time.end());
+  std::size_t sample = 0;
+  thermal::integrate(machine().network(), *run.course, initial_temperatures(machine(), {}, *run.course), times, options,
+                     [&](thermal::Sample const& at) {
+                       int const row = row_of[sample++];
+                       for (Index c = 0; c < channels; ++c)
+                         for (Index k = 0; k < result.cols(); ++k)
+                           for (auto const& [node, weight] : *weights[std::size_t(c)])
+                             result(c * rows + row, k) += weight *
+                                                          (*at.sensitivities)[std::size_t(k)][std::size_t(node)] /
+                                                          binned.samples(row, c);
+                     });
+  return result;
+}
+
+MatrixXd response(BinnedRun const& binned) {
+  auto const all = derivatives();
+  std::vector<thermal::NetworkDerivative const*> pointers;
+  for (auto const& derivative : all) pointers.push_back(&derivative);
+  return LinearisedRun(machine(), binned).response(thermal::ParameterColumns(machine().network(), pointers));
+}
+
+/// 1 for rows that lie this long behind the last jump, else 0.
+Eigen::VectorXd calm_rows(BinnedRun const& binned, double wait) {
+  Eigen::VectorXd calm(binned.time.size());
+  for (Index r = 0; r < calm.size(); ++r) {
+    double jump = 0.0;
+    for (double t = 0.0; t < binned.time[r]; t = binned.run->course->next_jump(t)) jump = t;
+    calm[r] = binned.time[r] - jump >= wait ? 1.0 : 0.0;
+  }
+  EXPECT_GT(calm.sum(), 0.0);
+  return calm;
+}
+
+/// Largest difference of a channel's response to each number, over the largest response of a channel of its kind:
+/// sensors, displacements.
+std::vector<double> differences(BinnedRun const& binned, double wait = 0.0) {
+  MatrixXd const expected = forward(binned), actual = response(binned);
+  auto const rows = binned.time.size();
+  auto const calm = calm_rows(binned, wait);
+  std::vector<double> worst(std::size(numbers));
+  for (std::size_t k = 0; k < worst.size(); ++k)
+    for (bool const displacement : {false, true}) {
+      double largest = 0.0, error = 0.0;
+      for (std::size_t c = 0; c < binned.run->channels.size(); ++c) {
+        if (binned.run->channels[c].displacement != displacement) continue;
+        Eigen::VectorXd const whole = expected.col(Index(k)).segment(Index(c) * rows, rows);
+        Eigen::VectorXd const missed = whole - actual.col(Index(k)).segment(Index(c) * rows, rows);
+        largest = std::max(largest, whole.cwiseAbs().maxCoeff());
+        error = std::max(error, missed.cwiseProduct(calm).cwiseAbs().maxCoeff());
+      }
+      EXPECT_GT(largest, 0.0) << numbers[k];
+      worst[k] = std::max(worst[k], error / largest);
+    }
+  return worst;
+}
+
+/// A seat that conducts 40 W/K is felt in the first minutes of a speed only, which steps of minutes blur.
+TEST(LinearisedRun, RespondsAsForwardSensitivities) {
+  auto const worst = differences(bin(measured(), 300.0));
+  for (std::size_t k = 0; k < worst.size(); ++k)
+    EXPECT_LT(worst[k], numbers[k] == std::string("joint.front_seat.coefficient") ? 2.5e-2 : 1e-2) << numbers[k];
+}
+
+/// A quarter of the steps: a sixteenth of the error, down to what the tolerance of the course itself leaves.
+TEST(LinearisedRun, IsOfSecondOrderWhereTheCourseIsSmooth) {
+  auto const coarse = differences(bin(measured(), 600.0, 40.0), 1800.0);
+  auto const fine = differences(bin(measured(), 150.0, 10.0), 1800.0);
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    EXPECT_LT(fine[k], std::max(coarse[k] / 5.0, 5e-4)) << numbers[k];
+  }
+}
+
+/// Of a warm start: every node one kelvin warmer, against two runs.
+TEST(LinearisedRun, RespondsToAWarmStart) {
+  auto run = measured();
+  double const start = dataset().truth_readings.back().values[0] + 273.15 + 3.0;
+  run.initial_temperature = start;
+  auto const binned = bin(run, 60.0);
+  auto warm = run, cold = run;
+  warm.initial_temperature = start + 0.5;
+  cold.initial_temperature = start - 0.5;
+  auto const shown = [&](MeasuredRun const& other) {
+    auto moved = binned;
+    moved.run = &other;
+    return LinearisedRun(machine(), moved).prediction();
+  };
+  MatrixXd const expected = shown(warm) - shown(cold);
+  thermal::ParameterColumns const none(machine().network(), {});
+  MatrixXd const actual = LinearisedRun(machine(), binned)
+                              .response([](auto&, double, auto&, auto&, MatrixXd& forcing) { forcing.setZero(); },
+                                        MatrixXd::Ones(machine().network().nodes(), 1));
+  auto const rows = binned.time.size();
+  for (std::size_t c = 0; c < run.channels.size(); ++c) {
+    Eigen::VectorXd const difference = expected.col(Index(c)) - actual.col(0).segment(Index(c) * rows, rows);
+    EXPECT_LT(difference.cwiseAbs().maxCoeff(), run.channels[c].displacement ? 3e-8 : 1e-2) << run.channels[c].name;
+  }
+}
+
+/// Largest difference between prediction and truth: of the sensors [K], of the displacements [m].
+std::pair<double, double> missed(double interval, double wait) {
+  auto const binned = bin(measured(), interval);
+  auto const calm = calm_rows(binned, wait);
+  MatrixXd const difference = LinearisedRun(machine(), binned).prediction() - binned.values;
+  std::pair<double, double> worst{0.0, 0.0};
+  for (std::size_t c = 0; c < measured().channels.size(); ++c) {
+    double& own = measured().channels[c].displacement ? worst.second : worst.first;
+    own = std::max(own, difference.col(Index(c)).cwiseProduct(calm).cwiseAbs().maxCoeff());
+  }
+  return worst;
+}
+
+TEST(LinearisedRun, PredictsTheRun) {
+  auto const [kelvin, metres] = missed(60.0, 0.0);
+  EXPECT_LT(kelvin, 5e-3);
+  EXPECT_LT(metres, 2e-8);
+}
+
+/// Rows of minutes: steps are straight, the course after a jump is not.
+TEST(LinearisedRun, PredictsTheMeanOfMinutes) {
+  auto const [kelvin, metres] = missed(300.0, 0.0);
+  EXPECT_LT(kelvin, 0.15);
+  EXPECT_LT(metres, 3e-7);
+  auto const [calm_kelvin, calm_metres] = missed(300.0, 1800.0);
+  EXPECT_LT(calm_kelvin, 1e-2);
+  EXPECT_LT(calm_metres, 3e-8);
+}
+
+/// Sensors that lag, hang in the air or drift, as the prediction of the whole run says (prediction.h).
+TEST(LinearisedRun, ReadsThroughTheSensorsOfAnotherMachine) {
+  auto document = v450();
+  set_parameter(document, "temperature_sensor.T1.lag", "150 s");
+  set_parameter(document, "temperature_sensor.T2.stem_loss", "0.1");
+  set_parameter(document, "temperature_sensor.T6.offset", "0.4 K");
+  set_parameter(document, "temperature_sensor.T7.drift", "0.1 K/h");
+  set_parameter(document, "displacement.E_Z.segment.1.growth_factor", "1.3");
+  Machine const other = Machine::build(document);
+  auto const binned = bin(measured(), 60.0);
+  MatrixXd const expected = predict(other, measured());
+  MatrixXd const shown = LinearisedRun(machine(), binned).prediction_of(other);
+  MatrixXd const plain = LinearisedRun(machine(), binned).prediction();
+  for (std::size_t c = 0; c < measured().channels.size(); ++c) {
+    auto const& channel = measured().channels[c];
+    Eigen::VectorXd const difference = shown.col(Index(c)) - expected.col(Index(c)).head(shown.rows());
+    EXPECT_LT(difference.head(shown.rows() - 1).cwiseAbs().maxCoeff(), channel.displacement ? 2e-8 : 2e-2)
+        << channel.name;
+    bool const differs = channel.name == "T1" || channel.name == "T2" || channel.name == "T6" || channel.name == "T7" ||
+                         channel.name == "E_Z";
+    EXPECT_EQ((shown - plain).col(Index(c)).cwiseAbs().maxCoeff() > 0.0, differs) << channel.name;
+  }
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

@@ -1,0 +1,114 @@
+#include "twin/diagnosis/uncertain_number.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <set>
+
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/machine.h"
+#include "twin/sensitivity.h"
+
+namespace thermotwin::twin {
+namespace {
+
+/// A machine's document, made ready, and what is uncertain in it.
+struct Uncertain {
+  explicit Uncertain(Value of) : document(std::move(of)), numbers(uncertain_numbers(document)) {}
+
+  [[nodiscard]] UncertainNumber const* find(std::string const& path) const {
+    auto const it = std::find_if(numbers.begin(), numbers.end(), [&](auto const& n) { return n.path == path; });
+    return it == numbers.end() ? nullptr : &*it;
+  }
+
+  Value document;
+  std::vector<UncertainNumber> numbers;
+};
+
+TEST(UncertainNumbers, OfTheLumpedMachineAreItsJointsFilmsLossesMassesAndGrowth) {
+  Uncertain const v450(tests::v450());
+  struct Expected {
+    char const* path;
+    double nominal, deviation;
+  };
+  for (auto const& [path, nominal, deviation] :
+       {Expected{"joint.front_seat.coefficient", 3000.0, 0.30}, Expected{"joint.guide.conductance", 18.0, 0.30},
+        Expected{"bearing.front.conductance", 9.0, 0.30}, Expected{"bearing.front.grease_factor", 0.55, 0.25},
+        Expected{"bearing.rear.grease_factor", 0.55, 0.25}, Expected{"motor_loss.stator.constant", 18.0, 0.25},
+        Expected{"motor_loss.rotor.hysteresis", 7.5, 0.25}, Expected{"belt.belt.loss", 45.0, 0.25},
+        Expected{"film.head_front.area", 0.55, 0.20}, Expected{"film.motor.coefficient", 22.0, 0.20},
+        Expected{"lump.column_rear.mass", 230.0, 0.10}, Expected{"lump.front_ring.heat_capacity", 282.0, 0.10},
+        Expected{"displacement.E_Z.segment.0.growth_factor", 1.0, 0.10},
+        Expected{"displacement.E_Z.segment.6.growth_factor", 1.0, 0.10},
+        Expected{"rotation.A.segment.1.growth_factor", 1.0, 0.10}}) {
+    auto const* number = v450.find(path);
+    ASSERT_TRUE(number) << path;
+    EXPECT_NEAR(number->nominal, nominal, 1e-9 * nominal) << path;
+    EXPECT_EQ(number->deviation, deviation) << path;
+  }
+}
+
+/// What was measured with a rule or a balance, or read from a handbook, is none.
+TEST(UncertainNumbers, DoNotContainWhatIsKnown) {
+  Uncertain const v450(tests::v450());
+  for (auto const* path : {"joint.front_seat.area", "bar.shaft.outer_diameter", "bar.shaft.length", "bearing.front.oil",
+                           "bearing.front.count", "bearing.front.pitch_diameter", "material.casting.expansion",
+                           "temperature_sensor.T1.lag", "film.test_bar.diameter"})
+    EXPECT_FALSE(v450.find(path)) << path;
+}
+
+class UncertainNumbersOf : public testing::TestWithParam<char const*> {};
+
+TEST_P(UncertainNumbersOf, StandInTheFileOnceAndCanBeSet) {
+  Uncertain const machine(read_toml(machine_file(GetParam())));
+  EXPECT_GT(machine.numbers.size(), 2U);
+  std::set<std::string> paths;
+  Value changed = machine.document;
+  for (auto const& number : machine.numbers) {
+    EXPECT_TRUE(paths.insert(number.path).second) << number.path << " twice";
+    auto const parameter = find_number(machine.document, number.path);
+    EXPECT_EQ(parameter.value, number.nominal) << number.path;
+    EXPECT_EQ(parameter.dimension, number.dimension) << number.path;
+    EXPECT_GT(number.nominal, 0.0) << number.path;
+    EXPECT_GT(number.deviation, 0.0) << number.path;
+    set_number(changed, parameter, 1.1 * number.nominal);
+    EXPECT_NEAR(find_number(changed, number.path).value, 1.1 * number.nominal, 1e-9 * number.nominal) << number.path;
+  }
+  EXPECT_NO_THROW((void)Machine::build(changed));
+}
+
+/// Neither does making it ready change the machine.
+TEST_P(UncertainNumbersOf, LeaveTheMachineAsItIs) {
+  Value const before = read_toml(machine_file(GetParam()));
+  Uncertain const machine(before);
+  auto const was = Machine::build(before), is = Machine::build(machine.document);
+  EXPECT_EQ(was.network().capacity(), is.network().capacity());
+  ASSERT_EQ(was.network().groups().size(), is.network().groups().size());
+  for (std::size_t g = 0; g < was.network().groups().size(); ++g)
+    EXPECT_EQ(was.network().groups()[g].coefficients, is.network().groups()[g].coefficients);
+  ASSERT_EQ(was.displacements.size(), is.displacements.size());
+  for (std::size_t d = 0; d < was.displacements.size(); ++d)
+    EXPECT_EQ(was.displacements[d].weights, is.displacements[d].weights);
+}
+
+/// Everyone deserves its place: it changes heat, or what moves the tool.
+TEST_P(UncertainNumbersOf, DoSomething) {
+  Uncertain const machine(read_toml(machine_file(GetParam())));
+  auto const any = [](auto const& values) {
+    return std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
+  };
+  for (auto const& number : machine.numbers) {
+    auto const d = differentiate(machine.document, number.path);
+    bool const heat =
+        any(d.network.capacity) || std::any_of(d.network.coefficients.begin(), d.network.coefficients.end(), any);
+    bool const tool = std::any_of(d.displacements.begin(), d.displacements.end(), [](auto const& weights) {
+      return std::any_of(weights.begin(), weights.end(), [](auto const& w) { return w.second != 0.0; });
+    });
+    EXPECT_TRUE(heat || tool) << number.path;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, UncertainNumbersOf, testing::Values("v450", "vmc850", "g200", "tclab"),
+                         [](auto const& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace thermotwin::twin
