@@ -98,7 +98,7 @@ std::string due_for(std::string const& channel, Machine const& machine) {
     if (channel.starts_with(axis.name + ".")) return "";
   for (auto const& known : suppositions())
     if (channel == known.channel) return "";
-  return channel == "time_of_day" ? "" : channel;
+  return channel == "time_of_day" || channel.starts_with("clock.") ? "" : channel;
 }
 
 void check_needs(MeasuredData const& data, Machine const& machine) {
