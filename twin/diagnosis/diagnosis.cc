@@ -255,14 +255,19 @@ Diagnosis Diagnostician::operator()() {
   hypotheses_ = hypotheses(document_, machine_, options_.without);
   say("scanning for heat that the machine does not know");
   diagnosis_.scan = scan_for_free_heat(*estimation_, fit_);
-  for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
+  Estimation const plain = *estimation_;
+  for (int round = 1; round <= options_.most_effects && add_effect(round) && !is_unknown(); ++round) continue;
+  diagnosis_.verdict = verdict();
+  if (diagnosis_.verdict == Diagnosis::Verdict::none_known) {  // nothing is added to the machine
+    estimation_ = plain;
+    fit_ = diagnosis_.calibrated;
+    diagnosis_.unknown_heat = diagnosis_.scan[0];
+  }
   diagnosis_.hypotheses = hypotheses_;
   diagnosis_.amended = fit_;
   diagnosis_.effects = estimation_->effects();
   diagnosis_.unknowns = estimation_->unknowns();
   diagnosis_.document = estimation_->document_at(fit_.x);
-  diagnosis_.verdict = verdict();
-  if (diagnosis_.verdict == Diagnosis::Verdict::none_known) diagnosis_.unknown_heat = diagnosis_.scan[0];
   return diagnosis_;
 }
 

@@ -45,7 +45,7 @@ struct Diagnosis {
     none_known,  ///< heat that no effect of the catalogue explains
   };
   Verdict verdict = Verdict::nothing;
-  std::vector<Explanation> explanations;
+  std::vector<Explanation> explanations;  ///< of `none_known`: the nearest in the catalogue, which do not suffice
   /// Bodies that the missing heat enters, and whether it does so while the spindle turns or while it stands.
   std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`
