@@ -15,6 +15,7 @@
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "twin/challenge/challenge.h"
+#include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnose_files.h"
 #include "twin/effect_page.h"
@@ -233,6 +234,22 @@ void add_other_commands(CLI::App& app) {
   });
 }
 
+void add_calibrate_command(CLI::App& app) {
+  auto* command = app.add_subcommand("calibrate", "fit the uncertain numbers of a machine to measurements");
+  auto files = std::make_shared<CalibrateFiles>();
+  auto json = std::make_shared<bool>(false);
+  auto machine = std::make_shared<std::string>();
+  command->add_option("machine", *machine, "machine file or name")->required();
+  command->add_option("data", files->data, "measured runs: .h5, .csv, or a measurement file .toml")->required();
+  command->add_option("--output,-o", files->output, "machine file to write: the same with the numbers identified");
+  command->add_flag("--json", *json, "print everything as JSON");
+  command->callback([files, json, machine] {
+    files->machine = machine_file(*machine);
+    auto const calibration = calibrate_files(*files);
+    fmt::print("{}", *json ? calibration_json(calibration) : calibration_table(calibration));
+  });
+}
+
 void add_compare_command(CLI::App& app) {
   auto* command = app.add_subcommand("compare", "two machines against the same measurements, side by side");
   auto before = std::make_shared<std::string>(), after = std::make_shared<std::string>();
@@ -282,6 +299,7 @@ int command_line(int argc, char** argv) {
   RunCommand run_command;
   run_command.add_to(app);
   add_other_commands(app);
+  add_calibrate_command(app);
   add_diagnose_command(app);
   add_compare_command(app);
   add_challenge_command(app);

@@ -1,27 +1,85 @@
 #include "twin/diagnosis/diagnose_files.h"
 
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "twin/diagnosis/estimate_text.h"
+#include "twin/diagnosis/run_files.h"
+
 namespace thermotwin::twin {
 namespace {
 
-std::vector<MeasuredRun> read_runs(std::vector<std::filesystem::path> const& paths, Machine const& machine,
-                                   std::vector<std::string>& remarks) {
-  std::vector<MeasuredRun> runs;
-  for (auto const& path : paths) {
-    runs.push_back(read_measured_run(path, machine));
-    for (auto const& remark : runs.back().remarks) remarks.push_back(path.filename().string() + ": " + remark);
+std::vector<ChangedValue> changes_of(Diagnosis const& diagnosis, Value document) {
+  auto const numbers = uncertain_numbers(document);
+  std::vector<ChangedValue> changes;
+  for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
+    if (diagnosis.unknowns[u].kind != Unknown::Kind::number) continue;
+    auto const i = Eigen::Index(u);
+    changes.push_back(changed_value(numbers[diagnosis.unknowns[u].index], diagnosis.amended.x[i],
+                                    std::sqrt(diagnosis.amended.covariance(i, i))));
   }
-  return runs;
+  return changes;
 }
 
-std::vector<BinnedRun> binned(std::vector<MeasuredRun> const& runs) {
-  std::vector<BinnedRun> result;
-  for (auto const& run : runs) result.push_back(bin(run, fitting_interval(run)));
-  return result;
+/// The explanation whose best alternative is this effect.
+Explanation const* explanation_of(Diagnosis const& diagnosis, Hypothesis const& effect) {
+  auto const it =
+      std::find_if(diagnosis.explanations.begin(), diagnosis.explanations.end(), [&](Explanation const& explanation) {
+        return !explanation.alternatives.empty() && explanation.alternatives[0].hypothesis.label() == effect.label();
+      });
+  return it == diagnosis.explanations.end() ? nullptr : &*it;
+}
+
+std::string origin_of(Diagnosis const& diagnosis, Hypothesis const& effect, RunFiles const& data) {
+  std::string text = fmt::format("Diagnosed from {}: {}, at {}.", names_of(data), effect.effect->meaning, effect.site);
+  Explanation const* explanation = explanation_of(diagnosis, effect);
+  if (!explanation) return text;
+  auto const& all = explanation->alternatives;
+  text += fmt::format("\n2 ln of the evidence against the machine without it: {:.0f}.", all[0].strength);
+  if (all.size() == 1) return text;
+  text += fmt::format(" One of {}, which these data do not tell apart:", all.size());
+  for (auto const& finding : all)
+    text += fmt::format("\n  {:.0f} % {}", 100.0 * finding.weight, finding.hypothesis.label());
+  return text;
+}
+
+AddedTable table_of(Diagnosis const& diagnosis, std::size_t u, RunFiles const& data) {
+  auto const& effect = diagnosis.effects[diagnosis.unknowns[u].index];
+  auto const i = Eigen::Index(u);
+  double const amplitude = diagnosis.amended.x[i] * effect.trial->largest;
+  double const error = std::sqrt(diagnosis.amended.covariance(i, i)) * effect.trial->largest;
+  auto const& parameters = effect.effect->parameters;
+  AddedTable table{effect.effect->name, {}, origin_of(diagnosis, effect, data)};
+  for (auto const& [key, text] :
+       table_of(effect, fmt::format("diagnosed_{}", diagnosis.unknowns[u].index + 1), amplitude)) {
+    table.keys.push_back({key, text, ""});
+    if (key != effect.trial->amplitude) continue;
+    auto const parameter =
+        std::find_if(parameters.begin(), parameters.end(), [&](auto const& p) { return p.key == key; });
+    std::string const unit = readable_unit(amplitude, parameter->dimension);
+    table.keys.back().text = written_value(amplitude, unit);
+    table.keys.back().comment = written_interval(error, unit);
+  }
+  return table;
+}
+
+std::string amended(std::string const& text, Diagnosis const& diagnosis, RunFiles const& data) {
+  std::vector<AddedTable> tables;
+  for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u)
+    if (diagnosis.unknowns[u].kind == Unknown::Kind::amplitude) tables.push_back(table_of(diagnosis, u, data));
+  auto const changes = changes_of(diagnosis, parse_toml(text, "machine file"));
+  return with_last_words(amended_text(with_values(text, changes), tables),
+                         fmt::format("Diagnosis of {}: {}. Numbers calibrated with it; ±: 95 %.", names_of(data),
+                                     name_of(diagnosis.verdict)));
 }
 
 }  // namespace
 
 DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
+  RunFiles every = files.data;
+  every.insert(every.end(), files.held_out.begin(), files.held_out.end());
+  refuse_to_overwrite(files.output, files.machine, every);
   DiagnosisReport report;
   Value const document = read_toml(files.machine);
   Machine const machine = Machine::build(document);
@@ -32,9 +90,11 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   options.without = files.without;
   options.progress = files.progress;
   report.diagnosis = diagnose(document, fitted, held_out, options);
-  Machine const amended = Machine::build(report.diagnosis.document);
-  report.fitted = gaps(machine, amended, fitted);
-  report.held_out = gaps(machine, amended, held_out);
+  Machine const amended_machine = Machine::build(report.diagnosis.document);
+  report.fitted = gaps(machine, amended_machine, fitted);
+  report.held_out = gaps(machine, amended_machine, held_out);
+  if (!files.output.empty())
+    write_amended(files.machine, files.output, amended(text_of_file(files.machine), report.diagnosis, files.data));
   return report;
 }
 

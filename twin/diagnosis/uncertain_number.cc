@@ -21,6 +21,14 @@ std::optional<double> deviation_of(std::string const& table, std::string const& 
   return std::nullopt;
 }
 
+/// "W/K" of "9 W/K".
+std::string unit_of(Value const& value) {
+  if (!value.is_text()) return "";
+  auto const& text = std::get<std::string>(value.content);
+  auto const space = text.find(' ');
+  return space == std::string::npos ? "" : text.substr(space + 1);
+}
+
 bool is_list_of_tables(Value const& value) {
   return value.is_list() && !std::get<Value::List>(value.content).empty() &&
          std::get<Value::List>(value.content).front().is_table();
@@ -40,7 +48,7 @@ void add_numbers(Value const& document, std::string const& kind, Value const& ta
     }
     auto const deviation = deviation_of(kind, entry.key, parameter.dimension);
     if (deviation && parameter.value > 0.0 && !parameter.absolute_temperature)
-      numbers.push_back({parameter.path, parameter.value, parameter.dimension, *deviation});
+      numbers.push_back({parameter.path, parameter.value, parameter.dimension, *deviation, unit_of(entry.value)});
   }
 }
 

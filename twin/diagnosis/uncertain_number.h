@@ -14,6 +14,7 @@ struct UncertainNumber {
   double nominal = 0.0;
   thermal::Dimension dimension;
   double deviation = 0.2;
+  std::string unit = {};  ///< that its author chose; empty: a bare number
 };
 
 /// What is uncertain in a machine file, by what kind of number it is (physics.md 8.1, as deviations of the logarithm):

@@ -1,0 +1,138 @@
+#include "twin/diagnosis/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "output/dataset_file.h"
+#include "tests/output/temporary_directory.h"
+#include "tests/scenarios/refusal.h"
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/diagnosis/estimate_text.h"
+
+/// A machine whose grease and whose motor's cooling are not what its file says.
+namespace thermotwin::twin {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using thermotwin::tests::contents;
+using thermotwin::tests::refusal;
+using thermotwin::tests::TemporaryDirectory;
+
+class CalibrationTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = std::make_unique<TemporaryDirectory>();
+    thermotwin::tests::put(*folder / "mine.toml", contents(machine_file("v450")));
+    Value truth = read_toml(machine_file("v450"));
+    set_parameter(truth, "bearing.front.grease_factor", "0.7");
+    set_parameter(truth, "film.motor.coefficient", "18 W/(m2 K)");
+    output::write(run(Machine::build(truth), tests::two_speeds(), {}).dataset, *folder / "run.h5");
+    calibration = calibrate_files({*folder / "mine.toml", {*folder / "run.h5"}, *folder / "calibrated.toml"});
+  }
+  static void TearDownTestSuite() { folder.reset(); }
+
+  static CalibratedNumber const& number(std::string const& path) {
+    auto const it = std::find_if(calibration.numbers.begin(), calibration.numbers.end(),
+                                 [&](auto const& n) { return n.number.path == path; });
+    if (it == calibration.numbers.end()) throw std::out_of_range(path);
+    return *it;
+  }
+
+  static std::unique_ptr<TemporaryDirectory> folder;
+  static Calibration calibration;
+};
+
+std::unique_ptr<TemporaryDirectory> CalibrationTest::folder;
+Calibration CalibrationTest::calibration;
+
+TEST_F(CalibrationTest, NumbersThatTheDataKnowAreFoundWithinTheirErrors) {
+  auto const& grease = number("bearing.front.grease_factor");
+  EXPECT_TRUE(grease.identified);
+  EXPECT_NEAR(grease.estimate(), 0.7, 3.0 * grease.standard_error());
+  EXPECT_LT(grease.standard_error(), 0.1);
+  auto const& film = number("film.motor.coefficient");
+  EXPECT_NEAR(film.estimate(), 18.0, 3.0 * film.standard_error());
+}
+
+TEST_F(CalibrationTest, NumbersThatTheDataDoNotKnowAreNotIdentified) {
+  auto const& bed = number("lump.bed.mass");
+  EXPECT_FALSE(bed.identified);
+  EXPECT_NEAR(bed.deviation, 0.10, 0.02);  // the prior's
+}
+
+TEST_F(CalibrationTest, GapShrinksThoughOnlyIdentifiedNumbersChange) {
+  auto const sum = whole(calibration.gaps);
+  EXPECT_LT(sum.after, 0.5 * sum.before);
+  EXPECT_LT(calibration.misfit, 1.2);
+}
+
+TEST_F(CalibrationTest, FileHasTheIdentifiedNumbersAndNoOthers) {
+  Value const written = read_toml(*folder / "calibrated.toml");
+  for (auto const& n : calibration.numbers) {
+    if (!n.identified && n.number.path.ends_with("growth_factor")) continue;
+    double const expected = n.number.nominal * std::exp(n.written);
+    EXPECT_EQ(n.identified, n.written != 0.0) << n.number.path;
+    EXPECT_NEAR(find_number(written, n.number.path).value, expected, 1e-5 * expected) << n.number.path;
+  }
+  EXPECT_THAT(contents(*folder / "calibrated.toml"), HasSubstr("# Calibrated from run.h5."));
+  EXPECT_EQ(contents(*folder / "mine.toml"), contents(machine_file("v450")));
+}
+
+TEST_F(CalibrationTest, FilesThatAreReadAreNeverWritten) {
+  for (auto const* name : {"mine.toml", "run.h5"})
+    EXPECT_THAT(refusal([&] {
+                  (void)calibrate_files({*folder / "mine.toml", {*folder / "run.h5"}, *folder / name});
+                }),
+                HasSubstr("never overwritten"));
+}
+
+TEST_F(CalibrationTest, TwoBearingsAtOnePlaceAreInseparableAndNeitherIsIdentified) {
+  EXPECT_TRUE(calibration.inseparable.empty());
+  Value document = read_toml(machine_file("v450"));
+  auto& bearings = std::get<Value::List>(document.find("bearing")->content);
+  bearings.push_back(bearings[0]);
+  bearings.back().find("name")->content = std::string("double");
+  for (std::string const name : {"front", "double"})
+    set_parameter(document, "bearing." + name + ".grease_factor", "0.3");
+  auto const run = read_measured_run(*folder / "run.h5", Machine::build(document));
+  auto const both = calibrate(document, {bin(run, fitting_interval(run))});
+  EXPECT_THAT(both.inseparable,
+              Contains(testing::UnorderedElementsAre("bearing.front.grease_factor", "bearing.double.grease_factor")));
+  for (auto const& n : both.numbers) {
+    bool const is_tied =
+        n.number.path == "bearing.front.grease_factor" || n.number.path == "bearing.double.grease_factor";
+    EXPECT_FALSE(is_tied && n.identified) << n.number.path;
+  }
+}
+
+TEST_F(CalibrationTest, CollinearityIsThatOfTheIdentifiedNumbers) {
+  EXPECT_GT(calibration.collinearity, 1.0);
+  EXPECT_FALSE(calibration.weakest.empty());
+  for (auto const& path : calibration.weakest) EXPECT_TRUE(number(path).identified) << path;
+}
+
+TEST_F(CalibrationTest, JsonHoldsEveryNumber) {
+  auto const json = nlohmann::json::parse(calibration_json(calibration));
+  EXPECT_EQ(json.at("numbers").size(), calibration.numbers.size());
+  EXPECT_EQ(json.at("instruments").size(), calibration.instruments.size());
+  EXPECT_NEAR(json.at("gap").at("after"), whole(calibration.gaps).after, 1e-12);
+}
+
+TEST(EstimateText, UnitsAreTheAuthors) {
+  EXPECT_EQ(written_value(0.5156583, "m2"), "0.515658 m2");
+  EXPECT_EQ(written_value(0.5156583, ""), "0.515658");
+  EXPECT_EQ(written_interval(0.5, "W/K"), "± 0.98 W/K");
+  EXPECT_EQ(readable_unit(237.0, thermal::dimension::power), "W");
+  EXPECT_EQ(readable_unit(2.4e4, thermal::dimension::power), "kW");
+  UncertainNumber const bed{"lump.bed.mass", 900.0, thermal::dimension::mass, 0.1, "kg"};
+  auto const change = changed_value(bed, std::log(1.1), 0.05);
+  EXPECT_EQ(change.text, "990 kg");
+  EXPECT_EQ(change.comment, "± 97 kg");
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

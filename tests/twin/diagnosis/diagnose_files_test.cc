@@ -1,0 +1,112 @@
+#include "twin/diagnosis/diagnose_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "output/dataset_file.h"
+#include "tests/output/temporary_directory.h"
+#include "tests/scenarios/refusal.h"
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/diagnosis/comparison.h"
+#include "twin/diagnosis/linearised_run.h"
+
+/// The whole way of a user: files in, a verdict and an amended file out.
+namespace thermotwin::twin {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using thermotwin::tests::contents;
+using thermotwin::tests::refusal;
+using thermotwin::tests::TemporaryDirectory;
+
+constexpr char const* heat = R"(
+[[heat]]
+name = "cabinet"
+at = "column_rear"
+power = "60 W"
+while_on = "machine.on"
+)";
+
+output::Dataset made(Value const& document, std::string const& blocks, std::string const& seed) {
+  auto const experiment = tests::experiment("duration = \"8 h\"\nseed = " + seed + "\nspindle.blocks = " + blocks);
+  return run(Machine::build(document), experiment, {}).dataset;
+}
+
+/// A machine with 60 W in its column, measured in two runs; its file knows nothing of them. Diagnosed once for all
+/// tests.
+class DiagnoseFilesTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = std::make_unique<TemporaryDirectory>();
+    thermotwin::tests::put(*folder / "mine.toml", contents(machine_file("v450")));
+    Value const truth = tests::with_table(read_toml(machine_file("v450")), heat);
+    output::write(made(truth, R"([{duration = "4 h", speed = "5000 rpm"}, {duration = "4 h", speed = "0 rpm"}])", "1"),
+                  *folder / "run1.h5");
+    output::write(made(truth, R"([{duration = "2 h", speed = "0 rpm"}, {duration = "6 h", speed = "3000 rpm"}])", "2"),
+                  *folder / "unseen.h5");
+    report = diagnose_files(
+        {*folder / "mine.toml", {*folder / "run1.h5"}, {*folder / "unseen.h5"}, *folder / "amended.toml", {}, {}});
+  }
+  static void TearDownTestSuite() { folder.reset(); }
+
+  static std::unique_ptr<TemporaryDirectory> folder;
+  static DiagnosisReport report;
+};
+
+std::unique_ptr<TemporaryDirectory> DiagnoseFilesTest::folder;
+DiagnosisReport DiagnoseFilesTest::report;
+
+TEST_F(DiagnoseFilesTest, HeatOfTheColumnIsAmongWhatMayBeMissing) {
+  ASSERT_FALSE(report.diagnosis.explanations.empty());
+  std::vector<std::string> labels;
+  for (auto const& finding : report.diagnosis.explanations[0].alternatives)
+    labels.push_back(finding.hypothesis.label());
+  EXPECT_THAT(labels, Contains("heat at column_rear"));
+}
+
+TEST_F(DiagnoseFilesTest, AmendedFileIsTheMachineThatWasDiagnosed) {
+  Machine const written = Machine::read(*folder / "amended.toml");
+  Machine const meant = Machine::build(report.diagnosis.document);
+  ASSERT_EQ(written.network().parts().size(), meant.network().parts().size());
+  auto const run = read_measured_run(*folder / "run1.h5", meant);
+  auto const binned = bin(run, fitting_interval(run));
+  Eigen::MatrixXd const difference =
+      LinearisedRun(written, binned).prediction() - LinearisedRun(meant, binned).prediction();
+  for (std::size_t c = 0; c < run.channels.size(); ++c)
+    EXPECT_LT(difference.col(Eigen::Index(c)).cwiseAbs().maxCoeff(), run.channels[c].displacement ? 1e-9 : 1e-4)
+        << run.channels[c].name;
+}
+
+TEST_F(DiagnoseFilesTest, AmendedFileSaysWhatWasFoundAndWhere) {
+  std::string const text = contents(*folder / "amended.toml");
+  auto const& effect = report.diagnosis.effects.at(0);
+  EXPECT_THAT(text, HasSubstr("[[" + effect.effect->name + "]]\nname = \"diagnosed_1\"\n"));
+  EXPECT_THAT(text, HasSubstr("# Diagnosed from run1.h5: " + effect.effect->meaning));
+  EXPECT_THAT(text, HasSubstr("2 ln of the evidence"));
+  EXPECT_THAT(text, HasSubstr("growth_factor: ± "));
+  EXPECT_THAT(text, HasSubstr("# was 0.55; ± 0."));
+}
+
+TEST_F(DiagnoseFilesTest, GapShrinksOnTheUnseenRun) {
+  auto const comparison = compare_files(*folder / "mine.toml", *folder / "amended.toml", {*folder / "unseen.h5"});
+  auto const kelvin = total(comparison, "K"), micrometres = total(comparison, "um");
+  EXPECT_LT(kelvin.after, 0.5 * kelvin.before);
+  EXPECT_LT(micrometres.after, 0.5 * micrometres.before);
+}
+
+TEST_F(DiagnoseFilesTest, FilesThatAreReadAreNeverWritten) {
+  EXPECT_EQ(contents(*folder / "mine.toml"), contents(machine_file("v450")));
+  for (auto const* name : {"mine.toml", "run1.h5", "unseen.h5"}) {
+    std::string const before = contents(*folder / name);
+    EXPECT_THAT(refusal([&] {
+                  (void)diagnose_files(
+                      {*folder / "mine.toml", {*folder / "run1.h5"}, {*folder / "unseen.h5"}, *folder / name, {}, {}});
+                }),
+                HasSubstr("never overwritten"));
+    EXPECT_EQ(contents(*folder / name), before);
+  }
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

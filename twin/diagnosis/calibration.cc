@@ -1,0 +1,165 @@
+#include "twin/diagnosis/calibration.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+#include "thermal/error.h"
+#include "twin/diagnosis/amended_file.h"
+#include "twin/diagnosis/diagnosis.h"
+#include "twin/diagnosis/estimate_text.h"
+#include "twin/diagnosis/run_files.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double still_uncertain = 0.5;  // of the prior's deviation
+constexpr double tied = 0.95;            // correlation
+constexpr double large_share = 0.3;      // of a unit vector
+constexpr int iterations = 12;
+
+std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs) {
+  std::vector<std::string> names;
+  for (auto const& run : runs)
+    for (auto const& channel : run.run->channels)
+      if (std::find(names.begin(), names.end(), channel.name) == names.end()) names.push_back(channel.name);
+  return names;
+}
+
+Estimation estimation_of(Value const& machine, std::vector<BinnedRun> const& runs) {
+  Machine const built = Machine::build(machine);
+  auto const channels = channels_of(runs);
+  std::vector<ChannelNoise> noise;
+  for (auto const& channel : channels) noise.push_back(expected_noise(built, channel, runs));
+  return {machine, runs, channels, noise};
+}
+
+void add_estimates(Calibration& calibration, Estimation const& estimation, Fit const& fit) {
+  auto const& unknowns = estimation.unknowns();
+  for (std::size_t u = 0; u < unknowns.size(); ++u) {
+    auto const i = Eigen::Index(u);
+    double const deviation = std::sqrt(fit.covariance(i, i));
+    if (unknowns[u].kind != Unknown::Kind::number) {
+      calibration.instruments.push_back({unknowns[u], fit.x[i], deviation});
+      continue;
+    }
+    auto const& number = estimation.numbers()[unknowns[u].index];
+    calibration.numbers.push_back({number, fit.x[i], deviation, deviation <= still_uncertain * number.deviation});
+  }
+}
+
+/// Groups of unknowns that a chain of correlations ties.
+std::vector<std::vector<std::string>> inseparable(std::vector<Unknown> const& unknowns, Fit const& fit) {
+  std::vector<std::size_t> group(unknowns.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (std::size_t a = 0; a < unknowns.size(); ++a)
+    for (std::size_t b = a + 1; b < unknowns.size(); ++b) {
+      auto const i = Eigen::Index(a), j = Eigen::Index(b);
+      double const covariance = fit.covariance(i, j);
+      if (std::abs(covariance) > tied * std::sqrt(fit.covariance(i, i) * fit.covariance(j, j)))
+        std::replace(group.begin(), group.end(), group[b], group[a]);
+    }
+  std::vector<std::vector<std::string>> groups;
+  for (std::size_t g = 0; g < unknowns.size(); ++g) {
+    std::vector<std::string> names;
+    for (std::size_t u = 0; u < unknowns.size(); ++u)
+      if (group[u] == g) names.push_back(unknowns[u].name);
+    if (names.size() > 1) groups.push_back(std::move(names));
+  }
+  return groups;
+}
+
+void add_collinearity(Calibration& calibration, Estimation const& estimation, Fit const& fit) {
+  std::vector<Eigen::Index> identified;
+  for (std::size_t n = 0; n < calibration.numbers.size(); ++n)
+    if (calibration.numbers[n].identified) identified.push_back(Eigen::Index(n));
+  if (identified.empty()) return;
+  Eigen::MatrixXd const sensitivities =
+      fit.jacobian.topRows(estimation.rows())(Eigen::all, identified).colwise().normalized();
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const solver((sensitivities.transpose() * sensitivities).eval());
+  calibration.collinearity = 1.0 / std::sqrt(std::max(solver.eigenvalues()[0], 1e-12));
+  for (std::size_t k = 0; k < identified.size(); ++k)
+    if (std::abs(solver.eigenvectors()(Eigen::Index(k), 0)) > large_share)
+      calibration.weakest.push_back(calibration.numbers[std::size_t(identified[k])].number.path);
+}
+
+double misfit_of(Estimation const& estimation, Fit const& fit) {
+  double samples = 0.0;
+  for (auto const& run : estimation.data()) samples += double((run.samples.array() > 0.0).count());
+  return fit.residual.head(estimation.rows()).squaredNorm() / std::max(samples, 1.0);
+}
+
+/// x_I + C_IU C_UU⁻¹ (0 − x_U): the mean of the identified numbers I where the others U are nominal.
+void add_written(Calibration& calibration, Fit const& fit) {
+  std::vector<Eigen::Index> identified, others;
+  for (std::size_t n = 0; n < calibration.numbers.size(); ++n)
+    (calibration.numbers[n].identified ? identified : others).push_back(Eigen::Index(n));
+  Eigen::MatrixXd const own = fit.covariance(others, others), cross = fit.covariance(identified, others);
+  Eigen::VectorXd const moved = fit.x(others);
+  Eigen::VectorXd written = fit.x(identified);
+  if (!others.empty()) written -= cross * own.llt().solve(moved);
+  for (std::size_t k = 0; k < identified.size(); ++k)
+    calibration.numbers[std::size_t(identified[k])].written = written[Eigen::Index(k)];
+}
+
+std::vector<ChangedValue> changes_of(Calibration const& calibration) {
+  std::vector<ChangedValue> changes;
+  for (auto const& number : calibration.numbers) {
+    if (!number.identified) continue;
+    auto change = changed_value(number.number, number.written, number.deviation);
+    change.comment = fmt::format("estimate {} {}", written_value(number.estimate(), number.number.unit, 4),
+                                 written_interval(number.standard_error(), number.number.unit));
+    changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
+}  // namespace
+
+double CalibratedNumber::estimate() const { return number.nominal * std::exp(logarithm); }
+double CalibratedNumber::standard_error() const { return estimate() * deviation; }
+
+Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) {
+  Estimation const estimation = estimation_of(machine, runs);
+  if (estimation.numbers().empty())
+    throw thermal::InputError(
+        "the machine has no number that calibration could change: no conductance, film, friction, loss, mass or step "
+        "of a structural loop");
+  Fit const fit = estimation.fit(estimation.prior_mean(), iterations);
+  Calibration calibration;
+  calibration.converged = fit.converged;
+  add_estimates(calibration, estimation, fit);
+  calibration.inseparable = inseparable(estimation.unknowns(), fit);
+  add_collinearity(calibration, estimation, fit);
+  calibration.misfit = misfit_of(estimation, fit);
+  add_written(calibration, fit);
+  Eigen::VectorXd x = fit.x;
+  for (std::size_t n = 0; n < calibration.numbers.size(); ++n) x[Eigen::Index(n)] = calibration.numbers[n].written;
+  calibration.document = estimation.document_at(x);
+  Machine const before = Machine::build(machine), after = Machine::build(calibration.document);
+  calibration.machine = before.name;
+  calibration.gaps = gaps(before, after, runs);
+  return calibration;
+}
+
+Calibration calibrate_files(CalibrateFiles const& files) {
+  refuse_to_overwrite(files.output, files.machine, files.data);
+  std::string const text = text_of_file(files.machine);
+  Value const document = parse_toml(text, files.machine.string());
+  std::vector<std::string> remarks;
+  auto const measured = read_runs(files.data, Machine::build(document), remarks);
+  auto calibration = calibrate(document, binned(measured));
+  calibration.remarks = remarks;
+  if (!files.output.empty())
+    write_amended(files.machine, files.output,
+                  with_last_words(with_values(text, changes_of(calibration)),
+                                  fmt::format("Calibrated from {}. ±: 95 %; numbers that these data do not identify "
+                                              "are as they were.",
+                                              names_of(files.data))));
+  return calibration;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "twin/diagnosis/estimation.h"
+#include "twin/diagnosis/gap.h"
+
+namespace thermotwin::twin {
+
+/// A number of the machine file after calibration. A priori ln(value/nominal) ~ N(0, number.deviation²).
+struct CalibratedNumber {
+  UncertainNumber number;
+  double logarithm = 0.0;  ///< ln(estimate/nominal)
+  double deviation = 0.0;  ///< its posterior standard deviation
+  /// The data have at least halved what was uncertain: deviation ≤ 0.5 · number.deviation (physics.md 8.9). If not,
+  /// the estimate is mostly the prior's and the number keeps its nominal value.
+  bool identified = false;
+  /// ln(value/nominal) in the calibrated file: 0 if not identified; if so, the most probable value given that those are
+  /// at 0, which leaves a smaller gap than `logarithm` beside numbers that did not move with it.
+  double written = 0.0;
+
+  [[nodiscard]] double estimate() const;
+  [[nodiscard]] double standard_error() const;  ///< in the number's unit [SI]
+};
+
+/// What belongs to the instruments and the runs, not to the machine: an offset, a lag, a warm start.
+struct CalibratedInstrument {
+  Unknown unknown;
+  double estimate = 0.0, standard_error = 0.0;  ///< in the unit of the unknown
+};
+
+/// What measured runs say about the uncertain numbers of a machine that is supposed to lack nothing (physics.md 8.1,
+/// 8.9). The noise is the expected one.
+struct Calibration {
+  std::string machine;
+  std::vector<CalibratedNumber> numbers;
+  std::vector<CalibratedInstrument> instruments;
+  /// Unknowns that are tied to each other by a correlation above 0.95 in size: the data know a combination only.
+  std::vector<std::vector<std::string>> inseparable;
+  /// γ = 1/√λ_min(S̃ᵀS̃), S̃: whitened sensitivities to the identified numbers, scaled to unit norm. 1: independent;
+  /// above 10 to 15 they are not identified together (Brun, Reichert & Künsch 2001). 0 if none is identified.
+  double collinearity = 0.0;
+  std::vector<std::string> weakest;  ///< numbers that make up most of that λ_min's direction
+  double misfit = 0.0;  ///< mean square of the whitened residuals; 1: as expected, though an effect may be missing
+  bool converged = false;
+  std::vector<ChannelGap> gaps;  ///< of the nominal machine and of `document`
+  Value document;                ///< the machine with the numbers as written
+  std::vector<std::string> remarks;
+};
+
+/// `machine`: its document. InputError when it has no uncertain number, or cannot be run on the data.
+[[nodiscard]] Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs);
+
+/// `thermotwin calibrate`.
+struct CalibrateFiles {
+  std::filesystem::path machine;
+  std::vector<std::filesystem::path> data;
+  std::filesystem::path output;  ///< of the calibrated machine; empty: none
+};
+
+/// Reads machine and data, calibrates, and writes the user's file with the identified numbers in place. InputError for
+/// files that cannot serve, and for an output that is one of them.
+[[nodiscard]] Calibration calibrate_files(CalibrateFiles const& files);
+
+[[nodiscard]] std::string calibration_table(Calibration const& calibration);
+[[nodiscard]] std::string calibration_json(Calibration const& calibration);
+
+}  // namespace thermotwin::twin
