@@ -1,0 +1,187 @@
+#include "twin/diagnosis/estimation.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/sensitivity.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using tests::v450;
+
+constexpr double kelvin = 0.03, metres = 0.1e-6;
+
+struct Change {
+  char const* path;
+  double factor;
+};
+constexpr Change changes[] = {
+    {"bearing.front.grease_factor", 1.2}, {"film.motor.coefficient", 0.8}, {"bearing.rear.grease_factor", 1.2}};
+
+/// The machine as it is: three numbers differ by a fifth, one sensor lags, one is off.
+Value truth() {
+  Value document = v450();
+  for (auto const& [path, factor] : changes) {
+    auto const number = find_number(document, path);
+    set_number(document, number, factor * number.value);
+  }
+  set_parameter(document, "temperature_sensor.T4.lag", "60 s");
+  set_parameter(document, "temperature_sensor.T6.offset", "0.4 K");
+  return document;
+}
+
+/// Its twin, which knows the numbers of the file, fitted to a noisy run of it.
+struct Question {
+  Question() : run(tests::measured(truth(), tests::two_speeds())) {
+    tests::add_noise(run, kelvin, metres, 5);
+    data.push_back(bin(run, 120.0));
+    estimation.emplace(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+    fit = estimation->fit(estimation->prior_mean());
+  }
+  [[nodiscard]] Index index(std::string const& name) const {
+    auto const& all = estimation->unknowns();
+    auto const it = std::find_if(all.begin(), all.end(), [&](auto const& u) { return u.name == name; });
+    EXPECT_NE(it, all.end()) << name;
+    return Index(it - all.begin());
+  }
+  [[nodiscard]] double error(std::string const& name) const {
+    Index const i = index(name);
+    return std::sqrt(fit.covariance(i, i));
+  }
+
+  MeasuredRun run;
+  std::vector<BinnedRun> data;
+  std::optional<Estimation> estimation;
+  Fit fit;
+};
+
+Question const& question() {
+  static Question const once;
+  return once;
+}
+
+TEST(Estimation, FindsTheNumbersThatDiffer) {
+  auto const& q = question();
+  EXPECT_TRUE(q.fit.converged);
+  for (auto const& [path, factor] : changes) {
+    double const estimate = q.fit.x[q.index(path)], error = q.error(path);
+    EXPECT_NEAR(estimate, std::log(factor), 3.0 * error) << path;
+    EXPECT_LT(error, 0.65 * q.estimation->unknowns()[std::size_t(q.index(path))].deviation) << path;
+  }
+}
+
+TEST(Estimation, FindsOffsetAndLag) {
+  auto const& q = question();
+  for (auto const& [name, value, known] : {std::tuple{"offset of T6", 0.4, 0.2},
+                                           {"offset of T8", 0.0, 0.2},
+                                           {"lag of T4", 60.0, 5.0},
+                                           {"lag of T8", 30.0, 20.0}}) {
+    EXPECT_NEAR(q.fit.x[q.index(name)], value, 3.0 * q.error(name)) << name;
+    EXPECT_LT(q.error(name), known) << name;
+  }
+}
+
+/// The others are where they were, within what the data leave open.
+TEST(Estimation, LeavesTheOtherNumbersWhereTheyAre) {
+  auto const& q = question();
+  for (std::size_t u = 0; u < q.estimation->unknowns().size(); ++u) {
+    auto const& unknown = q.estimation->unknowns()[u];
+    if (unknown.kind != Unknown::Kind::number) continue;
+    double expected = 0.0;
+    for (auto const& [path, factor] : changes)
+      if (unknown.name == path) expected = std::log(factor);
+    double const error = std::sqrt(q.fit.covariance(Index(u), Index(u)));
+    EXPECT_LE(error, unknown.deviation * (1.0 + 1e-9)) << unknown.name;
+    EXPECT_NEAR(q.fit.x[Index(u)], expected, 3.5 * error) << unknown.name;
+  }
+}
+
+/// What is left is less than the noise, of which a part is the model's error that this twin does not have.
+TEST(Estimation, LeavesNoMoreThanTheNoise) {
+  auto const& q = question();
+  auto const rows = q.estimation->rows();
+  EXPECT_LT(q.fit.residual.head(rows).squaredNorm(), double(rows));
+  EXPECT_DOUBLE_EQ(q.fit.cost, q.fit.residual.squaredNorm());
+  auto const left = q.estimation->residuals_at(q.fit.x).at(0);
+  for (std::size_t c = 0; c < q.run.channels.size(); ++c) {
+    double const rms = std::sqrt(left.col(Index(c)).squaredNorm() / double(left.rows()));
+    EXPECT_LT(rms, q.run.channels[c].displacement ? 0.2e-6 : 0.1) << q.run.channels[c].name;
+  }
+}
+
+/// The Jacobian that the fit ends with, by differences of the residual: of a number, an offset, a lag.
+TEST(Estimation, JacobianAgreesWithDifferences) {
+  auto const& q = question();
+  auto const rows = q.estimation->rows();
+  auto const whitened = [&](VectorXd const& x) {
+    VectorXd residual = q.estimation->residuals_at(x)[0].reshaped();
+    q.estimation->whiten(residual);
+    return residual;
+  };
+  for (auto const& [name, step, tolerance] : {std::tuple{"bearing.front.grease_factor", 0.02, 0.02},
+                                              {"film.motor.coefficient", 0.05, 0.02},
+                                              {"joint.motor_flange.conductance", 0.05, 0.02},
+                                              {"displacement.E_Z.segment.1.growth_factor", 0.05, 1e-3},
+                                              {"offset of T6", 0.1, 1e-9},
+                                              {"zero of E_Z, run 1", 1e-6, 1e-9},
+                                              {"lag of T4", 2.0, 0.05},
+                                              {"warm start of run 1", 0.1, 1e-9},
+                                              {"air in run 1", 0.1, 1e-9}}) {
+    VectorXd plus = q.fit.x, minus = q.fit.x;
+    plus[q.index(name)] += step;
+    minus[q.index(name)] -= step;
+    VectorXd const expected = (whitened(plus) - whitened(minus)) / (2.0 * step);
+    VectorXd const actual = q.fit.jacobian.col(q.index(name)).head(rows);
+    EXPECT_GT(expected.norm(), 0.0) << name;
+    EXPECT_LT((actual - expected).norm(), tolerance * expected.norm()) << name;
+  }
+}
+
+TEST(Estimation, WritesWhatItFoundIntoTheMachine) {
+  auto const& q = question();
+  auto const document = q.estimation->document_at(q.fit.x);
+  for (auto const& [path, factor] : changes)
+    EXPECT_NEAR(find_number(document, path).value, find_number(v450(), path).value * std::exp(q.fit.x[q.index(path)]),
+                1e-9 * find_number(v450(), path).value)
+        << path;
+  auto const machine = q.estimation->machine_at(q.fit.x);
+  for (auto const& sensor : machine.sensors)
+    EXPECT_NEAR(*sensor.description.lag, q.fit.x[q.index("lag of " + sensor.description.name)], 1e-9);
+}
+
+/// An effect that was added gets an amplitude, in units of its largest, and the evidence knows that it is there.
+TEST(Estimation, FindsTheAmplitudeOfAnAddedEffect) {
+  auto const hidden = tests::with_table(v450(), R"(
+    [[heat]]
+    name = "hidden"
+    at = "motor"
+    power = "60 W")");
+  auto run = tests::measured(hidden, tests::two_speeds());
+  tests::add_noise(run, kelvin, metres, 6);
+  std::vector<BinnedRun> const data = {bin(run, 300.0)};
+  Estimation const without(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+  Fit const before = without.fit(without.prior_mean());
+  std::vector<Hypothesis> heat;
+  for (auto const& hypothesis : hypotheses(v450(), Machine::build(v450())))
+    if (heat.empty() && hypothesis.label() == "heat at motor") heat.push_back(hypothesis);
+  ASSERT_EQ(heat.size(), 1U);
+  auto const with = without.with(heat);
+  ASSERT_EQ(with.unknowns().back().kind, Unknown::Kind::amplitude);
+  VectorXd start(before.x.size() + 1);
+  start << before.x, 0.01;
+  Fit const after = with.fit(start);
+  Index const last = after.x.size() - 1;
+  double const error = std::sqrt(after.covariance(last, last)), unit = heat[0].trial->largest;
+  EXPECT_NEAR(after.x[last] * unit, 60.0, 3.0 * error * unit);
+  EXPECT_LT(error * unit, 15.0);
+  EXPECT_LT(after.evidence, before.evidence - 20.0);
+  auto const amended = with.document_at(after.x);
+  EXPECT_NEAR(find_number(amended, "heat.diagnosed_1.power").value, after.x[last] * unit, 1e-6);
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

@@ -1,0 +1,74 @@
+#include "twin/diagnosis/free_heat.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <set>
+
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using tests::v450;
+
+constexpr double kelvin = 0.02, metres = 0.05e-6;
+
+scenarios::Experiment with_step() {
+  auto experiment = tests::two_speeds();
+  experiment.inputs.push_back({"hidden.on", {{4000.0, "0 %"}, {experiment.duration - 4000.0, "100 %"}}});
+  return experiment;
+}
+
+std::vector<FreeHeat> scan(Value const& truth, unsigned seed) {
+  auto run = tests::measured(truth, with_step());
+  tests::add_noise(run, kelvin, metres, seed);
+  std::vector<BinnedRun> const data = {bin(run, 300.0)};
+  Estimation const estimation(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+  return scan_for_free_heat(estimation, estimation.fit(estimation.prior_mean()));
+}
+
+TEST(FreeHeat, SitesAreAllNodesOnce) {
+  auto const machine = Machine::build(v450());
+  std::set<int> nodes;
+  for (auto const& site : heat_sites(machine))
+    for (int i = 0; i < site.nodes; ++i) EXPECT_TRUE(nodes.insert(site.first_node + i).second) << site.body;
+  std::size_t cells = 0;
+  for (auto const& body : machine.geometry) cells += body.cells.size();
+  EXPECT_EQ(nodes.size(), cells);
+}
+
+TEST(FreeHeat, OfAStepIsFoundWhereAndWhenItEnters) {
+  auto const found = scan(tests::with_table(v450(), R"(
+    [[heat]]
+    name = "hidden"
+    at = "column_rear"
+    power = "30 W"
+    while_on = "hidden.on")"),
+                          3);
+  auto const& best = found.front();
+  EXPECT_EQ(best.site.body, "column_rear");
+  EXPECT_GT(best.gain, 10.0);
+  EXPECT_GT(best.gain, found[1].gain + 2.0);
+  double watts = 0.0, before = 0.0, count = 0.0, count_before = 0.0;
+  for (Eigen::Index k = 0; k < best.knots[0].size(); ++k) {
+    if (best.knots[0][k] > 5500.0) {
+      watts += best.heat[0][k];
+      ++count;
+    } else if (best.knots[0][k] < 3000.0) {
+      before += best.heat[0][k];
+      ++count_before;
+    }
+  }
+  EXPECT_NEAR(watts / count, 30.0, 6.0);
+  EXPECT_NEAR(before / count_before, 0.0, 6.0);
+}
+
+TEST(FreeHeat, ThatIsNotThereGainsNothing) {
+  for (unsigned const seed : {1U, 2U})
+    for (auto const& site : scan(v450(), seed)) {
+      EXPECT_LT(site.gain, 0.0) << site.site.body;
+    }
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

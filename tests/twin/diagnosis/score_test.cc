@@ -1,0 +1,212 @@
+#include "twin/diagnosis/score.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <map>
+#include <optional>
+
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using tests::v450;
+
+MatrixXd normal(Index rows, Index columns, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> draw;
+  return MatrixXd::NullaryExpr(rows, columns, [&] { return draw(random); });
+}
+
+/// z = −J x + noise, three unknowns with priors; fitted.
+struct Toy {
+  static constexpr Index rows = 40, unknowns = 3;
+
+  Toy() {
+    fit.jacobian.setZero(rows + unknowns, unknowns);
+    fit.jacobian.topRows(rows) = normal(rows, unknowns, 1);
+    fit.jacobian.bottomRows(unknowns) = Eigen::Vector3d(1.0, 2.0, 0.5).asDiagonal();
+    VectorXd const start = normal(rows + unknowns, 1, 2);
+    fit.residual = start + fit.jacobian * refitted(start, fit.jacobian);
+    fit.cost = fit.residual.squaredNorm();
+  }
+  /// x that makes |r + J x|² smallest.
+  static VectorXd refitted(VectorXd const& r, MatrixXd const& J) {
+    return -(J.transpose() * J).eval().ldlt().solve(J.transpose() * r);
+  }
+  /// The cost when the machine has an effect of this signature besides, and everything is fitted anew; its amplitude.
+  [[nodiscard]] std::pair<double, double> with(VectorXd const& signature) const {
+    MatrixXd J(rows + unknowns, unknowns + 1);
+    J << fit.jacobian, VectorXd::Zero(rows + unknowns);
+    J.col(unknowns).head(rows) = -signature;
+    VectorXd const x = refitted(fit.residual, J);
+    return {(fit.residual + J * x).squaredNorm(), x[unknowns]};
+  }
+
+  Fit fit;
+  Trial const any{.amplitude = "power", .largest = 1.0, .either_sign = true};
+  Trial const positive{.amplitude = "power", .largest = 1.0, .either_sign = false};
+};
+
+TEST(Score, IsWhatTheCostWouldFallByIfTheEffectWereFitted) {
+  Toy const toy;
+  MatrixXd const signatures = normal(Toy::rows, 20, 3);
+  std::vector<Hypothesis> const hypotheses(20, Hypothesis{nullptr, &toy.any, "", "", {}});
+  auto const scores = score(toy.fit, signatures, hypotheses);
+  for (std::size_t k = 0; k < scores.size(); ++k) {
+    auto const [cost, amplitude] = toy.with(signatures.col(Index(k)));
+    EXPECT_NEAR(scores[k].statistic, toy.fit.cost - cost, 1e-9 * toy.fit.cost);
+    EXPECT_NEAR(scores[k].amplitude, amplitude, 1e-9);
+    EXPECT_GT(scores[k].kept, 0.0);
+    EXPECT_LT(scores[k].kept, 1.0);
+  }
+}
+
+TEST(Score, IsNothingForTheForbiddenSign) {
+  Toy const toy;
+  VectorXd const along = toy.fit.residual.head(Toy::rows);
+  MatrixXd signatures(Toy::rows, 2);
+  signatures << along, -along;
+  std::vector<Hypothesis> const hypotheses(2, Hypothesis{nullptr, &toy.positive, "", "", {}});
+  auto const scores = score(toy.fit, signatures, hypotheses);
+  EXPECT_GT(scores[0].statistic, 0.0);
+  EXPECT_LT(scores[1].amplitude, 0.0);
+  EXPECT_EQ(scores[1].statistic, 0.0);
+}
+
+TEST(Score, IsNothingWhereTheUnknownsExplainEverything) {
+  Toy toy;
+  toy.fit.jacobian.bottomRows(Toy::unknowns).setZero();  // no priors
+  MatrixXd signatures(Toy::rows, 2);
+  signatures << toy.fit.jacobian.topRows(Toy::rows) * Eigen::Vector3d(1.0, -2.0, 0.3), VectorXd::Zero(Toy::rows);
+  std::vector<Hypothesis> const hypotheses(2, Hypothesis{nullptr, &toy.any, "", "", {}});
+  for (auto const& s : score(toy.fit, signatures, hypotheses)) {
+    EXPECT_EQ(s.statistic, 0.0);
+    EXPECT_LT(s.kept, 1e-6);
+  }
+}
+
+/// Leaving an unknown out is a fit that never had it.
+TEST(Score, WithoutAnUnknownIsThatOfAFitThatNeverHadIt) {
+  Toy const toy;
+  auto whole = toy.fit;
+  whole.x = VectorXd::Zero(Toy::unknowns);  // the residual counts from here
+  MatrixXd const signatures = normal(Toy::rows, 10, 5);
+  std::vector<Hypothesis> const hypotheses(10, Hypothesis{nullptr, &toy.any, "", "", {}});
+  for (int const gone : {0, 1, 2}) {
+    Fit fewer;
+    std::vector<Index> kept, rows;
+    for (Index i = 0; i < Toy::unknowns; ++i)
+      if (i != gone) kept.push_back(i);
+    for (Index i = 0; i < Toy::rows + Toy::unknowns; ++i)
+      if (i != Toy::rows + gone) rows.push_back(i);
+    fewer.jacobian = toy.fit.jacobian(rows, kept);
+    fewer.residual = toy.fit.residual(rows);
+    auto const expected = score(fewer, signatures, hypotheses), actual = score(whole, signatures, hypotheses, gone);
+    for (std::size_t k = 0; k < actual.size(); ++k) {
+      EXPECT_NEAR(actual[k].statistic, expected[k].statistic, 1e-9 * toy.fit.cost) << gone;
+      EXPECT_NEAR(actual[k].amplitude, expected[k].amplitude, 1e-9) << gone;
+    }
+  }
+}
+
+/// T less what the prior takes, from the Gaussian integral over ψ.
+TEST(Score, EvidenceIsAnIntegralOverTheAmplitude) {
+  Toy const toy;
+  double const a = 8.0, amplitude = 0.9, deviation = 0.5;
+  auto const evidence = [&](Trial const& trial, double from) {
+    double sum = 0.0, prior = 0.0;
+    for (double psi = from; psi < 6.0; psi += 1e-4) {
+      double const weight = std::exp(-0.5 * psi * psi / (deviation * deviation));
+      prior += weight;
+      sum += weight * std::exp(a * psi * amplitude - 0.5 * a * psi * psi);
+    }
+    EXPECT_NEAR(evidence_of({a * amplitude * amplitude, amplitude, a, 1.0}, {nullptr, &trial, "", "", {}}, deviation),
+                2.0 * std::log(sum / prior), trial.either_sign ? 1e-6 : 0.1);
+  };
+  evidence(toy.any, -6.0);
+  evidence(toy.positive, 0.0);
+  EXPECT_EQ(evidence_of({}, {nullptr, &toy.any, "", "", {}}, deviation), 0.0);
+}
+
+/// A machine that hides 30 W, and the fit of its twin that does not know of it.
+struct Hidden {
+  explicit Hidden(std::string const& table)
+      : run(tests::measured(tests::with_table(v450(), table), tests::two_speeds())) {
+    tests::add_noise(run, kelvin, metres, 8);
+    data.push_back(bin(run, 300.0));
+    estimation.emplace(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+    fit = estimation->fit(estimation->prior_mean());
+    all = hypotheses(v450(), Machine::build(v450()));
+    columns = signatures(*estimation, fit, all);
+    estimation->whiten(columns);
+    scores = score(fit, columns, all);
+  }
+  [[nodiscard]] std::size_t best() const {
+    return std::size_t(std::max_element(scores.begin(), scores.end(),
+                                        [](auto const& a, auto const& b) { return a.statistic < b.statistic; }) -
+                       scores.begin());
+  }
+
+  static constexpr double kelvin = 0.03, metres = 0.1e-6;
+  MeasuredRun run;
+  std::vector<BinnedRun> data;
+  std::optional<Estimation> estimation;
+  Fit fit;
+  std::vector<Hypothesis> all;
+  MatrixXd columns;
+  std::vector<Score> scores;
+};
+
+Hidden const& hidden_at_the_motor() {
+  static Hidden const once(R"(
+    [[heat]]
+    name = "hidden"
+    at = "motor"
+    power = "30 W")");
+  return once;
+}
+
+TEST(Score, OfHiddenHeatIsHighestAtItsPlace) {
+  auto const& hidden = hidden_at_the_motor();
+  auto const best = hidden.best();
+  EXPECT_EQ(hidden.all[best].body, "motor") << hidden.all[best].label();
+  EXPECT_GT(hidden.scores[best].statistic, 20.0);
+}
+
+/// One site of every effect: its response is that of the machine which has a little of it. What a lag adds to another
+/// lag is far from linear.
+TEST(Score, SignaturesAreDifferencesOfWholeRuns) {
+  auto const& hidden = hidden_at_the_motor();
+  auto const& estimation = *hidden.estimation;
+  Value const document = estimation.document_at(hidden.fit.x);
+  auto const lagging = estimation.machine_at(hidden.fit.x);
+  auto const shown = [&](Hypothesis const& hypothesis, double amplitude) {
+    auto machine =
+        Machine::build(with_hypothesis(document, hypothesis, "trial", amplitude * hypothesis.trial->largest));
+    for (std::size_t s = 0; s < machine.sensors.size(); ++s)
+      machine.sensors[s].description.lag = lagging.sensors[s].description.lag;
+    VectorXd prediction = LinearisedRun(machine, hidden.data[0]).prediction().reshaped();
+    estimation.whiten(prediction);
+    return prediction;
+  };
+  std::map<std::string, int> seen;
+  int felt = 0;
+  for (std::size_t k = 0; k < hidden.all.size(); ++k) {
+    auto const& hypothesis = hidden.all[k];
+    if (seen[hypothesis.effect->name]++ != 1) continue;
+    double const step = 0.02;
+    VectorXd const expected = (shown(hypothesis, 1e-8 + step) - shown(hypothesis, 1e-8)) / step;
+    double const allowed = hypothesis.effect->name == "sensor_lag" ? 0.5 : 0.1;
+    EXPECT_LE((hidden.columns.col(Index(k)) - expected).norm(), allowed * expected.norm()) << hypothesis.label();
+    if (expected.norm() > 0.0) ++felt;
+  }
+  EXPECT_GT(felt, 15);
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
