@@ -44,23 +44,25 @@ std::string origin_of(Diagnosis const& diagnosis, Hypothesis const& effect, RunF
   return text;
 }
 
+thermal::Dimension dimension_of(Hypothesis const& hypothesis) {
+  for (auto const& field : hypothesis.effect->parameters)
+    if (field.key == hypothesis.trial->amplitude) return field.dimension;
+  return {};
+}
+
 AddedTable table_of(Diagnosis const& diagnosis, std::size_t u, RunFiles const& data) {
-  auto const& effect = diagnosis.effects[diagnosis.unknowns[u].index];
+  auto const number = diagnosis.unknowns[u].index;
+  auto const& effect = diagnosis.effects[number];
   auto const i = Eigen::Index(u);
   double const amplitude = diagnosis.amended.x[i] * effect.trial->largest;
   double const error = std::sqrt(diagnosis.amended.covariance(i, i)) * effect.trial->largest;
-  auto const& parameters = effect.effect->parameters;
+  std::string const unit = readable_unit(amplitude, dimension_of(effect));
   AddedTable table{effect.effect->name, {}, origin_of(diagnosis, effect, data)};
-  for (auto const& [key, text] :
-       table_of(effect, fmt::format("diagnosed_{}", diagnosis.unknowns[u].index + 1), amplitude)) {
-    table.keys.push_back({key, text, ""});
-    if (key != effect.trial->amplitude) continue;
-    auto const parameter =
-        std::find_if(parameters.begin(), parameters.end(), [&](auto const& p) { return p.key == key; });
-    std::string const unit = readable_unit(amplitude, parameter->dimension);
-    table.keys.back().text = written_value(amplitude, unit);
-    table.keys.back().comment = written_interval(error, unit);
-  }
+  for (auto const& [key, text] : table_of(effect, fmt::format("diagnosed_{}", number + 1), amplitude))
+    if (key == effect.trial->amplitude)
+      table.keys.push_back({key, written_value(amplitude, unit), written_interval(error, unit)});
+    else
+      table.keys.push_back({key, text, ""});
   return table;
 }
 
