@@ -12,6 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double collinear = 10.0;
+constexpr double more_than_noise = 2.0;
 
 std::string verdict_of(CalibratedNumber const& number) {
   return number.identified ? "identified" : "not identified: keep prior";
@@ -114,9 +115,9 @@ std::string gap_table(Calibration const& calibration) {
 std::string calibration_table(Calibration const& calibration) {
   std::string text = fmt::format("\n{}\n{}\n{}\n{}\n", number_table(calibration), instrument_table(calibration),
                                  collinearity_text(calibration), gap_table(calibration));
-  text +=
-      fmt::format("misfit: {:.2f} of what the expected noise makes; whether an effect is missing, `diagnose` tells\n",
-                  calibration.misfit);
+  text += fmt::format("misfit: {:.2f} of what the expected noise makes; {}\n", calibration.misfit,
+                      calibration.misfit > more_than_noise ? "something is missing: ask `diagnose`"
+                                                           : "whether an effect is missing, `diagnose` tells");
   if (!calibration.converged) text += "note: the fit did not converge; the estimates are where it stopped\n";
   for (auto const& remark : calibration.remarks) text += "note: " + remark + "\n";
   return text;
