@@ -105,6 +105,7 @@ class Diagnostician {
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
   void listen_to_noise();
   [[nodiscard]] bool is_unknown() const;
+  [[nodiscard]] std::string faulty_sensor() const;
   [[nodiscard]] Diagnosis::Verdict verdict() const;
 
   DiagnosisOptions const& options_;
@@ -114,6 +115,7 @@ class Diagnostician {
   std::vector<ChannelNoise> expected_;
   std::vector<Hypothesis> hypotheses_;
   std::optional<Estimation> estimation_;
+  double strongest_ = 0.0;  ///< of the effects found so far
   Fit fit_;
   Diagnosis diagnosis_;
 };
@@ -122,14 +124,14 @@ void Diagnostician::calibrate() {
   auto const channels = channels_of(runs_);
   for (auto const& channel : channels) expected_.push_back(expected_noise(machine_, channel, runs_));
   estimation_.emplace(document_, runs_, channels, expected_);
-  fit_ = estimation_->fit(estimation_->prior_mean(), 6);
+  fit_ = estimation_->fit(estimation_->prior_mean(), 12);
   listen_to_noise();
 }
 
 /// The noise that the present fit leaves, and the fit with it.
 void Diagnostician::listen_to_noise() {
   estimation_ = estimation_->with(observed_noise(*estimation_, fit_.x, expected_));
-  fit_ = estimation_->fit(fit_.x, 6);
+  fit_ = estimation_->fit(fit_.x, 10);
 }
 
 Eigen::MatrixXd Diagnostician::whitened_signatures() const {
@@ -168,8 +170,8 @@ std::vector<Refit> Diagnostician::refits(Fit const& about, std::vector<std::size
 /// What could stand in the place of the effect that was added last, about the fit that has it: near enough for what
 /// looks alike that the linearisation decides.
 std::vector<Refit> Diagnostician::instead_of(Refit const& best) const {
-  auto const last = int(fit_.x.size()) - 1;
-  auto const scores = score(fit_, whitened_signatures(), hypotheses_, last);
+  auto const last = fit_.x.size() - 1;
+  auto const scores = score(without(fit_, last), whitened_signatures(), hypotheses_);
   auto const of_best = [&](std::size_t k) {
     return hypotheses_[k].label() == best.hypothesis.label() && hypotheses_[k].keys == best.hypothesis.keys;
   };
@@ -222,28 +224,31 @@ std::vector<std::size_t> Diagnostician::most_promising(std::vector<Score> const&
 /// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
 bool Diagnostician::add_effect(int round) {
   say(fmt::format("{} effects at their sites, round {}", hypotheses_.size(), round));
+  double const threshold = std::max(options_.threshold, options_.least_share * strongest_);
   auto const scores = score(fit_, whitened_signatures(), hypotheses_);
   auto const first = refits(fit_, most_promising(scores), scores);
-  if (first.empty() || first[0].strength < options_.threshold) return false;
+  if (first.empty() || first[0].strength < threshold) return false;
   Estimation const before = *estimation_;
   Fit const base = fit_;
   std::vector<Refit> all;
   Refit best = first[0];
   for (int attempt = 0; attempt < 2; ++attempt) {
     estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
-    fit_ = estimation_->fit(best.x, 6);
+    fit_ = estimation_->fit(best.x, 15);
     best.strength = base.evidence - fit_.evidence;
     all = instead_of(best);
     if (all[0].strength < best.strength + 2.0) break;
     auto const other = all[0];
     best = other;
   }
-  if (best.strength < options_.threshold) {
+  if (best.strength < threshold) {
     estimation_ = before;
     fit_ = base;
     return false;
   }
+  strongest_ = std::max(strongest_, best.strength);
   diagnosis_.explanations.push_back(explanation_of(all));
+  std::erase_if(hypotheses_, [&](Hypothesis const& h) { return h.label() == best.hypothesis.label(); });
   listen_to_noise();
   return true;
 }
@@ -253,17 +258,19 @@ Diagnosis Diagnostician::operator()() {
   calibrate();
   diagnosis_.calibrated = fit_;
   hypotheses_ = hypotheses(document_, machine_, options_.without);
+  diagnosis_.hypotheses = hypotheses_;
   say("scanning for heat that the machine does not know");
   diagnosis_.scan = scan_for_free_heat(*estimation_, fit_);
   Estimation const plain = *estimation_;
   for (int round = 1; round <= options_.most_effects && add_effect(round) && !is_unknown(); ++round) continue;
+  diagnosis_.faulty_sensor = faulty_sensor();
   diagnosis_.verdict = verdict();
-  if (diagnosis_.verdict == Diagnosis::Verdict::none_known) {  // nothing is added to the machine
+  if (diagnosis_.verdict == Diagnosis::Verdict::none_known) {   // nothing is added to the machine
+    Eigen::Index const known = diagnosis_.calibrated.x.size();  // about the nearest explanation, but without it
+    diagnosis_.unknown_heat = scan_for_free_heat(*estimation_, without(fit_, known))[0];
     estimation_ = plain;
     fit_ = diagnosis_.calibrated;
-    diagnosis_.unknown_heat = diagnosis_.scan[0];
   }
-  diagnosis_.hypotheses = hypotheses_;
   diagnosis_.amended = fit_;
   diagnosis_.effects = estimation_->effects();
   diagnosis_.unknowns = estimation_->unknowns();
@@ -287,8 +294,39 @@ bool Diagnostician::is_unknown() const {
   return false;
 }
 
+/// Changes from one sample to the next that no body makes: half a kelvin at least, ten times the channel's usual, and
+/// alone, where a body's would go on.
+int jumps(Eigen::VectorXd const& values) {
+  std::vector<double> changes;
+  for (Eigen::Index i = 1; i < values.size(); ++i)
+    if (double const change = std::abs(values[i] - values[i - 1]); !std::isnan(change)) changes.push_back(change);
+  if (changes.size() < 3) return 0;
+  auto sorted = changes;
+  auto const high = sorted.begin() + std::ptrdiff_t(9 * sorted.size() / 10);
+  std::nth_element(sorted.begin(), high, sorted.end());
+  double const unusual = std::max(0.5, 10.0 / 3.0 * *high);
+  int count = 0;
+  for (std::size_t i = 1; i + 1 < changes.size(); ++i)
+    if (changes[i] > unusual && std::max(changes[i - 1], changes[i + 1]) < 0.4 * changes[i]) ++count;
+  return count;
+}
+
+/// The one sensor that shows nothing in a run, or whose readings jump about as no temperature does.
+std::string Diagnostician::faulty_sensor() const {
+  std::vector<std::string> found;
+  for (auto const& run : runs_)
+    for (auto const& channel : run.run->channels) {
+      if (channel.displacement) continue;
+      bool const dead = channel.values.array().isNaN().all();
+      if (!dead && jumps(channel.values) < 2) continue;
+      if (std::find(found.begin(), found.end(), channel.name) == found.end()) found.push_back(channel.name);
+    }
+  return found.size() == 1 ? found[0] : "";
+}
+
 Diagnosis::Verdict Diagnostician::verdict() const {
   using Verdict = Diagnosis::Verdict;
+  if (!diagnosis_.faulty_sensor.empty() && diagnosis_.explanations.empty()) return Verdict::sensor;
   if (diagnosis_.explanations.empty()) return Verdict::nothing;
   if (is_unknown()) return Verdict::none_known;
   bool const sensors =

@@ -31,6 +31,9 @@ struct DiagnosisOptions {
   int most_effects = 4;
   /// 2 ln of the evidence that an effect must have; see docs/diagnosis.md for how often chance alone reaches it.
   double threshold = 20.0;
+  /// A further effect must reach this share of the strongest: what is left of one whose shape is not quite right looks
+  /// like others.
+  double least_share = 0.2;
   double indistinct = 9.0;  ///< alternatives within this of the best are told as well
   std::function<void(std::string const&)> progress;
 };
@@ -49,6 +52,7 @@ struct Diagnosis {
   /// Bodies that the missing heat enters, and whether it does so while the spindle turns or while it stands.
   std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`
+  std::string faulty_sensor;             ///< a sensor that shows nothing, or jumps about; empty: none
   std::vector<FreeHeat> scan;            ///< before any effect was added, best first
   std::vector<Hypothesis> hypotheses;    ///< those that were tried
   Fit calibrated;                        ///< without any effect

@@ -124,7 +124,9 @@ std::string report_json(DiagnosisReport const& report) {
     for (auto const& finding : diagnosis.explanations[g].alternatives) json["effects"].push_back(json_of(finding, g));
   if (diagnosis.unknown_heat) json["heat"] = json_of(*diagnosis.unknown_heat);
   if (diagnosis.verdict == Diagnosis::Verdict::sensor)
-    json["sensor"] = {{"name", diagnosis.explanations[0].alternatives[0].hypothesis.body}};
+    json["sensor"] = {{"name", diagnosis.explanations.empty()
+                                   ? diagnosis.faulty_sensor
+                                   : diagnosis.explanations[0].alternatives[0].hypothesis.body}};
   json["where"] = Json::array();
   for (auto const& [body, regime] : diagnosis.where) json["where"].push_back({{"body", body}, {"regime", regime}});
   auto const gap = whole(report.held_out.empty() ? report.fitted : report.held_out);
@@ -149,6 +151,8 @@ std::string report_text(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
   std::string text = "\n" + headline(diagnosis) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
+  if (!diagnosis.faulty_sensor.empty())
+    text += fmt::format("{} shows nothing, or jumps about as no temperature does.\n\n", diagnosis.faulty_sensor);
   if (diagnosis.unknown_heat)
     text += fmt::format("Heat of {:.1f} W on average into {}.\n\n", diagnosis.unknown_heat->mean[0],
                         diagnosis.unknown_heat->site.body);

@@ -88,6 +88,17 @@ bool is_read_directly(Hypothesis const& hypothesis) {
 
 }  // namespace
 
+Fit without(Fit fit, Eigen::Index first) {
+  Eigen::Index const unknowns = fit.x.size(), rows = fit.residual.size() - unknowns;
+  for (Eigen::Index u = first; u < unknowns; ++u) {
+    fit.residual -= fit.jacobian.col(u) * fit.x[u];
+    fit.residual[rows + u] = 0.0;
+    fit.jacobian.col(u).setZero();
+    fit.jacobian(rows + u, u) = 1.0;
+  }
+  return fit;
+}
+
 Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::vector<std::string> const& channels,
                        std::vector<ChannelNoise> const& noise)
     : document_(std::move(document)), data_(&data), channels_(channels), noise_(noise) {

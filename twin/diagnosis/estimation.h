@@ -46,6 +46,10 @@ struct Fit {
   double evidence = 0.0;
 };
 
+/// A fit as if its unknowns from `first` on had been known to be zero, to first order: what their effects explained is
+/// in the residual again. The others are not at their optimum then.
+[[nodiscard]] Fit without(Fit fit, Eigen::Index first);
+
 /// Maximum a posteriori of a machine's uncertain numbers, its instruments' offsets and lags, and the amplitudes of
 /// effects that were added to it, from several runs at once (physics.md 8.1):
 ///

@@ -123,6 +123,7 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
     columns[r] = columns_of(estimation, r, LinearisedRun(machine, estimation.data()[r]), sites, knots[r]);
   Eigen::MatrixXd const J = fit.jacobian.topRows(estimation.rows());
   Eigen::LLT<Eigen::MatrixXd> const nuisance((fit.jacobian.transpose() * fit.jacobian).eval());
+  Eigen::VectorXd const explained = nuisance.solve(fit.jacobian.transpose() * fit.residual);
   std::vector<FreeHeat> scan(sites.size());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t s = 0; s < sites.size(); ++s) {
@@ -136,7 +137,9 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
     }
     Eigen::MatrixXd const shared = J.transpose() * own;
     Eigen::MatrixXd const information = own.transpose() * own - shared.transpose() * nuisance.solve(shared);
-    scan[s] = estimate(sites[s], knots, information, own.transpose() * fit.residual.head(estimation.rows()));
+    Eigen::VectorXd const towards =
+        own.transpose() * fit.residual.head(estimation.rows()) - shared.transpose() * explained;
+    scan[s] = estimate(sites[s], knots, information, towards);
   }
   std::stable_sort(scan.begin(), scan.end(), [](auto const& a, auto const& b) { return a.gain > b.gain; });
   return scan;

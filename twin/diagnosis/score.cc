@@ -142,27 +142,19 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
   return columns;
 }
 
-std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std::vector<Hypothesis> const& hypotheses,
-                         int left_out) {
+std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std::vector<Hypothesis> const& hypotheses) {
   auto const rows = signatures.rows();
-  Eigen::MatrixXd J = fit.jacobian;
-  Eigen::VectorXd residual = fit.residual;
-  if (left_out >= 0) {
-    residual -= J.col(left_out) * fit.x[left_out];
-    residual[rows + left_out] = 0.0;
-    J.col(left_out).setZero();
-    J(rows + left_out, left_out) = 1.0;
-  }
+  auto const& J = fit.jacobian;
   Eigen::LLT<Eigen::MatrixXd> const information((J.transpose() * J).eval());
   Eigen::MatrixXd const shared = J.topRows(rows).transpose() * signatures;
   Eigen::MatrixXd const taken = information.solve(shared);
-  Eigen::VectorXd const explained = information.solve(J.transpose() * residual);
+  Eigen::VectorXd const explained = information.solve(J.transpose() * fit.residual);
   std::vector<Score> scores;
   for (Eigen::Index k = 0; k < signatures.cols(); ++k) {
     Score score;
     double const whole = signatures.col(k).squaredNorm();
     score.information = whole - shared.col(k).dot(taken.col(k));
-    double const b = signatures.col(k).dot(residual.head(rows)) - shared.col(k).dot(explained);
+    double const b = signatures.col(k).dot(fit.residual.head(rows)) - shared.col(k).dot(explained);
     score.kept = whole > 0.0 ? std::sqrt(std::max(0.0, score.information) / whole) : 0.0;
     if (score.information > 1e-9 * whole && whole > 0.0) {
       score.amplitude = b / score.information;

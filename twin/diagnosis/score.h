@@ -24,10 +24,9 @@ struct Score {
 [[nodiscard]] Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit,
                                          std::vector<Hypothesis> const& hypotheses);
 
-/// `signatures` whitened as the fit is. `left_out`: an unknown of the fit that counts as unknown no more, as if its
-/// effect had not been added; −1: none.
+/// `signatures` whitened as the fit is.
 [[nodiscard]] std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures,
-                                       std::vector<Hypothesis> const& hypotheses, int left_out = -1);
+                                       std::vector<Hypothesis> const& hypotheses);
 
 /// 2 ln of the evidence for an effect from its score alone: T less what a prior N(0, deviation²) on ψ costs.
 [[nodiscard]] double evidence_of(Score const& score, Hypothesis const& hypothesis, double deviation);
