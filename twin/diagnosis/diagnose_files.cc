@@ -91,7 +91,7 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   DiagnosisOptions options;
   options.without = files.without;
   options.progress = files.progress;
-  report.diagnosis = diagnose(document, fitted, held_out, options);
+  report.diagnosis = diagnose(document, fitted, options);
   Machine const amended_machine = Machine::build(report.diagnosis.document);
   report.fitted = gaps(machine, amended_machine, fitted);
   report.held_out = gaps(machine, amended_machine, held_out);

@@ -104,6 +104,8 @@ class Diagnostician {
   [[nodiscard]] Eigen::MatrixXd whitened_signatures() const;
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
   void listen_to_noise();
+  void take_joint_estimates();
+  void find_where();
   [[nodiscard]] bool is_unknown() const;
   [[nodiscard]] std::string faulty_sensor() const;
   [[nodiscard]] Diagnosis::Verdict verdict() const;
@@ -202,8 +204,8 @@ Explanation Diagnostician::explanation_of(std::vector<Refit> const& refits) cons
     auto const same = [&](Finding const& f) { return f.hypothesis.effect == refit.hypothesis.effect; };
     if (std::any_of(explanation.alternatives.begin(), explanation.alternatives.end(), same)) continue;
     double const unit = refit.hypothesis.trial->largest;
-    Finding finding{refit.hypothesis, refit.amplitude * unit,  refit.standard_error * unit,
-                    refit.strength,   std::exp(-0.5 * behind), 0.0};
+    Finding finding{refit.hypothesis, refit.amplitude * unit, refit.standard_error * unit, refit.strength,
+                    std::exp(-0.5 * behind)};
     sum += finding.weight;
     explanation.alternatives.push_back(std::move(finding));
   }
@@ -275,6 +277,8 @@ Diagnosis Diagnostician::operator()() {
   diagnosis_.effects = estimation_->effects();
   diagnosis_.unknowns = estimation_->unknowns();
   diagnosis_.document = estimation_->document_at(fit_.x);
+  if (diagnosis_.verdict != Diagnosis::Verdict::none_known) take_joint_estimates();
+  find_where();
   return diagnosis_;
 }
 
@@ -292,6 +296,41 @@ bool Diagnostician::is_unknown() const {
   for (std::size_t i = 1; i < found.size(); ++i)
     if (found[i].alternatives[0].hypothesis.body == first.hypothesis.body) return true;
   return false;
+}
+
+/// The best alternative of each explanation as the last fit has it, with all the others.
+void Diagnostician::take_joint_estimates() {
+  auto const first = diagnosis_.calibrated.x.size();
+  for (std::size_t e = 0; e < diagnosis_.explanations.size(); ++e) {
+    auto const u = first + Eigen::Index(e);
+    auto& best = diagnosis_.explanations[e].alternatives[0];
+    double const unit = best.hypothesis.trial->largest;
+    best.amplitude = fit_.x[u] * unit;
+    best.standard_error = std::sqrt(fit_.covariance(u, u)) * unit;
+  }
+}
+
+/// Bodies and regimes that receive the heat of the effects found: those above a fifth of the largest.
+void Diagnostician::find_where() {
+  Machine const machine = estimation_->machine_at(fit_.x);
+  auto const& parts = machine.network().parts();
+  std::map<std::pair<std::string, std::string>, double> heat;
+  for (std::size_t e = 0; e < estimation_->effects().size(); ++e) {
+    auto const& effect = estimation_->effects()[e];
+    auto const it = std::find(parts.begin(), parts.end(), fmt::format("{}.diagnosed_{}", effect.effect->name, e + 1));
+    if (it == parts.end()) continue;
+    for (auto const& run : runs_) {
+      auto const [moving, standing] = LinearisedRun(machine, run).mean_heat(int(it - parts.begin()));
+      auto& while_moving = heat[{effect.body, "moving"}];
+      auto& while_standing = heat[{effect.body, "standing"}];
+      while_moving = std::max(while_moving, std::abs(moving));
+      while_standing = std::max(while_standing, std::abs(standing));
+    }
+  }
+  double largest = 0.0;
+  for (auto const& [place, watts] : heat) largest = std::max(largest, watts);
+  for (auto const& [place, watts] : heat)
+    if (watts > 0.2 * largest) diagnosis_.where.push_back(place);
 }
 
 /// Changes from one sample to the next that no body makes: half a kelvin at least, ten times the channel's usual, and
@@ -391,8 +430,7 @@ ChannelNoise expected_noise(Machine const& machine, std::string const& channel, 
   return noise;
 }
 
-Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs, std::vector<BinnedRun> const&,
-                   DiagnosisOptions const& options) {
+Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options) {
   return Diagnostician(machine, runs, options)();
 }
 

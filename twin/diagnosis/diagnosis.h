@@ -18,7 +18,6 @@ struct Finding {
   double standard_error = 0.0;  ///< [SI]
   double strength = 0.0;        ///< 2 ln of the evidence against a machine without it
   double weight = 0.0;          ///< among its alternatives
-  double held_out_gain = 0.0;   ///< 2 ln of the likelihood of unseen runs against a machine without it
 };
 
 /// One thing that is missing: one effect, or several that the data cannot tell apart, best first.
@@ -64,9 +63,9 @@ struct Diagnosis {
 
 [[nodiscard]] std::string name_of(Diagnosis::Verdict verdict);
 
-/// Calibrates, scans, names. `machine`: its document; runs to fit and runs that vote only.
+/// Calibrates, scans, names. `machine`: its document.
 [[nodiscard]] Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs,
-                                 std::vector<BinnedRun> const& held_out, DiagnosisOptions const& options);
+                                 DiagnosisOptions const& options);
 
 /// The noise that is expected of a channel before the data have spoken: its instrument's, a model error of 0.1 K over
 /// ten minutes and of 2 % of what the channel goes through over hours (physics.md 8.6).

@@ -41,8 +41,7 @@ Json json_of(Finding const& finding, std::size_t group) {
           {"unit", thermal::unit_of(dimension_of(finding.hypothesis))},
           {"keys", keys},
           {"weight", finding.weight},
-          {"strength", finding.strength},
-          {"held_out_gain", finding.held_out_gain}};
+          {"strength", finding.strength}};
 }
 
 Json json_of(FreeHeat const& heat) {

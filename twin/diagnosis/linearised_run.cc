@@ -294,15 +294,24 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
   return result;
 }
 
-Eigen::VectorXd LinearisedRun::heat_of(int part) const {
+LinearisedRun::MeanHeat LinearisedRun::mean_heat(int part) const {
   thermal::Evaluation evaluation(machine_->network());
   std::vector<double> watts(machine_->network().parts().size());
-  Eigen::VectorXd result(Eigen::Index(begins_.size()));
+  auto const& names = data_->run->course->channels();
+  std::vector<double> values(names.size());
+  MeanHeat mean;
+  double moving = 0.0, standing = 0.0;
   for (std::size_t s = 0; s < begins_.size(); ++s) {
+    double const length = data_->steps[s].end - data_->steps[s].begin;
+    data_->run->course->evaluate(begins_[s].time, values);
+    bool moves = false;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      moves = moves || (names[i].name.ends_with(".running") && values[i] > 0.5);
     evaluation.heat_of_parts(begins_[s].state.data(), begins_[s].input.data(), watts);
-    result[Eigen::Index(s)] = watts[std::size_t(part)];
+    (moves ? mean.moving : mean.standing) += length * watts[std::size_t(part)];
+    (moves ? moving : standing) += length;
   }
-  return result;
+  return {moving > 0.0 ? mean.moving / moving : 0.0, standing > 0.0 ? mean.standing / standing : 0.0};
 }
 
 }  // namespace thermotwin::twin

@@ -42,8 +42,12 @@ class LinearisedRun {
   [[nodiscard]] Eigen::MatrixXd growth(std::vector<NodeWeights> const& displacements) const;
   [[nodiscard]] BinnedRun const& data() const { return *data_; }
   [[nodiscard]] Machine const& machine() const { return *machine_; }
-  /// Heat of one part into bodies [W], at the begin of every step.
-  [[nodiscard]] Eigen::VectorXd heat_of(int part) const;
+  /// Mean heat [W] that one part of the network gives to bodies, while the spindle or an axis moves and while all
+  /// stands.
+  struct MeanHeat {
+    double moving = 0.0, standing = 0.0;
+  };
+  [[nodiscard]] MeanHeat mean_heat(int part) const;
 
  private:
   /// One end of a step: the state there and the operating point on this side of a jump.

@@ -33,7 +33,9 @@ std::string table_name(std::size_t hypothesis) { return fmt::format("trial_{}", 
 /// The columns of many hypotheses at once: a machine that has them all, at amplitudes that change nothing.
 class SharedNetwork {
  public:
-  SharedNetwork(Value const& document, std::vector<Hypothesis> const& hypotheses, std::vector<std::size_t> shared);
+  /// Seen through the sensors of `fitted`, with their lags.
+  SharedNetwork(Value const& document, std::vector<Hypothesis> const& hypotheses, std::vector<std::size_t> shared,
+                Machine const& fitted);
 
   [[nodiscard]] Machine const& machine() const { return machine_; }
   [[nodiscard]] std::vector<thermal::NetworkDerivative const*> derivatives() const;
@@ -57,8 +59,9 @@ Machine SharedNetwork::with_all(Value document, std::vector<Hypothesis> const& h
 }
 
 SharedNetwork::SharedNetwork(Value const& document, std::vector<Hypothesis> const& hypotheses,
-                             std::vector<std::size_t> shared)
+                             std::vector<std::size_t> shared, Machine const& fitted)
     : shared_(std::move(shared)), machine_(with_all(document, hypotheses, shared_, nothing)) {
+  machine_.sensors = fitted.sensors;
   Machine const larger = with_all(document, hypotheses, shared_, step);
   auto const& network = machine_.network();
   std::map<std::string, std::size_t> column_of;
@@ -99,7 +102,10 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
                std::vector<LinearisedRun> const& twins, Eigen::MatrixXd& columns) {
   double const unit = hypothesis.trial->largest;
   auto const at = [&](double amplitude) {
-    return Machine::build(with_hypothesis(document, hypothesis, table_name(index), amplitude * unit));
+    Machine machine = Machine::build(with_hypothesis(document, hypothesis, table_name(index), amplitude * unit));
+    auto const& fitted = twins[0].machine().sensors;
+    for (std::size_t s = 0; s < fitted.size(); ++s) machine.sensors[s].description.lag = fitted[s].description.lag;
+    return machine;
   };
   Machine const without = at(nothing), with = at(nothing + 2.0 * step);
   auto const derivative = difference(with, without, step);
@@ -107,10 +113,8 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
     auto const& run = estimation.data()[r];
     auto column = columns.col(Eigen::Index(index)).segment(estimation.first_row(r), run.values.size());
     if (way_of(hypothesis) == Way::air) {
-      Machine airy = without;  // its air may follow inputs that the other's does not
-      airy.sensors = twins[r].machine().sensors;
-      LinearisedRun const twin(airy, run);
-      column = twin.response(thermal::ParameterColumns(airy.network(), {&derivative.network}));
+      LinearisedRun const twin(without, run);  // its air may follow inputs that the other's does not
+      column = twin.response(thermal::ParameterColumns(without.network(), {&derivative.network}));
     } else {
       column = ((twins[r].prediction_of(with) - twins[r].prediction_of(without)) / (2.0 * step)).reshaped();
     }
@@ -126,7 +130,7 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
     (way_of(hypotheses[h]) == Way::shared ? shared : alone).push_back(h);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(estimation.rows(), Eigen::Index(hypotheses.size()));
   Machine const machine = estimation.machine_at(fit.x);
-  SharedNetwork const all(document, hypotheses, shared);
+  SharedNetwork const all(document, hypotheses, shared, machine);
   thermal::ParameterColumns const parameters(all.machine().network(), all.derivatives());
   std::vector<LinearisedRun> twins;
   for (auto const& run : estimation.data()) twins.emplace_back(machine, run);
