@@ -239,10 +239,12 @@ bool Diagnostician::add_effect(int round) {
     fit_ = estimation_->fit(best.x, 15);
     best.strength = base.evidence - fit_.evidence;
     all = instead_of(best);
-    if (all[0].strength < best.strength + 2.0) break;
-    auto const other = all[0];
-    best = other;
+    bool const stays = all[0].strength < best.strength + 2.0;
+    if (stays || attempt == 1) break;
+    best = all[0];
   }
+  std::stable_partition(all.begin(), all.end(),
+                        [&](Refit const& refit) { return refit.hypothesis.label() == best.hypothesis.label(); });
   if (best.strength < threshold) {
     estimation_ = before;
     fit_ = base;
