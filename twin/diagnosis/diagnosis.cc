@@ -169,7 +169,7 @@ std::vector<Refit> Diagnostician::refits(Fit const& about, std::vector<std::size
   return result;
 }
 
-/// What could stand in the place of the effect that was added last, about the fit that has it: near enough for what
+/// The effect that was added last, and what could stand in its place, about the fit that has it: near enough for what
 /// looks alike that the linearisation decides.
 std::vector<Refit> Diagnostician::instead_of(Refit const& best) const {
   auto const last = fit_.x.size() - 1;
@@ -180,15 +180,13 @@ std::vector<Refit> Diagnostician::instead_of(Refit const& best) const {
   double own = 0.0;
   for (std::size_t k = 0; k < scores.size(); ++k)
     if (of_best(k)) own = evidence_of(scores[k], hypotheses_[k], 0.5);
-  std::vector<Refit> result;
+  std::vector<Refit> result = {
+      {best.hypothesis, fit_.x[last], std::sqrt(fit_.covariance(last, last)), fit_.x, best.strength}};
   for (std::size_t const k : promising(scores, hypotheses_, 0.0, options_.indistinct)) {
+    if (hypotheses_[k].label() == best.hypothesis.label()) continue;
     Refit refit{hypotheses_[k], scores[k].amplitude, 1.0 / std::sqrt(scores[k].information), fit_.x,
                 best.strength + evidence_of(scores[k], hypotheses_[k], 0.5) - own};
     refit.x[last] = refit.amplitude;
-    if (of_best(k)) {
-      refit.amplitude = fit_.x[last];
-      refit.standard_error = std::sqrt(fit_.covariance(last, last));
-    }
     result.push_back(std::move(refit));
   }
   return result;
@@ -199,7 +197,7 @@ Explanation Diagnostician::explanation_of(std::vector<Refit> const& refits) cons
   Explanation explanation;
   double sum = 0.0;
   for (auto const& refit : refits) {
-    double const behind = refits[0].strength - refit.strength;
+    double const behind = std::max(0.0, refits[0].strength - refit.strength);
     if (behind > options_.indistinct || explanation.alternatives.size() == most_alternatives) break;
     auto const same = [&](Finding const& f) { return f.hypothesis.effect == refit.hypothesis.effect; };
     if (std::any_of(explanation.alternatives.begin(), explanation.alternatives.end(), same)) continue;
@@ -239,12 +237,11 @@ bool Diagnostician::add_effect(int round) {
     fit_ = estimation_->fit(best.x, 15);
     best.strength = base.evidence - fit_.evidence;
     all = instead_of(best);
-    bool const stays = all[0].strength < best.strength + 2.0;
-    if (stays || attempt == 1) break;
-    best = all[0];
+    auto const strongest = std::max_element(all.begin(), all.end(),
+                                            [](Refit const& a, Refit const& b) { return a.strength < b.strength; });
+    if (strongest->strength < best.strength + 2.0 || attempt == 1) break;
+    best = Refit(*strongest);
   }
-  std::stable_partition(all.begin(), all.end(),
-                        [&](Refit const& refit) { return refit.hypothesis.label() == best.hypothesis.label(); });
   if (best.strength < threshold) {
     estimation_ = before;
     fit_ = base;
