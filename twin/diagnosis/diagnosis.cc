@@ -11,8 +11,9 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr std::size_t most_refits = 12;
+constexpr std::size_t most_refits = 24;
 constexpr std::size_t most_alternatives = 3;
+constexpr double confusable = 0.6;  // cosine of two signatures (physics.md 8.6)
 
 std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs) {
   std::vector<std::string> names;
@@ -173,17 +174,23 @@ std::vector<Refit> Diagnostician::refits(Fit const& about, std::vector<std::size
 /// looks alike that the linearisation decides.
 std::vector<Refit> Diagnostician::instead_of(Refit const& best) const {
   auto const last = fit_.x.size() - 1;
-  auto const scores = score(without(fit_, last), whitened_signatures(), hypotheses_);
+  Fit const about = without(fit_, last);
+  Eigen::MatrixXd const columns = whitened_signatures();
+  auto const scores = score(about, columns, hypotheses_);
   auto const of_best = [&](std::size_t k) {
     return hypotheses_[k].label() == best.hypothesis.label() && hypotheses_[k].keys == best.hypothesis.keys;
   };
   double own = 0.0;
+  Eigen::VectorXd alike = Eigen::VectorXd::Ones(columns.cols());
   for (std::size_t k = 0; k < scores.size(); ++k)
-    if (of_best(k)) own = evidence_of(scores[k], hypotheses_[k], 0.5);
+    if (of_best(k)) {
+      own = evidence_of(scores[k], hypotheses_[k], 0.5);
+      alike = cosines(about, columns, Eigen::Index(k));
+    }
   std::vector<Refit> result = {
       {best.hypothesis, fit_.x[last], std::sqrt(fit_.covariance(last, last)), fit_.x, best.strength}};
-  for (std::size_t const k : promising(scores, hypotheses_, 0.0, options_.indistinct)) {
-    if (hypotheses_[k].label() == best.hypothesis.label()) continue;
+  for (std::size_t const k : promising(scores, hypotheses_, 0.0, INFINITY)) {
+    if (hypotheses_[k].label() == best.hypothesis.label() || std::abs(alike[Eigen::Index(k)]) < confusable) continue;
     Refit refit{hypotheses_[k], scores[k].amplitude, 1.0 / std::sqrt(scores[k].information), fit_.x,
                 best.strength + evidence_of(scores[k], hypotheses_[k], 0.5) - own};
     refit.x[last] = refit.amplitude;
@@ -231,15 +238,23 @@ bool Diagnostician::add_effect(int round) {
   Estimation const before = *estimation_;
   Fit const base = fit_;
   std::vector<Refit> all;
-  Refit best = first[0];
+  Refit best = first[0], former;
+  Fit former_fit;
   for (int attempt = 0; attempt < 2; ++attempt) {
     estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
     fit_ = estimation_->fit(best.x, 15);
     best.strength = base.evidence - fit_.evidence;
+    if (attempt == 1 && best.strength < former.strength) {  // it only seemed better
+      best = former;
+      fit_ = former_fit;
+      estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
+    }
     all = instead_of(best);
     auto const strongest = std::max_element(all.begin(), all.end(),
                                             [](Refit const& a, Refit const& b) { return a.strength < b.strength; });
     if (strongest->strength < best.strength + 2.0 || attempt == 1) break;
+    former = best;
+    former_fit = fit_;
     best = Refit(*strongest);
   }
   if (best.strength < threshold) {

@@ -170,6 +170,16 @@ std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std:
   return scores;
 }
 
+Eigen::VectorXd cosines(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen::Index of) {
+  Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());
+  Eigen::MatrixXd const shared = fit.jacobian.topRows(signatures.rows()).transpose() * signatures;
+  Eigen::MatrixXd const taken = information.solve(shared);
+  Eigen::VectorXd const product = signatures.transpose() * signatures.col(of) - shared.transpose() * taken.col(of);
+  Eigen::VectorXd const square =
+      (signatures.colwise().squaredNorm() - shared.cwiseProduct(taken).colwise().sum()).transpose().cwiseMax(1e-30);
+  return product.cwiseQuotient((square * square[of]).cwiseSqrt());
+}
+
 double evidence_of(Score const& score, Hypothesis const& hypothesis, double deviation) {
   if (score.statistic <= 0.0) return 0.0;
   double const a = score.information, b = score.amplitude * a;

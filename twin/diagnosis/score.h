@@ -28,6 +28,10 @@ struct Score {
 [[nodiscard]] std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures,
                                        std::vector<Hypothesis> const& hypotheses);
 
+/// Cosine between what is left of one signature and of each other (physics.md 8.9): beyond 0.6 they are taken for each
+/// other.
+[[nodiscard]] Eigen::VectorXd cosines(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen::Index of);
+
 /// 2 ln of the evidence for an effect from its score alone: T less what a prior N(0, deviation²) on ψ costs.
 [[nodiscard]] double evidence_of(Score const& score, Hypothesis const& hypothesis, double deviation);
 
