@@ -164,8 +164,8 @@ void describe(std::string const& what) {
 }
 
 void add_challenge_command(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("challenge", "write measurements in which an effect is hidden, and the truth in a sealed file");
+  auto* command = app.add_subcommand("challenge",
+                                     "write measurements in which an effect is hidden, and the truth in a sealed file");
   auto options = std::make_shared<ChallengeOptions>();
   auto folder = std::make_shared<std::string>(), kind = std::make_shared<std::string>();
   auto further = std::make_shared<std::string>();
@@ -266,7 +266,8 @@ void add_compare_command(CLI::App& app) {
 }
 
 void add_diagnose_command(CLI::App& app) {
-  auto* command = app.add_subcommand("diagnose", "find where machine and measurement disagree, and name what is missing");
+  auto* command =
+      app.add_subcommand("diagnose", "find where machine and measurement disagree, and name what is missing");
   auto files = std::make_shared<DiagnoseFiles>();
   auto json = std::make_shared<bool>(false);
   auto machine = std::make_shared<std::string>();
