@@ -164,7 +164,7 @@ class EffectDraw {
   HiddenEffect draw(Value& document, std::vector<HiddenEffect> const& others);
   /// The hidden world's document with the effect; a source on a block takes a part of it. InputError if it cannot be
   /// there.
-  [[nodiscard]] Value with(Value document, HiddenEffect const& effect, std::string const& name);
+  [[nodiscard]] Value with(Value const& document, HiddenEffect const& effect, std::string const& name);
 
  private:
   [[nodiscard]] HiddenEffect pick(std::vector<Hypothesis const*> const& candidates);
@@ -237,7 +237,7 @@ std::string EffectDraw::part_of_block(std::string const& block) {
   return fmt::format("{}[{}]", block, fmt::join(extents, ", "));
 }
 
-Value EffectDraw::with(Value document, HiddenEffect const& effect, std::string const& name) {
+Value EffectDraw::with(Value const& document, HiddenEffect const& effect, std::string const& name) {
   Value table = make_table({document.where.file, 1'000'000, 1}, table_of(effect.hypothesis, name, effect.amplitude));
   auto const at = texts_of(table, "at");
   Value on_part = table;
