@@ -14,6 +14,22 @@ bool any(std::vector<double> const& values) {
 
 }  // namespace
 
+NetworkDerivative lengthened(NetworkDerivative d, Network const& network) {
+  d.capacity.resize(network.capacity().size());
+  d.capacity_slope.resize(network.capacity().size());
+  d.coefficients.resize(network.groups().size());
+  for (std::size_t g = 0; g < d.coefficients.size(); ++g)
+    if (!d.coefficients[g].empty()) d.coefficients[g].resize(network.groups()[g].coefficients.size());
+  d.boundary_offset.resize(network.boundaries().size());
+  d.boundary_weights.resize(network.boundaries().size());
+  for (std::size_t b = 0; b < d.boundary_weights.size(); ++b)
+    d.boundary_weights[b].resize(network.boundaries()[b].terms.size());
+  d.average_weights.resize(network.averages().size());
+  for (std::size_t a = 0; a < d.average_weights.size(); ++a)
+    d.average_weights[a].resize(network.averages()[a].weights.size());
+  return d;
+}
+
 ParameterColumns::ParameterColumns(Network const& network, std::vector<NetworkDerivative const*> const& parameters)
     : network_(&network), count_(int(parameters.size())) {
   for (std::size_t g = 0; g < network.groups().size(); ++g) add_group(network.groups()[g], g, parameters);

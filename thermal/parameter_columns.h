@@ -8,6 +8,10 @@
 
 namespace thermotwin::thermal {
 
+/// A derivative of a network that has become longer by parts appended to it, which do not depend on the parameter; of
+/// an empty one, that of a number which does nothing.
+[[nodiscard]] NetworkDerivative lengthened(NetworkDerivative derivative, Network const& network);
+
 /// ∂f/∂θ_k of many parameters at one state, f = dy/dt: the forcing of the tangent-linear system ds/dt = A s + ∂f/∂θ.
 /// Only the elements whose coefficients change with a parameter are evaluated, so that hundreds of parameters, each of
 /// one part, cost about as much as one evaluation of f.

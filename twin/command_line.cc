@@ -5,9 +5,7 @@
 #include <atomic>
 #include <csignal>
 #include <fmt/format.h>
-#include <fstream>
 #include <iostream>
-#include <sstream>
 
 #include "output/csv.h"
 #include "output/dataset_file.h"
@@ -18,6 +16,7 @@
 #include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnose_files.h"
+#include "twin/diagnosis/run_files.h"
 #include "twin/effect_page.h"
 #include "twin/experiment_file.h"
 #include "twin/needed_solution.h"
@@ -56,13 +55,6 @@ void RunCommand::add_to(CLI::App& app) {
   command->add_flag("--json", json, "print the summary as JSON");
   command->add_flag("--quiet,-q", quiet, "print nothing but errors");
   command->callback([this] { (*this)(); });
-}
-
-std::string text_of(std::filesystem::path const& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 /// Applies "path=value"; paths that begin with `experiment.` go to the experiment, the others to the machine.
@@ -107,8 +99,8 @@ void RunCommand::operator()() const {
   if (!picture.empty()) options.picture = picture;
   options.field_interval = thermal::parse_value(field_interval, thermal::dimension::time);
   options.node_temperatures = nodes;
-  options.provenance = {{"machine.file", text_of(path)},
-                        {"experiment.file", text_of(experiment_path)},
+  options.provenance = {{"machine.file", text_of_file(path)},
+                        {"experiment.file", text_of_file(experiment_path)},
                         {"settings", fmt::format("{}", fmt::join(settings, "\n"))}};
   options.stop = &stop_requested;
   std::optional<Progress> progress;

@@ -14,9 +14,9 @@
 #include "thermal/error.h"
 #include "twin/assembly.h"
 #include "twin/challenge/challenge_runs.h"
-#include "twin/challenge/document.h"
 #include "twin/challenge/hidden_heat.h"
 #include "twin/challenge/refined_form.h"
+#include "twin/file/document.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {

@@ -10,8 +10,8 @@
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
 #include "twin/challenge/challenge_runs.h"
-#include "twin/challenge/document.h"
 #include "twin/challenge/refined_form.h"
+#include "twin/file/document.h"
 #include "twin/instruments/correlated_noise.h"
 #include "twin/run.h"
 

@@ -10,7 +10,7 @@
 #include "thermal/units.h"
 #include "twin/assembly.h"
 #include "twin/bodies.h"
-#include "twin/challenge/document.h"
+#include "twin/file/document.h"
 #include "twin/file/tables.h"
 
 namespace thermotwin::twin {

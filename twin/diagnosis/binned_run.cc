@@ -86,6 +86,14 @@ BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
   return binned;
 }
 
+std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs) {
+  std::vector<std::string> names;
+  for (auto const& run : runs)
+    for (auto const& channel : run.run->channels)
+      if (std::find(names.begin(), names.end(), channel.name) == names.end()) names.push_back(channel.name);
+  return names;
+}
+
 double fitting_interval(MeasuredRun const& run, int rows) {
   double const duration = run.time[run.time.size() - 1] - run.time[0];
   double const sampling = duration / double(std::max<Eigen::Index>(run.time.size() - 1, 1));

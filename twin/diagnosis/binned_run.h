@@ -30,6 +30,9 @@ struct BinnedRun {
 /// Rows of at most `interval` [s]. Steps grow from `first_step` after each jump, up to the row's length.
 [[nodiscard]] BinnedRun bin(MeasuredRun const& run, double interval, double first_step = 20.0);
 
+/// Names of the channels that any of the runs has, in the order in which they come.
+[[nodiscard]] std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs);
+
 /// The interval that gives a run at most `rows` rows, and each at least one sample; at least five minutes unless the
 /// run is short.
 [[nodiscard]] double fitting_interval(MeasuredRun const& run, int rows = 250);

@@ -21,14 +21,6 @@ constexpr double tied = 0.95;            // correlation
 constexpr double large_share = 0.3;      // of a unit vector
 constexpr int iterations = 12;
 
-std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs) {
-  std::vector<std::string> names;
-  for (auto const& run : runs)
-    for (auto const& channel : run.run->channels)
-      if (std::find(names.begin(), names.end(), channel.name) == names.end()) names.push_back(channel.name);
-  return names;
-}
-
 Estimation estimation_of(Value const& machine, std::vector<BinnedRun> const& runs) {
   Machine const built = Machine::build(machine);
   auto const channels = channels_of(runs);

@@ -44,19 +44,13 @@ std::string origin_of(Diagnosis const& diagnosis, Hypothesis const& effect, RunF
   return text;
 }
 
-thermal::Dimension dimension_of(Hypothesis const& hypothesis) {
-  for (auto const& field : hypothesis.effect->parameters)
-    if (field.key == hypothesis.trial->amplitude) return field.dimension;
-  return {};
-}
-
 AddedTable table_of(Diagnosis const& diagnosis, std::size_t u, RunFiles const& data) {
   auto const number = diagnosis.unknowns[u].index;
   auto const& effect = diagnosis.effects[number];
   auto const i = Eigen::Index(u);
   double const amplitude = diagnosis.amended.x[i] * effect.trial->largest;
   double const error = std::sqrt(diagnosis.amended.covariance(i, i)) * effect.trial->largest;
-  std::string const unit = readable_unit(amplitude, dimension_of(effect));
+  std::string const unit = readable_unit(amplitude, effect.dimension());
   AddedTable table{effect.effect->name, {}, origin_of(diagnosis, effect, data)};
   for (auto const& [key, text] : table_of(effect, fmt::format("diagnosed_{}", number + 1), amplitude))
     if (key == effect.trial->amplitude)

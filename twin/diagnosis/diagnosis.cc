@@ -15,14 +15,6 @@ constexpr std::size_t most_refits = 24;
 constexpr std::size_t most_alternatives = 3;
 constexpr double confusable = 0.6;  // cosine of two signatures (physics.md 8.6)
 
-std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs) {
-  std::vector<std::string> names;
-  for (auto const& run : runs)
-    for (auto const& channel : run.run->channels)
-      if (std::find(names.begin(), names.end(), channel.name) == names.end()) names.push_back(channel.name);
-  return names;
-}
-
 /// −2 ln likelihood of one channel's residuals in all runs.
 double misfit(ChannelNoise const& noise, std::string const& channel, std::vector<BinnedRun> const& runs,
               std::vector<Eigen::MatrixXd> const& residuals) {
@@ -38,7 +30,7 @@ double misfit(ChannelNoise const& noise, std::string const& channel, std::vector
   return sum;
 }
 
-/// The model error that the residuals of a fit have: how much over minutes, how much over hours. Never below a fifth of
+/// The model error that the residuals of a fit have: how much over minutes, how much over hours. Never below
 /// what was expected: residuals of a fit are smaller than the noise.
 std::vector<ChannelNoise> observed_noise(Estimation const& estimation, Eigen::VectorXd const& x,
                                          std::vector<ChannelNoise> const& expected) {

@@ -5,22 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "thermal/units.h"
+#include "twin/diagnosis/estimate_text.h"
 
 namespace thermotwin::twin {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double two_sided_95 = 1.96;
-
-thermal::Dimension dimension_of(Hypothesis const& hypothesis) {
-  for (auto const& field : hypothesis.effect->parameters)
-    if (field.key == hypothesis.trial->amplitude) return field.dimension;
-  return {};
-}
-
 std::string amplitude_text(Finding const& finding) {
-  auto const dimension = dimension_of(finding.hypothesis);
+  auto const dimension = finding.hypothesis.dimension();
   return fmt::format("{} = {} ± {}", finding.hypothesis.trial->amplitude,
                      thermal::format_quantity(finding.amplitude, dimension),
                      thermal::format_quantity(two_sided_95 * finding.standard_error, dimension));
@@ -38,7 +31,7 @@ Json json_of(Finding const& finding, std::size_t group) {
           {"amplitude", finding.amplitude},
           {"low", finding.amplitude - half},
           {"high", finding.amplitude + half},
-          {"unit", thermal::unit_of(dimension_of(finding.hypothesis))},
+          {"unit", thermal::unit_of(finding.hypothesis.dimension())},
           {"keys", keys},
           {"weight", finding.weight},
           {"strength", finding.strength}};

@@ -21,23 +21,6 @@ constexpr double air_deviation = 0.2;        // [K]
 constexpr double amplitude_deviation = 0.5;  // of the trial's largest
 constexpr double relative_step = 1e-4;
 
-/// A derivative of a network that has become longer by parts appended to it.
-thermal::NetworkDerivative lengthened(thermal::NetworkDerivative d, thermal::Network const& network) {
-  d.capacity.resize(network.capacity().size());
-  d.capacity_slope.resize(network.capacity().size());
-  d.coefficients.resize(network.groups().size());
-  for (std::size_t g = 0; g < d.coefficients.size(); ++g)
-    if (!d.coefficients[g].empty()) d.coefficients[g].resize(network.groups()[g].coefficients.size());
-  d.boundary_offset.resize(network.boundaries().size());
-  d.boundary_weights.resize(network.boundaries().size());
-  for (std::size_t b = 0; b < d.boundary_weights.size(); ++b)
-    d.boundary_weights[b].resize(network.boundaries()[b].terms.size());
-  d.average_weights.resize(network.averages().size());
-  for (std::size_t a = 0; a < d.average_weights.size(); ++a)
-    d.average_weights[a].resize(network.averages()[a].weights.size());
-  return d;
-}
-
 void scale(thermal::NetworkDerivative& d, double factor) {
   auto const times = [&](std::vector<double>& values) {
     for (double& v : values) v *= factor;
@@ -50,7 +33,7 @@ void scale(thermal::NetworkDerivative& d, double factor) {
 
 /// The room air, wherever the machine meets it, one kelvin warmer.
 thermal::NetworkDerivative warmer_air(thermal::Network const& network) {
-  thermal::NetworkDerivative d = lengthened({}, network);
+  thermal::NetworkDerivative d = thermal::lengthened({}, network);
   auto const& names = network.channel_names();
   for (std::size_t b = 0; b < network.boundaries().size(); ++b)
     for (auto const& term : network.boundaries()[b].terms)
@@ -170,7 +153,7 @@ void Estimation::find_linear_columns() {
   linear_columns_.setZero(rows_, Eigen::Index(linear_.size()));
   Machine const machine = Machine::build(document_);
   auto const air = warmer_air(machine.network());
-  auto const none = lengthened({}, machine.network());
+  auto const none = thermal::lengthened({}, machine.network());
   thermal::ParameterColumns const both(machine.network(), {&none, &air});
   Eigen::MatrixXd initial = Eigen::MatrixXd::Zero(machine.network().nodes(), 2);
   initial.col(0).setOnes();
@@ -299,7 +282,7 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
       if (!number && unknown.kind != Unknown::Kind::amplitude) continue;
       auto const& own = number ? number_derivatives_[unknown.index].network : amplitudes[unknown.index].network;
       if (!changes_heat(own)) continue;
-      heat.push_back(lengthened(own, network));
+      heat.push_back(thermal::lengthened(own, network));
       if (number) scale(heat.back(), numbers_[unknown.index].nominal * std::exp(x[Eigen::Index(u)]));
       columns.push_back(Eigen::Index(u));
     }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "thermal/error.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -40,7 +41,6 @@ class Sites {
   void add_nuts();
   void add_films();
   void add_pairs();
-  [[nodiscard]] std::vector<std::string> texts(Value const& table, std::string_view key) const;
   void for_tables(std::string_view kind, std::function<void(Value const&)> const& action) const;
 
   Value const& document_;
@@ -73,25 +73,14 @@ void Sites::for_tables(std::string_view kind, std::function<void(Value const&)> 
   for (auto const& table : std::get<Value::List>(tables->content)) action(table);
 }
 
-std::vector<std::string> Sites::texts(Value const& table, std::string_view key) const {
-  Value const* value = table.find(key);
-  if (!value) return {};
-  if (value->is_text()) return {std::get<std::string>(value->content)};
-  std::vector<std::string> result;
-  if (value->is_list())
-    for (auto const& item : std::get<Value::List>(value->content))
-      if (item.is_text()) result.push_back(std::get<std::string>(item.content));
-  return result;
-}
-
 void Sites::add_bodies() {
   constexpr double longest_single = 0.15;
   for (std::string const kind : {"lump", "bar", "hollow_cylinder", "block"})
     for_tables(kind, [&](Value const& table) {
-      std::string const name = texts(table, "name").at(0);
+      std::string const name = texts_of(table, "name").at(0);
       solids_.push_back(name);
       if (!table.find("carried_by")) add("base", {name, name});
-      auto const lengths = texts(table, "length");
+      auto const lengths = texts_of(table, "length");
       double const length = lengths.empty() ? 0.0 : thermal::parse_value(lengths[0], dimension::length);
       if (kind != "bar" || length <= longest_single) return add("solid", {name, name});
       for (int third = 0; third < 3; ++third)
@@ -103,8 +92,8 @@ void Sites::add_bodies() {
 
 void Sites::add_bearings() {
   for_tables("bearing", [&](Value const& table) {
-    for (auto const& inner : texts(table, "inner"))
-      for (auto const& outer : texts(table, "outer")) {
+    for (auto const& inner : texts_of(table, "inner"))
+      for (auto const& outer : texts_of(table, "outer")) {
         add("shaft", {inner, body_of(inner)});
         add("ring", {outer, body_of(outer)});
         add("bearing", {inner, body_of(outer), outer});
@@ -116,26 +105,26 @@ void Sites::add_motors() {
   for (std::string const kind : {"motor_loss", "copper_loss", "loss_curve", "motor_load", "feed_motor"})
     for_tables(kind, [&](Value const& table) {
       for (auto const* key : {"at", "slots", "stator", "rotor"})
-        for (auto const& place : texts(table, key)) add("motor", {place, body_of(place)});
+        for (auto const& place : texts_of(table, key)) add("motor", {place, body_of(place)});
     });
 }
 
 void Sites::add_nuts() {
   for_tables("ball_nut", [&](Value const& table) {
-    auto const axis = texts(table, "axis");
-    for (auto const& nut : texts(table, "nut"))
-      for (auto const& screw : texts(table, "screw"))
+    auto const axis = texts_of(table, "axis");
+    for (auto const& nut : texts_of(table, "nut"))
+      for (auto const& screw : texts_of(table, "screw"))
         add("nut", {nut, body_of(nut), screw, axis.empty() ? "z" : axis[0]});
   });
 }
 
 void Sites::add_films() {
   for_tables("film", [&](Value const& table) {
-    auto const to = texts(table, "to");
-    auto const correlation = texts(table, "correlation");
+    auto const to = texts_of(table, "to");
+    auto const correlation = texts_of(table, "correlation");
     bool const turns = !correlation.empty() && correlation[0].starts_with("rotating");
     if (to.empty() || to[0] == "ambient")
-      for (auto const& place : texts(table, "on")) add(turns ? "shaft" : "room surface", {place, body_of(place)});
+      for (auto const& place : texts_of(table, "on")) add(turns ? "shaft" : "room surface", {place, body_of(place)});
   });
 }
 
@@ -145,8 +134,8 @@ void Sites::add_pairs() {
     for_tables(kind, [&](Value const& table) {
       for (auto const* key : {"from", "on", "inner"})
         for (auto const* other : {"to", "outer"})
-          for (auto const& from : texts(table, key))
-            for (auto const& to : texts(table, other)) {
+          for (auto const& from : texts_of(table, key))
+            for (auto const& to : texts_of(table, other)) {
               joined.insert({body_of(from), body_of(to)});
               joined.insert({body_of(to), body_of(from)});
             }
@@ -213,6 +202,8 @@ FieldRecord const& field(Effect const& effect, std::string const& key) {
 
 }  // namespace
 
+thermal::Dimension Hypothesis::dimension() const { return field(*effect, trial->amplitude).dimension; }
+
 std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine,
                                    std::vector<std::string> const& without) {
   Sites const sites(document, machine);
@@ -246,12 +237,7 @@ std::vector<std::pair<std::string, std::string>> table_of(Hypothesis const& hypo
 
 Value with_hypothesis(Value document, Hypothesis const& hypothesis, std::string const& name, double amplitude) {
   Location const where{document.where.file, 1'000'000, 1};  // after everything that the file has
-  Value table{where, Value::Table{}};
-  for (auto const& [key, text] : table_of(hypothesis, name, amplitude))
-    std::get<Value::Table>(table.content).push_back({key, where, Value{where, text}});
-  if (!document.find(hypothesis.effect->name))
-    std::get<Value::Table>(document.content).push_back({hypothesis.effect->name, where, Value{where, Value::List{}}});
-  std::get<Value::List>(document.find(hypothesis.effect->name)->content).push_back(std::move(table));
+  append_table(document, hypothesis.effect->name, make_table(where, table_of(hypothesis, name, amplitude)));
   return document;
 }
 

@@ -19,6 +19,8 @@ struct Hypothesis {
 
   /// What is compared: entries that differ in their shape only are one effect at one place.
   [[nodiscard]] std::string label() const { return effect->name + " at " + site; }
+  /// Of the amplitude.
+  [[nodiscard]] thermal::Dimension dimension() const;
 };
 
 /// Every trial of the catalogue at every site that the machine has for it, but for tables that stand in the file

@@ -5,6 +5,7 @@
 
 #include "thermal/error.h"
 #include "thermal/integrate.h"
+#include "twin/diagnosis/channel_reading.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -35,8 +36,8 @@ int channel_index(thermal::Course const& course, std::string const& name) {
 
 }  // namespace
 
-/// What a channel of the data is in a machine: its sensor or its displacement, and how that is read.
-class LinearisedRun::View {
+/// A channel of the data in a machine, as it is read along a course.
+class LinearisedRun::View : public ChannelReading {
  public:
   View(Machine const& machine, MeasuredRun const& run, MeasuredChannel const& channel);
   static std::vector<View> of(Machine const& machine, MeasuredRun const& run) {
@@ -47,43 +48,23 @@ class LinearisedRun::View {
   /// Before its lag.
   [[nodiscard]] double shown(LinearisedRun const& run, End const& end, double time) const;
 
-  Sensor const* sensor = nullptr;
-  Displacement const* displacement = nullptr;
-  double lag = 0.0, share = 0.0;
-
  private:
   [[nodiscard]] double air(LinearisedRun const& run, double time, double height) const;
   [[nodiscard]] double course_at(LinearisedRun const& run, int channel, double time) const;
 
-  double drift_ = 0.0, per_air_ = 0.0, offset_ = 0.0, height_ = 0.0;
+  double height_ = 0.0;
   int floor_ = -1, gradient_ = -1;
   std::vector<int> term_channels_;
 };
 
 LinearisedRun::View::View(Machine const& machine, MeasuredRun const& run, MeasuredChannel const& channel)
-    : floor_(channel_index(*run.course, "ambient.floor_temperature")),
+    : ChannelReading(reading_of(machine, channel)),
+      floor_(channel_index(*run.course, "ambient.floor_temperature")),
       gradient_(channel_index(*run.course, "ambient.gradient")) {
-  for (auto const& candidate : machine.sensors)
-    if (!channel.displacement && candidate.description.name == channel.name) {
-      sensor = &candidate;
-      height_ = candidate.position.dot(machine.up);
-      lag = candidate.description.lag.value_or(0.0);
-      share = candidate.description.stem_loss.value_or(0.0);
-      drift_ = candidate.description.drift.value_or(0.0);
-      offset_ = candidate.description.offset.value_or(0.0);
-    }
-  for (auto const& candidate : machine.displacements)
-    if (channel.displacement && candidate.name == channel.name) {
-      displacement = &candidate;
-      for (auto const& term : candidate.input_terms) term_channels_.push_back(channel_index(*run.course, term.channel));
-    }
-  for (auto const& term : machine.reading_terms)
-    if (term.channel == channel.name) {
-      lag += term.lag;
-      share += term.air_share;
-      drift_ += term.drift;
-      per_air_ += term.per_air;
-    }
+  if (sensor) height_ = sensor->position.dot(machine.up);
+  if (displacement)
+    for (auto const& term : displacement->input_terms)
+      term_channels_.push_back(channel_index(*run.course, term.channel));
 }
 
 double LinearisedRun::View::course_at(LinearisedRun const& run, int channel, double time) const {
@@ -104,11 +85,11 @@ double LinearisedRun::View::shown(LinearisedRun const& run, End const& end, doub
     return network.temperature_of_state(node, at.state[std::size_t(node)]);
   };
   auto const& start = run.begins_.front();
-  double value = offset_ + drift_ * time;
+  double value = offset + drift * time;
   if (sensor) {
     double body = sensor->weights.empty() ? air(run, time, height_) : 0.0;
     for (auto const& [node, weight] : sensor->weights) body += weight * temperature(node, end);
-    return value + body - (share == 0.0 ? 0.0 : share * (body - air(run, time, height_)));
+    return value + body - (air_share == 0.0 ? 0.0 : air_share * (body - air(run, time, height_)));
   }
   if (!displacement) return value;
   for (auto const& [node, weight] : displacement->weights)
@@ -118,7 +99,7 @@ double LinearisedRun::View::shown(LinearisedRun const& run, End const& end, doub
     value += term.coefficient * (std::pow(course_at(run, term_channels_[t], time), term.power) -
                                  std::pow(course_at(run, term_channels_[t], start.time), term.power));
   }
-  return per_air_ == 0.0 ? value : value + per_air_ * (air(run, time, 0.0) - air(run, start.time, 0.0));
+  return per_air == 0.0 ? value : value + per_air * (air(run, time, 0.0) - air(run, start.time, 0.0));
 }
 
 LinearisedRun::LinearisedRun(Machine const& machine, BinnedRun const& data) : machine_(&machine), data_(&data) {
@@ -221,7 +202,7 @@ Eigen::MatrixXd LinearisedRun::weights() const {
   for (std::size_t c = 0; c < views.size(); ++c) {
     if (views[c].sensor)
       for (auto const& [node, weight] : views[c].sensor->weights)
-        result(Eigen::Index(c), node) += (1.0 - views[c].share) * weight;
+        result(Eigen::Index(c), node) += (1.0 - views[c].air_share) * weight;
     if (views[c].displacement)
       for (auto const& [node, weight] : views[c].displacement->weights) result(Eigen::Index(c), node) += weight;
   }

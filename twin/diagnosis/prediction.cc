@@ -6,6 +6,7 @@
 
 #include "thermal/error.h"
 #include "thermal/integrate.h"
+#include "twin/diagnosis/channel_reading.h"
 #include "twin/instruments/first_order_lag.h"
 #include "twin/run.h"
 
@@ -13,28 +14,6 @@ namespace thermotwin::twin {
 namespace {
 
 constexpr double tool_height = 1.0;  // m, where the air near the tool is taken
-
-/// What lies between the machine and a channel's number.
-struct Reading {
-  double lag = 0.0, air_share = 0.0, offset = 0.0, drift = 0.0, per_air = 0.0;
-};
-
-Reading reading_of(Machine const& machine, MeasuredChannel const& channel, Sensor const* sensor) {
-  Reading reading;
-  if (sensor) {
-    auto const& given = sensor->description;
-    reading = {given.lag.value_or(0.0), given.stem_loss.value_or(0.0), given.offset.value_or(0.0),
-               given.drift.value_or(0.0), 0.0};
-  }
-  for (auto const& term : machine.reading_terms) {
-    if (term.channel != channel.name) continue;
-    reading.lag += term.lag;
-    reading.air_share += term.air_share;
-    reading.drift += term.drift;
-    reading.per_air += term.per_air;
-  }
-  return reading;
-}
 
 double weighted(NodeWeights const& weights, std::span<double const> temperatures) {
   double sum = 0.0;
@@ -49,19 +28,14 @@ class Predictor {
   Eigen::MatrixXd operator()();
 
  private:
-  struct View {
-    Sensor const* sensor = nullptr;
-    Displacement const* displacement = nullptr;
-    Reading reading;
-  };
   void look(thermal::Sample const& sample, Eigen::Index row);
   [[nodiscard]] double input(std::string const& name, double otherwise) const;
   [[nodiscard]] double air_at(double height) const;
-  [[nodiscard]] double seen(View const& view, thermal::Sample const& sample) const;
+  [[nodiscard]] double seen(ChannelReading const& view, thermal::Sample const& sample) const;
 
   Machine const& machine_;
   MeasuredRun const& run_;
-  std::vector<View> views_;
+  std::vector<ChannelReading> views_;
   std::vector<double> times_;  ///< 0, and those of the run
   std::vector<double> inputs_;
   Eigen::MatrixXd seen_;
@@ -70,14 +44,9 @@ class Predictor {
 Predictor::Predictor(Machine const& machine, MeasuredRun const& run)
     : machine_(machine), run_(run), inputs_(run.course->channels().size()) {
   for (auto const& channel : run.channels) {
-    View view;
-    for (auto const& sensor : machine.sensors)
-      if (!channel.displacement && sensor.description.name == channel.name) view.sensor = &sensor;
-    for (auto const& displacement : machine.displacements)
-      if (channel.displacement && displacement.name == channel.name) view.displacement = &displacement;
+    auto const view = reading_of(machine, channel);
     if (!view.sensor && !view.displacement)
       throw thermal::InputError(fmt::format("the machine '{}' has no channel '{}'", machine.name, channel.name));
-    view.reading = reading_of(machine, channel, view.sensor);
     views_.push_back(view);
   }
   if (run.time[0] > 0.0) times_.push_back(0.0);
@@ -95,17 +64,17 @@ double Predictor::air_at(double height) const {
 }
 
 /// Without offset and drift, which no lag touches.
-double Predictor::seen(View const& view, thermal::Sample const& sample) const {
+double Predictor::seen(ChannelReading const& view, thermal::Sample const& sample) const {
   if (view.sensor) {
     double const air = air_at(view.sensor->position.dot(machine_.up));
     if (view.sensor->weights.empty()) return air;
     double const body = weighted(view.sensor->weights, sample.temperatures);
-    return body - view.reading.air_share * (body - air);
+    return body - view.air_share * (body - air);
   }
   double value = weighted(view.displacement->weights, sample.temperatures);
   for (auto const& term : view.displacement->input_terms)
     value += term.coefficient * std::pow(input(term.channel, 0.0), term.power);
-  return value + view.reading.per_air * air_at(tool_height);
+  return value + view.per_air * air_at(tool_height);
 }
 
 void Predictor::look(thermal::Sample const& sample, Eigen::Index row) {
@@ -124,8 +93,8 @@ Eigen::MatrixXd Predictor::operator()() {
   Eigen::VectorXd const time = Eigen::Map<Eigen::VectorXd const>(times_.data(), rows);
   for (std::size_t c = 0; c < views_.size(); ++c) {
     auto column = seen_.col(Eigen::Index(c));
-    auto const& reading = views_[c].reading;
-    if (views_[c].displacement) column.array() -= column[0];
+    auto const& reading = views_[c];
+    if (reading.displacement) column.array() -= column[0];
     if (reading.lag > 0.0) {
       FirstOrderLag const lag(time, column, reading.lag);
       column = time.unaryExpr([&](double t) { return lag.at(t); });

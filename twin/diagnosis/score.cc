@@ -39,7 +39,6 @@ class SharedNetwork {
 
   [[nodiscard]] Machine const& machine() const { return machine_; }
   [[nodiscard]] std::vector<thermal::NetworkDerivative const*> derivatives() const;
-  [[nodiscard]] std::vector<std::size_t> const& columns() const { return shared_; }
 
  private:
   static Machine with_all(Value document, std::vector<Hypothesis> const& hypotheses,
@@ -67,14 +66,7 @@ SharedNetwork::SharedNetwork(Value const& document, std::vector<Hypothesis> cons
   std::map<std::string, std::size_t> column_of;
   for (std::size_t k = 0; k < shared_.size(); ++k)
     column_of[hypotheses[shared_[k]].effect->name + "." + table_name(shared_[k])] = k;
-  thermal::NetworkDerivative none;
-  none.capacity.resize(network.capacity().size());
-  none.capacity_slope.resize(network.capacity().size());
-  none.coefficients.resize(network.groups().size());
-  none.boundary_offset.resize(network.boundaries().size());
-  for (auto const& boundary : network.boundaries()) none.boundary_weights.emplace_back(boundary.terms.size());
-  for (auto const& average : network.averages()) none.average_weights.emplace_back(average.weights.size());
-  derivatives_.assign(shared_.size(), none);
+  derivatives_.assign(shared_.size(), thermal::lengthened({}, network));
   for (std::size_t g = 0; g < network.groups().size(); ++g) {
     auto const& from = network.groups()[g];
     auto const& to = larger.network().groups()[g];
@@ -121,6 +113,20 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
   }
 }
 
+/// What the unknowns of a fit can imitate of signatures s: JᵀJ, Jᵀs and (JᵀJ)⁻¹ Jᵀs.
+struct Imitation {
+  Eigen::LLT<Eigen::MatrixXd> information;
+  Eigen::MatrixXd shared, taken;
+};
+
+Imitation imitated(Fit const& fit, Eigen::MatrixXd const& signatures) {
+  Imitation imitation;
+  imitation.information.compute((fit.jacobian.transpose() * fit.jacobian).eval());
+  imitation.shared = fit.jacobian.topRows(signatures.rows()).transpose() * signatures;
+  imitation.taken = imitation.information.solve(imitation.shared);
+  return imitation;
+}
+
 }  // namespace
 
 Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::vector<Hypothesis> const& hypotheses) {
@@ -148,11 +154,8 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
 
 std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std::vector<Hypothesis> const& hypotheses) {
   auto const rows = signatures.rows();
-  auto const& J = fit.jacobian;
-  Eigen::LLT<Eigen::MatrixXd> const information((J.transpose() * J).eval());
-  Eigen::MatrixXd const shared = J.topRows(rows).transpose() * signatures;
-  Eigen::MatrixXd const taken = information.solve(shared);
-  Eigen::VectorXd const explained = information.solve(J.transpose() * fit.residual);
+  auto const [information, shared, taken] = imitated(fit, signatures);
+  Eigen::VectorXd const explained = information.solve(fit.jacobian.transpose() * fit.residual);
   std::vector<Score> scores;
   for (Eigen::Index k = 0; k < signatures.cols(); ++k) {
     Score score;
@@ -171,9 +174,7 @@ std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std:
 }
 
 Eigen::VectorXd cosines(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen::Index of) {
-  Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());
-  Eigen::MatrixXd const shared = fit.jacobian.topRows(signatures.rows()).transpose() * signatures;
-  Eigen::MatrixXd const taken = information.solve(shared);
+  auto const [information, shared, taken] = imitated(fit, signatures);
   Eigen::VectorXd const product = signatures.transpose() * signatures.col(of) - shared.transpose() * taken.col(of);
   Eigen::VectorXd const square =
       (signatures.colwise().squaredNorm() - shared.cwiseProduct(taken).colwise().sum()).transpose().cwiseMax(1e-30);

@@ -1,4 +1,4 @@
-#include "twin/challenge/document.h"
+#include "twin/file/document.h"
 
 #include "thermal/units.h"
 
