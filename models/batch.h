@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace thermotwin::models {
+
+/// One run as the methods of selection and regression see it: readings of named temperature sensors, and the thermal
+/// error that they shall explain. Rows are instants, columns are sensors; N instants, p sensors.
+struct Batch {
+  std::string name;
+  Eigen::VectorXd time;                 ///< N, ascending [s]; equidistant where a method uses lags
+  std::vector<std::string> sensors;     ///< p names, each once
+  std::vector<std::string> components;  ///< p: the machine's component on which each sensor sits
+  Eigen::MatrixXd temperature_rise;     ///< N × p: change since the first instant [K]
+  Eigen::VectorXd error;                ///< N: thermal error [µm]
+};
+
+/// Throws std::invalid_argument with a sentence that names the batch, unless sizes agree, names are unique,
+/// time ascends and every number is finite.
+void check(Batch const& batch);
+
+/// The batches one below the other; all must have the same sensors in the same order (std::invalid_argument otherwise).
+Batch stacked(std::span<Batch const> batches);
+
+/// The batch with only these columns, in this order.
+Batch with_sensors(Batch const& batch, std::span<Eigen::Index const> sensors);
+
+/// Column numbers of these names; a name that the batch does not have is refused with the names that it has.
+std::vector<Eigen::Index> columns_of(Batch const& batch, std::span<std::string const> names);
+
+}  // namespace thermotwin::models

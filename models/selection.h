@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "models/batch.h"
+
+namespace thermotwin::models {
+
+struct SelectionOptions {
+  std::optional<int> count;       ///< how many sensors; without it the method's own rule decides
+  std::uint64_t seed = 1;         ///< of permutations, random starts and shuffles
+  double resolution = 0.0625;     ///< of the temperature readings [K], for the rank by time characteristic
+  Eigen::MatrixXd mode_shapes{};  ///< p × modes: temperature of each sensor in each thermal mode, for "thermal_modes"
+};
+
+/// What a method chose.
+struct Selection {
+  std::vector<Eigen::Index> sensors;  ///< columns of the batch, best first
+  Eigen::VectorXd score;              ///< p: how informative the method holds each sensor; larger is better
+  std::string remark;                 ///< what its user should know ("k = 4 by the improved rule"), or empty
+};
+
+/// A way of choosing temperature points. The catalogue below is what studies, files and the command line read.
+struct SelectionMethod {
+  std::string_view name;     ///< as written in files, snake_case
+  std::string_view meaning;  ///< one line
+  std::string_view source;   ///< paper and section, or literature
+  Selection (*select)(std::span<Batch const>, SelectionOptions const&);
+};
+
+/// Every method, in the order of the papers, then the ones that the papers lacked.
+std::span<SelectionMethod const> selection_methods();
+
+/// The method of that name; refuses others with the nearest known name (std::invalid_argument).
+SelectionMethod const& selection_method(std::string_view name);
+
+}  // namespace thermotwin::models
