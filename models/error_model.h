@@ -12,11 +12,12 @@
 
 namespace thermotwin::models {
 
-/// ŷ_t = b₀ + Σ_j Σ_{i=0..lags} B_ji x_{j,t−i}. Every linear method ends here (regression, ridge, principal components,
-/// distributed lags). The first `lags` instants repeat the first row: before a run the machine rests, ΔT = 0.
+/// ŷ_t = b₀ + Σ_j Σ_l B_jl x_{j,t−lag_l}. Every linear method ends here (regression, ridge, principal components,
+/// distributed lags). Instants before the first repeat the first row: before a run the machine rests, ΔT = 0.
 struct LinearForm {
   double intercept = 0;          ///< [µm]
-  Eigen::MatrixXd coefficients;  ///< p × (lags + 1) [µm/K]; column i multiplies the reading i samples ago
+  std::vector<int> lags{0};      ///< [samples], ascending, none negative
+  Eigen::MatrixXd coefficients;  ///< p × lags [µm/K]; column l multiplies the readings lags[l] samples ago
 };
 
 /// f(x) = Σ_k a_k exp(−g ‖x_k − x‖²) + b on scaled inputs and target: ε-SVR and LS-SVM.
@@ -43,7 +44,8 @@ struct NetworkForm {
 struct ErrorModel {
   std::string method;               ///< name in the catalogue
   std::vector<std::string> inputs;  ///< sensors, in the order of the form's columns
-  double sample_period = 0;         ///< [s] of the data it was fitted to; lags count in it
+  double sample_period = 0;         ///< [s] of the data it was fitted to; lags count in it; 0 where there are none
+  double parameters = 0;  ///< numbers that the fit determined, effective ones where a penalty or a kernel binds them
   std::variant<LinearForm, KernelForm, NetworkForm> form;
   std::string remark;  ///< what the fit found out: order of lags, penalty, components, (C, g)
 
@@ -67,7 +69,10 @@ struct ModelMethod {
   ErrorModel (*fit)(std::span<Batch const>, FitOptions const&);
 };
 
+/// The methods of the papers in their order, then the ones that they lacked.
 std::span<ModelMethod const> model_methods();
+
+/// The method of that name; refuses others with the nearest known name (std::invalid_argument).
 ModelMethod const& model_method(std::string_view name);
 
 }  // namespace thermotwin::models

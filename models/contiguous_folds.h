@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace thermotwin::models {
+
+/// A stretch of rows that are left out together.
+struct Fold {
+  Eigen::Index first = 0, count = 0;
+};
+
+/// `rows` rows in `folds` stretches that differ by at most one row, in order. Neighbouring instants of a thermal record
+/// are alike; folds that shuffle them test on what they trained on (methods.md §4.4). Refuses fewer than two folds and
+/// fewer rows than folds (std::invalid_argument).
+std::vector<Fold> contiguous_folds(Eigen::Index rows, int folds);
+
+/// Numbers of the rows outside the fold, ascending.
+std::vector<Eigen::Index> rows_outside(Fold const& fold, Eigen::Index rows);
+
+}  // namespace thermotwin::models

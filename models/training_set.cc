@@ -1,0 +1,114 @@
+#include "models/training_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace thermotwin::models {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double uneven_step = 0.01, other_period = 1e-3;
+
+void check_sensors_move(Batch const& all) {
+  for (Index j = 0; j < all.temperature_rise.cols(); ++j) {
+    auto const column = all.temperature_rise.col(j);
+    if (column.maxCoeff() == column.minCoeff())
+      throw std::invalid_argument(fmt::format("sensor '{}' does not move: {:.6g} K in all {} samples",
+                                              all.sensors[static_cast<std::size_t>(j)], column(0), column.size()));
+  }
+}
+
+double common_period(std::span<Batch const> batches) {
+  double const period = sample_period(batches.front());
+  for (auto const& batch : batches)
+    if (double const own = sample_period(batch); std::abs(own - period) > other_period * period)
+      throw std::invalid_argument(
+          fmt::format("batch '{}' has a sample every {:.6g} s, batch '{}' every {:.6g} s; lags "
+                      "need one sample period",
+                      batch.name, own, batches.front().name, period));
+  return period;
+}
+
+}  // namespace
+
+TrainingSet training_set(std::span<Batch const> batches, std::vector<int> const& lags, History history) {
+  for (auto const& batch : batches) check(batch);
+  Batch const all = stacked(batches);
+  if (all.sensors.empty()) throw std::invalid_argument("no sensor at all");
+  check_sensors_move(all);
+
+  int const longest = lags.back();
+  Index const dropped = history == History::dropped ? longest : 0;
+  TrainingSet set{all.sensors, longest > 0 ? common_period(batches) : 0.0, lags, {}, {}, {}};
+  auto const runs = static_cast<Index>(batches.size());
+  set.regressors.resize(all.time.size() - runs * dropped,
+                        all.temperature_rise.cols() * static_cast<Index>(lags.size()));
+  set.error.resize(set.regressors.rows());
+  Index row = 0;
+  for (auto const& batch : batches) {
+    Index const kept = batch.time.size() - dropped;
+    if (kept < 1)
+      throw std::invalid_argument(fmt::format("batch '{}' has {} samples; lags of {} samples need more", batch.name,
+                                              batch.time.size(), longest));
+    set.regressors.middleRows(row, kept) = with_lags(batch.temperature_rise, lags).bottomRows(kept);
+    set.error.segment(row, kept) = batch.error.tail(kept);
+    set.run_lengths.push_back(kept);
+    row += kept;
+  }
+  return set;
+}
+
+MatrixXd with_lags(MatrixXd const& readings, std::vector<int> const& lags) {
+  Index const rows = readings.rows(), inputs = readings.cols();
+  MatrixXd lagged(rows, inputs * static_cast<Index>(lags.size()));
+  for (std::size_t l = 0; l < lags.size(); ++l) {
+    auto block = lagged.middleCols(static_cast<Index>(l) * inputs, inputs);
+    Index const before = std::min<Index>(lags[l], rows);
+    block.topRows(before) = readings.row(0).replicate(before, 1);
+    block.bottomRows(rows - before) = readings.topRows(rows - before);
+  }
+  return lagged;
+}
+
+double sample_period(Batch const& batch) {
+  auto const rows = batch.time.size();
+  if (rows < 2) throw std::invalid_argument(fmt::format("batch '{}': one instant has no sample period", batch.name));
+  double const period = (batch.time(rows - 1) - batch.time(0)) / static_cast<double>(rows - 1);
+  for (Index i = 1; i < rows; ++i)
+    if (double const step = batch.time(i) - batch.time(i - 1); std::abs(step - period) > uneven_step * period)
+      throw std::invalid_argument(
+          fmt::format("batch '{}': row {} comes {:.6g} s after the one before, others {:.6g} s; "
+                      "lags need even steps",
+                      batch.name, i + 1, step, period));
+  return period;
+}
+
+std::vector<std::string> regressor_names(TrainingSet const& set) {
+  std::vector<std::string> names;
+  for (int const lag : set.lags)
+    for (auto const& input : set.inputs)
+      names.push_back(lag == 0 ? input : fmt::format("{}, {} sample{} ago", input, lag, lag == 1 ? "" : "s"));
+  return names;
+}
+
+void require_samples(TrainingSet const& set, Index needed) {
+  if (set.error.size() < needed)
+    throw std::invalid_argument(fmt::format("{} samples are too few for {} regressors: at least {}", set.error.size(),
+                                            set.regressors.cols(), needed));
+}
+
+ErrorModel linear_model(std::string method, TrainingSet const& set, double intercept, VectorXd const& coefficients,
+                        double parameters, std::string remark) {
+  auto const inputs = static_cast<Index>(set.inputs.size());
+  MatrixXd const table = coefficients.reshaped(inputs, static_cast<Index>(set.lags.size()));
+  return {std::move(method), set.inputs, set.sample_period, parameters, LinearForm{intercept, set.lags, table},
+          std::move(remark)};
+}
+
+}  // namespace thermotwin::models
