@@ -2,11 +2,19 @@
 #include <array>
 #include <stdexcept>
 
+#include "models/correlation_grouping.h"
+#include "models/d_optimal.h"
+#include "models/exhaustive_selection.h"
+#include "models/forward_selection.h"
 #include "models/fuzzy_equivalence.h"
 #include "models/grey_relation.h"
 #include "models/information_screen.h"
+#include "models/mode_sensors.h"
 #include "models/ordered_selection.h"
+#include "models/qr_pivot.h"
 #include "models/selection.h"
+#include "models/time_characteristic.h"
+#include "models/time_ranked_clusters.h"
 #include "models/unknown_name.h"
 
 namespace thermotwin::models {
@@ -25,8 +33,28 @@ constexpr auto methods = std::to_array<SelectionMethod>({
      "Li, Li, Tao, Pang 2020 (methods.md 3.5)", select_by_ordered_clustering_slope},
     {"grey_fuzzy", "fuzzy equivalence classes by correlation; of each the sensor of the highest grey relational grade",
      "Li et al. 2020, Miao, Liu, Dong, Chen 2016 (methods.md 3.8)", select_by_grey_fuzzy_clustering},
+    {"time_characteristic", "the sensors that stay longest at their maximum; the error is not looked at",
+     "Yin, Liao, Wang 2019 (methods.md 4.2)", select_by_time_at_maximum},
+    {"time_of_first_maximum", "the sensors that reach their maximum first; the error is not looked at",
+     "Yin, Liao, Wang 2019 (methods.md 4.2)", select_by_first_maximum},
+    {"fuzzy_c_means", "of each fuzzy cluster of temperature courses the sensor that stays longest at its maximum",
+     "Yin, Liao, Wang 2019 (methods.md 4.3)", select_by_fuzzy_amplitude},
+    {"fuzzy_c_means_shape", "the same with courses brought to the same height before they are clustered",
+     "Yin, Liao, Wang 2019 (methods.md 4.3)", select_by_fuzzy_shape},
+    {"thermal_modes", "sensors that span the machine's thermal modes, weighted by what these do to the error",
+     "Wu, Zhang, Guo, Wang, Yang 2008 (methods.md 6.1)", select_for_modes},
     {"grey_relational", "the sensors of the highest grey relational grade with the error",
      "Miao, Liu, Dong, Chen 2016 (methods.md 7.4)", select_by_grey_relation},
+    {"correlation_grouping", "groups of correlated sensors; of each the one that follows the error best",
+     "classical; Sokal, Michener 1958", select_by_correlation},
+    {"qr_pivot", "pivots of a QR decomposition of the readings; the error is not looked at",
+     "Manohar, Brunton, Kutz, Brunton 2018", select_by_qr_pivot},
+    {"d_optimal", "largest determinant of the readings' covariance; the error is not looked at", "Shewry, Wynn 1987",
+     select_d_optimal},
+    {"forward", "one after another what lowers the error of a blocked cross-validation most", "Whitney 1971",
+     select_forward},
+    {"exhaustive", "the best of all sets by blocked cross-validation, among up to 20 sensors", "the truth",
+     select_exhaustive},
 });
 
 }  // namespace
