@@ -22,6 +22,8 @@ struct PictureOptions {
   int height = 1000;  ///< pixels
   std::string title;
   double time_s = 0.0;
+  std::string remark;                         ///< stands in place of the time
+  std::string quantity = "temperature [°C]";  ///< what Frame::temperature_degC holds
   /// By which displacements are shown larger; none: so that the largest is about 5 % of the machine, rounded to
   /// 1, 2 or 5 times a power of ten.
   std::optional<double> magnification;

@@ -17,6 +17,7 @@
 
 #include "output/atomic_file.h"
 #include "output/error.h"
+#include "output/node_fields.h"
 #include "output/vtk_grid.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
@@ -57,6 +58,13 @@ std::string as_vtu(vtkUnstructuredGrid* cells) {
   writer->WriteToOutputStringOn();
   if (writer->Write() == 0) throw OutputError("VTK cannot write the field");
   return writer->GetOutputString();
+}
+
+std::vector<std::string> body_names_of_cells(FieldMesh const& mesh) {
+  std::vector<std::string> names;
+  for (auto const& element : mesh.elements())
+    names.push_back(mesh.body_names()[static_cast<std::size_t>(element.body)]);
+  return names;
 }
 
 std::string file_name(std::size_t number) { return fmt::format("field_{:04}.vtu", number); }
@@ -152,10 +160,7 @@ FieldSeries::FieldSeries(std::filesystem::path directory, thermal::Geometry cons
   if (mesh.elements().empty()) throw InputError("fields need bodies with a place in space; the machine has none");
   make_directory(directory_);
   set_mesh(*grid_->cells, mesh);
-  std::vector<std::string> names;
-  for (auto const& element : mesh.elements())
-    names.push_back(mesh.body_names()[static_cast<std::size_t>(element.body)]);
-  add_texts(*grid_->cells->GetCellData(), "body_name", names);
+  add_texts(*grid_->cells->GetCellData(), "body_name", body_names_of_cells(mesh));
   add_texts(*grid_->cells->GetFieldData(), "body_names", mesh.body_names());
   for (auto const& [key, text] : options_.metadata) add_texts(*grid_->cells->GetFieldData(), key, {text});
 }
@@ -171,6 +176,23 @@ void FieldSeries::add(double time_s, Frame const& frame) {
 }
 
 std::filesystem::path FieldSeries::index_path() const { return directory_ / "fields.pvd"; }
+
+void write_node_fields(std::filesystem::path const& path, thermal::Geometry const& geometry,
+                       std::vector<NodeField> const& fields, std::map<std::string, std::string> const& metadata) {
+  FieldMesh const mesh(geometry);
+  if (mesh.elements().empty()) throw InputError("fields need bodies with a place in space; the machine has none");
+  vtkNew<vtkUnstructuredGrid> cells;
+  set_mesh(*cells, mesh);
+  add_texts(*cells->GetCellData(), "body_name", body_names_of_cells(mesh));
+  for (auto const& [key, text] : metadata) add_texts(*cells->GetFieldData(), key, {text});
+  for (auto const& field : fields) {
+    if (field.values.size() < mesh.n_nodes())
+      throw InputError(fmt::format("the field '{}' has {} values; the geometry has {} nodes", field.name,
+                                   field.values.size(), mesh.n_nodes()));
+    add_node_numbers(*cells, mesh, field.name, field.values);
+  }
+  write_atomically(path, as_vtu(cells));
+}
 
 FieldSummary read_field(std::filesystem::path const& path) try {
   vtkNew<vtkXMLUnstructuredGridReader> reader;

@@ -100,4 +100,9 @@ void set_frame(vtkUnstructuredGrid& grid, FieldMesh const& mesh, Frame const& fr
                     has_displacement ? frame.displacement_m : Eigen::Matrix3Xd::Zero(3, mesh.n_nodes()).eval());
 }
 
+void add_node_numbers(vtkUnstructuredGrid& grid, FieldMesh const& mesh, std::string const& name,
+                      Eigen::VectorXd const& of_nodes) {
+  add_cell_numbers(grid, mesh, name.c_str(), [&](int node) { return of_nodes[node]; });
+}
+
 }  // namespace thermotwin::output

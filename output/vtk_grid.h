@@ -13,6 +13,10 @@ void set_mesh(vtkUnstructuredGrid& grid, FieldMesh const& mesh);
 /// Cell and point data as FieldSeries documents them, except names and metadata.
 void set_frame(vtkUnstructuredGrid& grid, FieldMesh const& mesh, Frame const& frame, double reference_degC);
 
+/// One more number per cell, from a number per node.
+void add_node_numbers(vtkUnstructuredGrid& grid, FieldMesh const& mesh, std::string const& name,
+                      Eigen::VectorXd const& of_nodes);
+
 /// Throws thermal::InputError when the frame has fewer values than the geometry has nodes.
 void check(Frame const& frame, Eigen::Index n_nodes);
 

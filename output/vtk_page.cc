@@ -68,7 +68,7 @@ void Page::add_line(std::string const& text, int size, bool bold) {
   add_label(text, scaled(36), height_ - scaled(top_), size, bold);
 }
 
-void Page::add_colour_bar(vtkLookupTable& colours, Ticks const& ticks) {
+void Page::add_colour_bar(vtkLookupTable& colours, Ticks const& ticks, std::string const& title) {
   int const left = width_ - scaled(180), width = scaled(34);
   int const bottom = height_ / 6, top = height_ - height_ / 5;
   add_strip(colours, left, width, bottom, top);
@@ -78,7 +78,7 @@ void Page::add_colour_bar(vtkLookupTable& colours, Ticks const& ticks) {
     add_tick(left + width, y);
     add_label(number, left + width + scaled(18), y, 24).SetVerticalJustificationToCentered();
   }
-  add_label("temperature [°C]", left + width / 2, top + scaled(24), 26).SetJustificationToCentered();
+  add_label(title, left + width / 2, top + scaled(24), 26).SetJustificationToCentered();
 }
 
 vtkTextProperty& Page::add_label(std::string const& text, int x, int y, int size, bool bold) {

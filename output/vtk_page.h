@@ -33,7 +33,7 @@ class Page {
   void add_line(std::string const& text, int size, bool bold);
 
   /// At the right, with its ticks and its title.
-  void add_colour_bar(vtkLookupTable& colours, Ticks const& ticks);
+  void add_colour_bar(vtkLookupTable& colours, Ticks const& ticks, std::string const& title);
 
  private:
   vtkTextProperty& add_label(std::string const& text, int x, int y, int size, bool bold = false);

@@ -290,12 +290,12 @@ void render_picture(thermal::Geometry const& geometry, Frame const& frame, std::
   add_edges(*scene, deformed, edge_ink, page.scaled(1.5));
   add_light(*scene, options);
   if (!options.title.empty()) page.add_line(options.title, 30, true);
-  page.add_line("t = " + time_text(options.time_s), 28, false);
+  page.add_line(options.remark.empty() ? "t = " + time_text(options.time_s) : options.remark, 28, false);
   if (skin.largest_displacement() > 0) {
     add_edges(*scene, skin.surface(0.0), faint_ink, page.scaled(1.0));
     page.add_line("deformation × " + magnification_text(magnification) + ", grey: at rest", 24, false);
   }
-  page.add_colour_bar(*colours, ticks);
+  page.add_colour_bar(*colours, ticks, options.quantity);
 
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(true);

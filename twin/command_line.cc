@@ -13,6 +13,7 @@
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "twin/challenge/challenge.h"
+#include "twin/command_line_place.h"
 #include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnose_files.h"
@@ -296,6 +297,7 @@ int command_line(int argc, char** argv) {
   add_diagnose_command(app);
   add_compare_command(app);
   add_challenge_command(app);
+  add_place_command(app, stop_requested);
   std::signal(SIGINT, [](int) { stop_requested = true; });
   std::signal(SIGTERM, [](int) { stop_requested = true; });
   try {

@@ -1,0 +1,135 @@
+#include "twin/command_line_place.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+#include "output/atomic_file.h"
+#include "output/node_fields.h"
+#include "output/picture.h"
+#include "thermal/units.h"
+#include "twin/experiment_file.h"
+#include "twin/machine.h"
+#include "twin/placement/sensor_placement.h"
+#include "twin/progress.h"
+
+namespace thermotwin::twin {
+namespace {
+
+struct PlaceCommand {
+  std::string machine, candidates, noise = "0.1 K", output, fields, picture;
+  std::vector<std::string> experiments, unseen, proposed;
+  PlacementOptions options;
+  bool json = false;
+
+  CLI::App* add_to(CLI::App& app, std::atomic<bool> const& stop);
+  void operator()();
+
+ private:
+  void write_map(PlacementReport const& report, Machine const& built) const;
+};
+
+CLI::App* PlaceCommand::add_to(CLI::App& app, std::atomic<bool> const& stop) {
+  auto* command =
+      app.add_subcommand("place", "choose where temperature sensors tell most about the tool's displacement");
+  command->add_option("machine", machine, "machine file or name")->required();
+  command->add_option("--sensors,-k", options.sensors, "how many")->required();
+  command->add_option("--candidates", candidates, "file of sites, costs, forbidden bodies and budget");
+  command->add_option("--experiments", experiments, "spectra that decide; default: drawn at random");
+  command->add_option("--hold-out", unseen, "spectra to judge by; default: drawn at random");
+  command->add_option("--propose", proposed, "a set to judge: sites, sensors of the machine, places; T1,T2,motor");
+  command->add_option("--dead", options.dead, "choose such that the loss of any so many hurts least")
+      ->capture_default_str();
+  command->add_option("--noise", noise, "standard deviation of a sensor's own error")->capture_default_str();
+  command->add_option("--members", options.design.members, "machines to draw within the file's uncertainty")
+      ->capture_default_str();
+  command->add_option("--unseen", options.unseen_members, "machines to judge by")->capture_default_str();
+  command->add_option("--seed", options.design.seed, "the same seed draws the same machines")->capture_default_str();
+  command->add_option("--output,-o", output, "file to write: the recommended sensors as tables of a machine file");
+  command->add_option("--fields", fields, "folder for the map of how informative places are (VTK)");
+  command->add_option("--picture", picture, "PNG of that map; needs a display, or xvfb-run");
+  command->add_flag("--json", json, "print everything as JSON");
+  options.design.stop = &stop;
+  return command;
+}
+
+/// At the commas outside of brackets: "T1,column.x_max[20 mm, 30 mm]".
+std::vector<std::string> split(std::vector<std::string> const& texts) {
+  std::vector<std::string> parts;
+  for (auto const& text : texts) {
+    int depth = 0;
+    parts.emplace_back();
+    for (char const c : text) {
+      depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+      if (c == ',' && depth == 0)
+        parts.emplace_back();
+      else if (c != ' ' || !parts.back().empty())
+        parts.back() += c;
+    }
+  }
+  std::erase(parts, "");
+  return parts;
+}
+
+std::vector<scenarios::Experiment> read_all(std::vector<std::string> const& names) {
+  std::vector<scenarios::Experiment> experiments;
+  for (auto const& name : names) {
+    auto const path = experiment_file(name);
+    experiments.push_back(read_experiment(read_toml(path), path));
+  }
+  return experiments;
+}
+
+void PlaceCommand::write_map(PlacementReport const& report, Machine const& built) const {
+  if (!fields.empty()) {
+    output::make_directory(fields);
+    output::write_node_fields(
+        std::filesystem::path(fields) / "placement.vtu", built.geometry,
+        {{"error_removed_alone_um", report.map->alone_um},
+         {"error_removed_beside_recommended_um", report.map->beside_um}},
+        {{"machine", built.name}, {"sensors", std::to_string(report.recommended.sensors.size())}});
+  }
+  if (picture.empty()) return;
+  output::Frame frame;
+  frame.temperature_degC = report.map->alone_um;
+  output::PictureOptions page;
+  page.title = built.title;
+  page.remark = fmt::format("what one sensor tells of a displacement of {:.1f} µm; dots: the recommended {}",
+                            report.prior_um, report.recommended.sensors.size());
+  page.quantity = "error removed [µm]";
+  page.up = built.up;
+  for (auto const& sensor : report.recommended.sensors)
+    if (sensor.site.at != std::vector<std::string>{"ambient"})
+      page.sensors.push_back({sensor.site.name, sensor.position});
+  output::render_picture(built.geometry, frame, picture, page);
+}
+
+void PlaceCommand::operator()() {
+  Value const document = read_toml(machine_file(machine));
+  Machine const built = Machine::build(document);
+  options.noise = thermal::parse_value(noise, thermal::dimension::temperature_difference);
+  options.proposed = split(proposed);
+  options.design.experiments = read_all(experiments);
+  options.unseen = read_all(unseen);
+  options.map = !fields.empty() || !picture.empty();
+  if (!candidates.empty()) options.rules = read_candidate_rules(candidates);
+  std::optional<Progress> progress;
+  if (!json) {
+    progress.emplace(fmt::format("ensemble of {}", built.name));
+    options.design.progress = [&](double share) { progress->show(share); };
+  }
+  auto const report = place_sensors(document, options);
+  progress.reset();
+  if (!output.empty()) output::write_atomically(output, sensor_tables(report));
+  if (report.map) write_map(report, built);
+  fmt::print("{}", json ? placement_json(report) : placement_text(report));
+}
+
+}  // namespace
+
+void add_place_command(CLI::App& app, std::atomic<bool> const& stop) {
+  auto command = std::make_shared<PlaceCommand>();
+  command->add_to(app, stop)->callback([command] { (*command)(); });
+}
+
+}  // namespace thermotwin::twin

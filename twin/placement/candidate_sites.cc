@@ -1,0 +1,182 @@
+#include "twin/placement/candidate_sites.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+#include "thermal/error.h"
+#include "thermal/nearest_name.h"
+#include "twin/bodies.h"
+#include "twin/file/document.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using thermal::Body;
+using thermal::InputError;
+
+std::string body_of(std::string const& place) { return place.substr(0, place.find_first_of("[.")); }
+
+/// A facet of a body's surface as a candidate.
+struct SurfacePoint {
+  CandidateSite site;
+  std::string body;
+  Eigen::Vector3d position;
+};
+
+std::string millimetres(double metres) { return fmt::format("{:.5g} mm", 1e3 * metres); }
+
+/// The place of a block's facet: the two directions that lie in its face, from the block's corner.
+std::string place_on_block(Body const& block, std::string const& face, thermal::Facet const& facet) {
+  Eigen::Vector3d const from_corner = facet.centre - block.origin;
+  std::vector<std::string> extents;
+  for (int d = 0; d < 3; ++d)
+    if (face[0] != char('x' + d)) extents.push_back(millimetres(from_corner[d]));
+  return fmt::format("{}.{}[{}]", block.name, face, fmt::join(extents, ", "));
+}
+
+std::vector<SurfacePoint> surface_points(Body const& body) {
+  std::vector<SurfacePoint> points;
+  if (body.shape == Body::Shape::lump) return {{{"", {body.name}}, body.name, body.face("surface").front().centre}};
+  for (auto const& [face, facets] : body.faces) {
+    bool const mantle = face == "outer" || face == "surface";
+    if (body.shape == Body::Shape::axial && !mantle) continue;
+    for (auto const& facet : facets)
+      points.push_back({{"",
+                         {mantle ? fmt::format("{}.{}[{}]", body.name, face, millimetres((facet.low + facet.high) / 2))
+                                 : place_on_block(body, face, facet)}},
+                        body.name,
+                        facet.centre});
+  }
+  return points;
+}
+
+double diagonal(std::vector<SurfacePoint> const& points, std::string const& body) {
+  Eigen::AlignedBox3d box;
+  for (auto const& point : points)
+    if (point.body == body) box.extend(point.position);
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+/// Farthest-point sampling; the first of each body is infinitely far from everything.
+std::vector<SurfacePoint> thinned(std::vector<SurfacePoint> const& points, std::size_t most) {
+  if (points.size() <= most) return points;
+  std::map<std::string, double> scale;
+  for (auto const& point : points)
+    if (!scale.contains(point.body)) scale[point.body] = std::max(1e-3, diagonal(points, point.body));
+  std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> kept;
+  while (kept.size() < most) {
+    auto const next = std::size_t(std::max_element(distance.begin(), distance.end()) - distance.begin());
+    kept.push_back(next);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (points[i].body == points[next].body)
+        distance[i] =
+            std::min(distance[i], (points[i].position - points[next].position).norm() / scale.at(points[i].body));
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<SurfacePoint> result;
+  for (std::size_t i : kept) result.push_back(points[i]);
+  return result;
+}
+
+void require_known(std::string const& body, Bodies const& bodies) {
+  if (bodies.all().contains(body)) return;
+  throw InputError(fmt::format("unknown body '{}'; {}", body, thermal::did_you_mean(body, bodies.order())));
+}
+
+std::vector<CandidateSite> mesh_of_sites(Bodies const& bodies, std::set<std::string> const& without, int most) {
+  std::vector<SurfacePoint> points;
+  for (auto const& name : bodies.order())
+    if (bodies.carried(name) && !without.contains(name)) {
+      auto const on_body = surface_points(bodies.all().at(name));
+      points.insert(points.end(), on_body.begin(), on_body.end());
+    }
+  std::vector<CandidateSite> sites = {{"ambient", {"ambient"}}};
+  for (auto& point : thinned(points, std::size_t(std::max(1, most - 1)))) sites.push_back(std::move(point.site));
+  return sites;
+}
+
+void check(CandidateRules const& rules, Bodies const& bodies) {
+  for (auto const& body : rules.forbidden) require_known(body, bodies);
+  for (auto const& body : rules.bodies) require_known(body.name, bodies);
+  if (rules.most < 1) throw InputError(fmt::format("most is {}; a mesh has at least one site", rules.most));
+  auto const positive = [](std::string const& what, double value) {
+    if (!(value > 0.0)) throw InputError(fmt::format("{} is {}; it must be positive", what, value));
+  };
+  for (auto const& body : rules.bodies) positive("the cost on '" + body.name + "'", body.cost);
+  for (auto const& site : rules.sites) positive("the cost of site '" + site.name + "'", site.cost);
+  positive("the budget", rules.budget);
+}
+
+}  // namespace
+
+CandidateRules read_candidate_rules(std::filesystem::path const& path) {
+  Value const document = read_toml(path);
+  CandidateRules rules;
+  read_fields(document, rules);
+  if (Value const* list = document.find("site"))
+    for (auto const& table : std::get<Value::List>(list->content))
+      if (texts_of(table, "at").empty()) throw FileError(table.where, "a site needs a place: at = \"head\"");
+  return rules;
+}
+
+std::vector<std::string> turning_bodies(Value const& document) {
+  Value copy = document;
+  std::set<std::string> turning;
+  for (auto const& [kind, key] : {std::pair("bearing", "inner"), std::pair("skf_bearing", "shaft"),
+                                  std::pair("ball_nut", "screw"), std::pair("support_bearing", "shaft")})
+    for (auto const* table : tables_of(copy, kind))
+      for (auto const& place : texts_of(*table, key)) turning.insert(body_of(place));
+  for (auto const* film : tables_of(copy, "film"))
+    for (auto const& correlation : texts_of(*film, "correlation"))
+      if (correlation.starts_with("rotating"))
+        for (auto const& place : texts_of(*film, "on")) turning.insert(body_of(place));
+  for (std::size_t before = 0; before != turning.size();) {
+    before = turning.size();
+    for (auto const* kind : {"lump", "bar", "hollow_cylinder", "block"})
+      for (auto const* table : tables_of(copy, kind))
+        for (auto const& carrier : texts_of(*table, "carried_by"))
+          if (turning.contains(carrier)) turning.insert(name_in(*table));
+  }
+  return {turning.begin(), turning.end()};
+}
+
+std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules const& rules) {
+  Tables tables(document);
+  Bodies const bodies(tables);
+  check(rules, bodies);
+  auto const turning = turning_bodies(document);
+  std::set<std::string> without(rules.forbidden.begin(), rules.forbidden.end());
+  auto sites = rules.sites;
+  if (sites.empty()) {
+    auto not_meshed = without;
+    not_meshed.insert(turning.begin(), turning.end());
+    sites = mesh_of_sites(bodies, not_meshed, rules.most);
+    for (auto& site : sites)
+      for (auto const& body : rules.bodies)
+        if (body_of(site.at.front()) == body.name) site.cost = body.cost;
+  }
+  std::erase_if(sites, [&](auto const& site) {
+    return std::any_of(site.at.begin(), site.at.end(), [&](auto const& at) { return without.contains(body_of(at)); });
+  });
+  for (auto& site : sites)
+    if (site.name.empty()) site.name = fmt::format("{}", fmt::join(site.at, " and "));
+  if (sites.empty()) throw InputError("no site is left on which a sensor could sit");
+  return sites;
+}
+
+Value with_sensors_at(Value document, std::vector<CandidateSite> const& sites) {
+  int number = 0;
+  for (auto const& site : sites) {
+    Value table = make_table({document.where.file, 1'000'000 + number, 1}, {});
+    set_key(table, "name", fmt::format("candidate {}", ++number));
+    set_key(table, "title", site.name);
+    set_key(table, "at", list_of(site.at));
+    append_table(document, "temperature_sensor", std::move(table));
+  }
+  return document;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "twin/placement/sensor_placement.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double percent(double part, double whole) { return whole > 0.0 ? 100.0 * (part / whole - 1.0) : 0.0; }
+
+std::string set_table(SetFigures const& set) {
+  std::size_t width = 4;
+  for (auto const& sensor : set.sensors) width = std::max(width, sensor.site.name.size());
+  std::string text = fmt::format("  {:<3} {:<{}}  {:>22}  {:>5}  {:>16}\n", "", "site", width, "position [mm]", "cost",
+                                 "error without it");
+  int number = 0;
+  for (auto const& sensor : set.sensors) {
+    Eigen::Vector3d const p = 1e3 * sensor.position;
+    text +=
+        fmt::format("  {:<3} {:<{}}  {:>22}  {:>5g}  {:>8.2f} um {:+4.0f} %{}\n", ++number, sensor.site.name, width,
+                    fmt::format("{:.0f} {:.0f} {:.0f}", p.x(), p.y(), p.z()), sensor.site.cost, sensor.error_without_um,
+                    percent(sensor.error_without_um, set.model_um), sensor.idle ? "  idle" : "");
+  }
+  text += fmt::format("\n  {:<14} {:>14} {:>14} {:>14}\n", "error [um]", "no sensor", "predicted 1s", "unseen rms");
+  for (auto const& channel : set.channels)
+    text += fmt::format("  {:<14} {:>14.2f} {:>14.2f} {:>14.2f}\n", channel.name, channel.prior_um,
+                        channel.predicted_um, channel.unseen_um);
+  return text;
+}
+
+std::string error_line(std::string const& what, SetFigures const& set, double reference) {
+  return fmt::format("  {:<26} {:>8.2f} {:>13.2f} {:>12.2f}  {:>6.2f} .. {:<6.2f} {:>+6.1f} %\n", what, set.model_um,
+                     set.predicted_um, set.unseen_um, set.unseen_low_um, set.unseen_high_um,
+                     percent(set.model_um, reference));
+}
+
+Json to_json(SetFigures const& set, int dead) {
+  Json sensors = Json::array(), channels = Json::array();
+  for (auto const& sensor : set.sensors)
+    sensors.push_back({{"name", sensor.site.name},
+                       {"at", sensor.site.at},
+                       {"position_m", {sensor.position.x(), sensor.position.y(), sensor.position.z()}},
+                       {"cost", sensor.site.cost},
+                       {"error_without_um", sensor.error_without_um},
+                       {"idle", sensor.idle}});
+  for (auto const& channel : set.channels)
+    channels.push_back({{"name", channel.name},
+                        {"without_sensors_um", channel.prior_um},
+                        {"predicted_um", channel.predicted_um},
+                        {"unseen_rms_um", channel.unseen_um}});
+  Json json = {{"sensors", sensors},
+               {"cost", set.cost},
+               {"model_um", set.model_um},
+               {"predicted_um", set.predicted_um},
+               {"unseen_rms_um", set.unseen_um},
+               {"unseen_machines_um", {{"10 %", set.unseen_low_um}, {"90 %", set.unseen_high_um}}},
+               {"displacements", channels}};
+  if (dead > 0) json["worst_with_dead_sensors_um"] = set.worst_um;
+  return json;
+}
+
+}  // namespace
+
+std::string placement_text(PlacementReport const& report) {
+  auto const& best = report.recommended;
+  auto const count = best.sensors.size();
+  std::string text = fmt::format(
+      "{} of {} sites on {}; sensors with an error of {:g} K of their own\n"
+      "{} machines that the file could stand for, {} spectra each; judged on {} others with other spectra\n\n"
+      "recommended\n\n{}\n",
+      count, report.candidates, report.machine, report.noise, report.members, report.experiments.size(),
+      report.unseen_members, set_table(best));
+  if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(*report.proposed));
+  text += fmt::format("  {:<26} {:>8} {:>13} {:>12}  {:>16}\n", "all displacements [um]", "model", "predicted 1s",
+                      "unseen rms", "80 % of machines");
+  text += fmt::format("  {:<26} {:>8.2f}\n", "no sensor", report.prior_um);
+  if (report.fewer)
+    text += error_line(fmt::format("best {}", report.fewer->sensors.size()), *report.fewer, best.model_um);
+  text += error_line(fmt::format("recommended {}", count), best, best.model_um);
+  if (report.more) text += error_line(fmt::format("best {}", report.more->sensors.size()), *report.more, best.model_um);
+  if (report.proposed)
+    text += error_line(fmt::format("proposed {}", report.proposed->sensors.size()), *report.proposed, best.model_um);
+  text +=
+      fmt::format("  {:<26} {:>8.2f}                                              {:>+6.1f} %\n",
+                  fmt::format("all {}", report.candidates), report.floor_um, percent(report.floor_um, best.model_um));
+  if (report.dead > 0)
+    text += fmt::format("\nwith any {} of them dead: at most {:.2f} um, {:.2f} times the error of all\n", report.dead,
+                        best.worst_um, best.worst_um / best.model_um);
+  text += report.proved
+              ? fmt::format("\nno set of {} is better: all were looked at\n", count)
+              : fmt::format("\nno set of {} has less than {:.2f} um: this one is at most {:.1f} % above the best\n",
+                            count, report.bound_um, percent(best.model_um, report.bound_um));
+  return text;
+}
+
+std::string placement_json(PlacementReport const& report) {
+  Json json = {{"machine", report.machine},
+               {"candidates", report.candidates},
+               {"noise_K", report.noise},
+               {"members", report.members},
+               {"experiments", report.experiments},
+               {"unseen_members", report.unseen_members},
+               {"unseen_experiments", report.unseen_experiments},
+               {"dead", report.dead},
+               {"no_sensor_um", report.prior_um},
+               {"all_candidates_um", report.floor_um},
+               {"bound_um", report.bound_um},
+               {"above_bound", report.recommended.model_um / report.bound_um - 1.0},
+               {"all_sets_looked_at", report.proved},
+               {"recommended", to_json(report.recommended, report.dead)}};
+  if (report.fewer) json["one_fewer"] = to_json(*report.fewer, report.dead);
+  if (report.more) json["one_more"] = to_json(*report.more, report.dead);
+  if (report.proposed) json["proposed"] = to_json(*report.proposed, report.dead);
+  return json.dump(2) + "\n";
+}
+
+std::string sensor_tables(PlacementReport const& report) {
+  std::string text = fmt::format("# {} sensors for {}: predicted error {:.2f} um (1 sigma)\n",
+                                 report.recommended.sensors.size(), report.machine, report.recommended.predicted_um);
+  int number = 0;
+  for (auto const& sensor : report.recommended.sensors) {
+    text += fmt::format("\n[[temperature_sensor]]\nname = \"P{}\"\n", ++number);
+    text += sensor.site.at.size() == 1 ? fmt::format("at = \"{}\"\n", sensor.site.at[0])
+                                       : fmt::format("at = [\"{}\"]\n", fmt::join(sensor.site.at, "\", \""));
+  }
+  return text;
+}
+
+}  // namespace thermotwin::twin

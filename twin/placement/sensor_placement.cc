@@ -1,0 +1,248 @@
+#include "twin/placement/sensor_placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+#include <stdexcept>
+
+#include "models/placement.h"
+#include "models/placement_bound.h"
+#include "thermal/error.h"
+#include "thermal/nearest_name.h"
+#include "twin/file/document.h"
+#include "twin/machine.h"
+#include "twin/placement/snapshot_moments.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using thermal::InputError;
+using Sites = std::vector<Index>;
+
+constexpr double idle_share = 0.01;               // of the error: what the loss of an idle sensor adds at most
+constexpr double most_sets = 1e6;                 // that are all looked at
+constexpr std::uint64_t unseen_seed = 1'000'000;  // members of the design have smaller numbers
+
+void check(PlacementOptions const& options, std::size_t candidates) {
+  if (options.sensors < 1) throw InputError(fmt::format("{} sensors; at least 1 is due", options.sensors));
+  if (std::size_t(options.sensors) > candidates)
+    throw InputError(fmt::format("{} sensors, but only {} candidate sites", options.sensors, candidates));
+  if (options.dead < 0 || options.dead >= options.sensors)
+    throw InputError(fmt::format("{} of {} sensors dead; at least one must be left", options.dead, options.sensors));
+  if (!(options.noise > 0.0)) throw InputError(fmt::format("the noise is {} K; it must be positive", options.noise));
+  if (options.design.members < 2 || options.unseen_members < 1)
+    throw InputError(fmt::format("{} members; at least 2 are due", options.design.members));
+}
+
+/// Sites that a user proposes, by name: a candidate's, a sensor's of the machine, or a place.
+class Proposal {
+ public:
+  Proposal(Value const& document, std::vector<CandidateSite>& sites) : sites_(sites) {
+    Value copy = document;
+    for (auto const* table : tables_of(copy, "temperature_sensor"))
+      sensors_.push_back({name_in(*table), texts_of(*table, "at")});
+    for (auto const* kind : {"lump", "bar", "hollow_cylinder", "block", "channel"})
+      for (auto const* table : tables_of(copy, kind)) bodies_.push_back(name_in(*table));
+  }
+
+  /// Appends it to the sites if it is not among them.
+  [[nodiscard]] Index index_of(std::string const& name) {
+    for (std::size_t i = 0; i < sites_.size(); ++i)
+      if (sites_[i].name == name) return Index(i);
+    sites_.push_back(site_of(name));
+    return Index(sites_.size()) - 1;
+  }
+
+ private:
+  [[nodiscard]] CandidateSite site_of(std::string const& name) const {
+    for (auto const& sensor : sensors_)
+      if (sensor.name == name) return sensor;
+    auto const body = name.substr(0, name.find_first_of("[."));
+    if (std::find(bodies_.begin(), bodies_.end(), body) != bodies_.end()) return {name, {name}};
+    auto known = bodies_;
+    for (auto const& sensor : sensors_) known.push_back(sensor.name);
+    for (auto const& site : sites_) known.push_back(site.name);
+    throw InputError(
+        fmt::format("there is no site, sensor or body '{}'; {}", name, thermal::did_you_mean(name, known)));
+  }
+
+  std::vector<CandidateSite>& sites_;
+  std::vector<CandidateSite> sensors_;
+  std::vector<std::string> bodies_;
+};
+
+double quantile(Eigen::VectorXd values, double share) {
+  std::sort(values.begin(), values.end());
+  double const place = share * double(values.size() - 1);
+  auto const below = Index(place);
+  auto const above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - double(below)) * (values[above] - values[below]);
+}
+
+/// Judges sets with one design and one unseen ensemble.
+class Judge {
+ public:
+  Judge(Value const& document, PlacementOptions const& options);
+
+  [[nodiscard]] PlacementReport operator()();
+
+ private:
+  [[nodiscard]] SetFigures figures(Sites const& set) const;
+  [[nodiscard]] models::Placement best(Index count, Index dead) const;
+  [[nodiscard]] InformationMap map(Sites const& set) const;
+  [[nodiscard]] EnsembleOptions unseen_options() const;
+
+  PlacementOptions const& options_;
+  std::vector<CandidateSite> sites_;
+  Index candidates_;
+  Sites proposed_;
+  std::string machine_;
+  std::vector<Eigen::Vector3d> positions_;
+  Ensemble design_, unseen_;
+  std::optional<SnapshotMoments> moments_;
+  models::PlacementProblem problem_;  ///< of the candidates
+  models::PlacementProblem all_;      ///< of the proposed sites as well
+};
+
+Judge::Judge(Value const& document, PlacementOptions const& options)
+    : options_(options), sites_(candidate_sites(document, options.rules)), candidates_(Index(sites_.size())) {
+  check(options, sites_.size());
+  Proposal proposal(document, sites_);
+  for (auto const& name : options.proposed) proposed_.push_back(proposal.index_of(name));
+  Machine const machine = Machine::build(with_sensors_at(document, sites_));
+  machine_ = machine.name;
+  for (std::size_t s = machine.sensors.size() - sites_.size(); s < machine.sensors.size(); ++s)
+    positions_.push_back(machine.sensors[s].position);
+  EnsembleOptions design = options.design;
+  design.every_node = options.map;
+  double const share = double(design.members) / (design.members + options.unseen_members);
+  if (options.design.progress) design.progress = [&, share](double done) { options_.design.progress(share * done); };
+  design_ = draw_ensemble(document, sites_, design);
+  auto unseen = unseen_options();
+  if (options.design.progress)
+    unseen.progress = [&, share](double done) { options_.design.progress(share + (1.0 - share) * done); };
+  unseen_ = draw_ensemble(document, sites_, unseen);
+  moments_.emplace(design_, options.noise);
+  problem_ = moments_->problem(candidates_);
+  problem_.budget = options.rules.budget;
+  problem_.cost.resize(candidates_);
+  for (Index i = 0; i < candidates_; ++i) problem_.cost[i] = sites_[std::size_t(i)].cost;
+  all_ = moments_->problem(Index(sites_.size()));
+}
+
+EnsembleOptions Judge::unseen_options() const {
+  EnsembleOptions unseen = options_.design;
+  unseen.members = options_.unseen_members;
+  unseen.seed += unseen_seed;
+  unseen.experiments = options_.unseen;
+  unseen.every_node = false;
+  return unseen;
+}
+
+models::Placement Judge::best(Index count, Index dead) const {
+  if (dead == 0 && models::number_of_sets(candidates_, count) <= most_sets)
+    return models::exhaustive_placement(problem_, count);
+  return models::place(problem_, count, dead);
+}
+
+SetFigures Judge::figures(Sites const& set) const {
+  SetFigures result;
+  auto const ordered = models::by_information(all_, set);
+  double const variance = models::remaining_variance(all_, ordered);
+  for (auto const site : ordered) {
+    Sites others;
+    std::copy_if(ordered.begin(), ordered.end(), std::back_inserter(others), [&](Index i) { return i != site; });
+    auto const& described = sites_[std::size_t(site)];
+    double const without = std::sqrt(models::remaining_variance(all_, others));
+    result.sensors.push_back(
+        {described, positions_[std::size_t(site)], without, without < (1.0 + idle_share) * std::sqrt(variance)});
+    result.cost += described.cost;
+  }
+  auto const predicted = moments_->cross_validated(ordered);
+  auto const seen = error_on(unseen_, moments_->estimate(ordered), moments_->noise_variance());
+  result.model_um = std::sqrt(variance);
+  result.predicted_um = std::sqrt(predicted.mean_square.sum());
+  result.unseen_um = std::sqrt(seen.mean_square.sum());
+  result.unseen_low_um = std::sqrt(quantile(seen.of_members, 0.1));
+  result.unseen_high_um = std::sqrt(quantile(seen.of_members, 0.9));
+  result.worst_um = std::sqrt(models::worst_variance(all_, ordered, options_.dead));
+  auto const prior = design_.displacement.rowwise() - design_.displacement.colwise().mean();
+  for (Index c = 0; c < design_.displacement.cols(); ++c)
+    result.channels.push_back({design_.channels[std::size_t(c)],
+                               std::sqrt(prior.col(c).squaredNorm() / double(prior.rows())),
+                               std::sqrt(predicted.mean_square[c]), std::sqrt(seen.mean_square[c])});
+  return result;
+}
+
+/// As RemainingVariance does it, with every node as one more site.
+InformationMap Judge::map(Sites const& set) const {
+  auto const rows = double(design_.rise.rows());
+  Eigen::MatrixXd const y = design_.displacement.rowwise() - design_.displacement.colwise().mean();
+  Eigen::MatrixXd chosen(design_.rise.rows(), Index(set.size()));
+  for (std::size_t s = 0; s < set.size(); ++s)
+    chosen.col(Index(s)) = design_.rise.col(set[s]).array() - design_.rise.col(set[s]).mean();
+  Eigen::MatrixXd readings = chosen.transpose() * chosen / rows;
+  readings.diagonal().array() += moments_->noise_variance();
+  auto const factor = readings.llt();
+  Eigen::MatrixXd const told = factor.solve(chosen.transpose() * y / rows);
+  double const prior = all_.prior, left = models::remaining_variance(all_, set);
+  auto const lessened = [](double variance, double gain) {
+    return std::sqrt(variance) - std::sqrt(std::max(0.0, variance - gain));
+  };
+  InformationMap map{Eigen::VectorXd(design_.node_rise.cols()), Eigen::VectorXd(design_.node_rise.cols())};
+  for (Index node = 0; node < design_.node_rise.cols(); ++node) {
+    Eigen::VectorXd x = design_.node_rise.col(node).cast<double>();
+    x.array() -= x.mean();
+    Eigen::RowVectorXd const cross = x.transpose() * y / rows;
+    Eigen::VectorXd const shared = chosen.transpose() * x / rows;
+    double const variance = x.squaredNorm() / rows;
+    map.alone_um[node] = lessened(prior, cross.squaredNorm() / (variance + moments_->noise_variance()));
+    double const rest = std::max(0.0, variance - shared.dot(factor.solve(shared)));
+    map.beside_um[node] =
+        lessened(left, (cross - shared.transpose() * told).squaredNorm() / (rest + moments_->noise_variance()));
+  }
+  return map;
+}
+
+PlacementReport Judge::operator()() {
+  PlacementReport report;
+  report.machine = machine_;
+  report.candidates = std::size_t(candidates_);
+  report.members = options_.design.members;
+  report.unseen_members = options_.unseen_members;
+  report.dead = options_.dead;
+  report.noise = options_.noise;
+  for (auto const& run : design_.runs)
+    if (run.member == 0) report.experiments.push_back(run.experiment);
+  for (auto const& run : unseen_.runs)
+    if (run.member == 0) report.unseen_experiments.push_back(run.experiment);
+  report.prior_um = std::sqrt(problem_.prior);
+  Sites every(static_cast<std::size_t>(candidates_));
+  std::iota(every.begin(), every.end(), Index(0));
+  report.floor_um = std::sqrt(models::remaining_variance(problem_, every));
+
+  Index const count = options_.sensors, dead = options_.dead;
+  auto const chosen = best(count, dead);
+  report.proved = dead == 0 && models::number_of_sets(candidates_, count) <= most_sets;
+  report.bound_um = report.proved ? std::sqrt(chosen.variance) : std::sqrt(models::placement_bound(problem_, count));
+  report.recommended = figures(chosen.sensors);
+  if (count > 1) report.fewer = figures(best(count - 1, std::min(dead, count - 2)).sensors);
+  if (count < candidates_) report.more = figures(best(count + 1, dead).sensors);
+  if (!proposed_.empty()) report.proposed = figures(proposed_);
+  if (options_.map) report.map = map(chosen.sensors);
+  return report;
+}
+
+}  // namespace
+
+PlacementReport place_sensors(Value const& document, PlacementOptions const& options) {
+  try {
+    return Judge(document, options)();
+  } catch (std::invalid_argument const& error) {
+    throw InputError(error.what());
+  }
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/experiment.h"
+#include "twin/file/value.h"
+#include "twin/placement/candidate_sites.h"
+#include "twin/placement/ensemble.h"
+
+namespace thermotwin::twin {
+
+/// What to place sensors for.
+struct PlacementOptions {
+  int sensors = 6;
+  int dead = 0;        ///< sensors whose loss shall hurt least
+  double noise = 0.1;  ///< standard deviation of each sensor's own error [K]
+  CandidateRules rules;
+  std::vector<std::string> proposed;          ///< a set to judge: sites, sensors of the machine, or places
+  EnsembleOptions design;                     ///< machines and spectra that decide
+  int unseen_members = 24;                    ///< machines that took no part
+  std::vector<scenarios::Experiment> unseen;  ///< what those are put through; none: spectra drawn anew
+  bool map = false;                           ///< how informative every node is
+};
+
+/// What a set of sensors is worth.
+struct SetFigures {
+  struct Sensor {
+    CandidateSite site;
+    Eigen::Vector3d position{0.0, 0.0, 0.0};  ///< [m]
+    double error_without_um = 0.0;            ///< of the others [1σ]
+    bool idle = false;                        ///< the others alone are worse by less than 1 %
+  };
+  struct Channel {
+    std::string name;
+    double prior_um = 0.0, predicted_um = 0.0, unseen_um = 0.0;
+  };
+
+  std::vector<Sensor> sensors;  ///< the one that tells most first
+  double model_um = 0.0;        ///< √V, what the search minimises
+  double predicted_um = 0.0;    ///< 1σ to be expected of a machine and a spectrum that took no part
+  double unseen_um = 0.0;       ///< rms on machines and spectra that took no part
+  double unseen_low_um = 0.0, unseen_high_um = 0.0;  ///< of their machines, 10 % and 90 %
+  double worst_um = 0.0;                             ///< √V when the worst `dead` sensors are out of work
+  double cost = 0.0;
+  std::vector<Channel> channels;
+};
+
+/// How informative places are.
+struct InformationMap {
+  Eigen::VectorXd alone_um;   ///< per node: by how much one sensor there lessens the error
+  Eigen::VectorXd beside_um;  ///< the same beside the recommended set
+};
+
+struct PlacementReport {
+  std::string machine;
+  std::size_t candidates = 0;
+  int members = 0, unseen_members = 0, dead = 0;
+  std::vector<std::string> experiments, unseen_experiments;
+  double noise = 0.0;
+  double prior_um = 0.0;  ///< √V without any sensor
+  double floor_um = 0.0;  ///< √V with a sensor at every candidate
+  double bound_um = 0.0;  ///< √V of no set is less
+  bool proved = false;    ///< all sets were looked at
+  SetFigures recommended;
+  std::optional<SetFigures> fewer, more, proposed;  ///< best sets of one sensor less, and one more
+  std::optional<InformationMap> map;
+};
+
+/// Chooses sensors before the hardware exists: V of the tool's displacement, all channels together, over machines that
+/// the file could stand for and spectra (Ensemble), by models::place; with few candidates all sets are looked at.
+/// InputError for sensors that cannot be placed or names that are not there.
+[[nodiscard]] PlacementReport place_sensors(Value const& document, PlacementOptions const& options);
+
+[[nodiscard]] std::string placement_text(PlacementReport const& report);
+[[nodiscard]] std::string placement_json(PlacementReport const& report);
+/// The recommended sensors as tables of a machine file.
+[[nodiscard]] std::string sensor_tables(PlacementReport const& report);
+
+}  // namespace thermotwin::twin
