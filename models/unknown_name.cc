@@ -32,10 +32,9 @@ std::string unknown_name(std::string_view kind, std::string_view name, std::span
   auto const nearest = std::min_element(known.begin(), known.end(), [&](auto const& a, auto const& b) {
     return edits_between(name, a) < edits_between(name, b);
   });
-  std::string question;
-  if (nearest != known.end() && 3 * edits_between(name, *nearest) <= nearest->size())
-    question = fmt::format(" did you mean '{}'?", *nearest);
-  return fmt::format("no {} '{}';{} Known: {}", kind, name, question, fmt::join(known, ", "));
+  bool const near = nearest != known.end() && 3 * edits_between(name, *nearest) <= nearest->size();
+  auto const introduced = near ? fmt::format("did you mean '{}'? Known", *nearest) : "known";
+  return fmt::format("no {} '{}'; {}: {}", kind, name, introduced, fmt::join(known, ", "));
 }
 
 }  // namespace thermotwin::models
