@@ -22,6 +22,7 @@
 #include "twin/experiment_file.h"
 #include "twin/needed_solution.h"
 #include "twin/progress.h"
+#include "twin/report/report_files.h"
 #include "twin/run.h"
 #include "twin/summary.h"
 #include "twin/version.h"
@@ -278,6 +279,19 @@ void add_diagnose_command(CLI::App& app) {
   });
 }
 
+void add_report_command(CLI::App& app) {
+  auto* command = app.add_subcommand("report", "one page to look at: machine, courses, residuals, diagnosis");
+  auto files = std::make_shared<ReportFiles>();
+  auto machine = std::make_shared<std::string>();
+  command->add_option("data", files->data, "data sets .h5, .csv, measurement files .toml, diagnoses .json")->required();
+  command->add_option("--output,-o", files->output, "page to write (HTML)")->required();
+  command->add_option("--machine,-m", *machine, "machine to draw, file or name; default: the one in a data set");
+  command->callback([files, machine] {
+    if (!machine->empty()) files->machine = machine_file(*machine);
+    fmt::print("{}", write_report(*files));
+  });
+}
+
 int fail(int code, std::string_view message) {
   fmt::print(stderr, "thermotwin: {}\n", message);
   return code;
@@ -298,6 +312,7 @@ int command_line(int argc, char** argv) {
   add_compare_command(app);
   add_challenge_command(app);
   add_place_command(app, stop_requested);
+  add_report_command(app);
   std::signal(SIGINT, [](int) { stop_requested = true; });
   std::signal(SIGTERM, [](int) { stop_requested = true; });
   try {

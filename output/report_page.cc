@@ -1,0 +1,103 @@
+#include "output/report_page.h"
+
+#include <bit>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <zlib.h>
+
+namespace thermotwin::output {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the page reads numbers as they lie in memory");
+
+/// The page before and after its data, as output/web/build.mjs made it.
+constexpr std::string_view shell[] = {
+#include "output/web/page.inc"
+};
+
+std::string deflated(std::string const& bytes) {
+  auto size = compressBound(uLong(bytes.size()));
+  std::string packed(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<Bytef const*>(bytes.data()),
+                uLong(bytes.size()), Z_BEST_COMPRESSION) != Z_OK)
+    throw std::runtime_error("the page's numbers could not be compressed");
+  packed.resize(size);
+  return packed;
+}
+
+std::string base64(std::string bytes) {
+  using namespace boost::archive::iterators;
+  using Digits = base64_from_binary<transform_width<char const*, 6, 8>>;
+  std::size_t const padding = (3 - bytes.size() % 3) % 3;
+  bytes.append(padding, '\0');
+  std::string text(Digits(bytes.data()), Digits(bytes.data() + bytes.size()));
+  text.replace(text.size() - padding, padding, padding, '=');
+  return text;
+}
+
+/// Inside a script element nothing may look like its end.
+std::string for_script(std::string text) {
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += 6) text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+}  // namespace
+
+ReportPage::ReportPage(std::string title, std::string version)
+    : title_(std::move(title)), version_(std::move(version)) {}
+
+Json ReportPage::place(std::string_view type, void const* data, std::size_t bytes, std::vector<Eigen::Index> shape) {
+  Json reference = {{"type", type}, {"at", numbers_.size()}, {"shape", std::move(shape)}};
+  numbers_.append(static_cast<char const*>(data), bytes);
+  numbers_.append((8 - numbers_.size() % 8) % 8, '\0');
+  return reference;
+}
+
+Json ReportPage::add_numbers(Eigen::Ref<Eigen::MatrixXd const> const& values) {
+  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> const single = values.cast<float>();
+  return place("f32", single.data(), std::size_t(single.size()) * sizeof(float), {single.rows(), single.cols()});
+}
+
+Json ReportPage::add_whole_numbers(std::vector<int> const& values) {
+  std::vector<std::int32_t> const whole(values.begin(), values.end());
+  return place("i32", whole.data(), whole.size() * sizeof(std::int32_t), {Eigen::Index(whole.size())});
+}
+
+Json ReportPage::add_quantised(Eigen::MatrixXd const& columns) {
+  constexpr double most = 32767.0;
+  std::vector<std::int16_t> whole;
+  std::vector<double> scales;
+  for (auto const& column : columns.colwise()) {
+    double const largest = column.size() > 0 ? column.cwiseAbs().maxCoeff() : 0.0;
+    double const scale = largest > 0.0 ? largest / most : 1.0;
+    scales.push_back(scale);
+    for (double const value : column) whole.push_back(std::int16_t(std::lround(value / scale)));
+  }
+  Json reference = place("i16", whole.data(), whole.size() * sizeof(std::int16_t), {columns.cols(), columns.rows()});
+  reference["scales"] = scales;
+  return reference;
+}
+
+void ReportPage::add_section(std::string_view kind, Json section) {
+  Json whole = {{"kind", kind}};
+  whole.update(section);
+  sections_.push_back(whole.dump());
+}
+
+std::string ReportPage::html() const {
+  std::string const document =
+      fmt::format(R"({{"title":{},"version":{},"bytes":{},"sections":[{}]}})", Json(title_).dump(),
+                  Json(version_).dump(), numbers_.size(), fmt::join(sections_, ","));
+  return fmt::format(
+      "{}<script type=\"application/json\" id=\"document\">{}</script>\n"
+      "<script type=\"text/plain\" id=\"numbers\">{}</script>\n{}",
+      shell[0], for_script(document), base64(deflated(numbers_)), shell[1]);
+}
+
+}  // namespace thermotwin::output

@@ -1,0 +1,280 @@
+import {Camera, farthestHit, type Vec} from './camera';
+import {css, gradient, viridis, type Rgb} from './colours';
+import {extent, valueAt, type Course} from './course';
+import type {Machine, Numbers} from './data';
+import {colourBar, make} from './dom';
+import {SurfaceField} from './field';
+import {grouped, roundDown, roundTicks, timeText} from './format';
+import {Scene} from './scene';
+import {SensorMarks} from './sensor_marks';
+import type {PageState} from './signal';
+
+const factors = (largest: number): number[] => [0, ...[0.2, 0.5, 1, 2, 5].map((m) => roundDown(m * largest * 1.0001))];
+
+/** The machine in space: coloured by temperature, deformed, turned with pointer or keys, its parts to be picked. */
+export class MachineView {
+  readonly element: HTMLElement;
+  private readonly stage = make('div', {class: 'stage', tabindex: 0, role: 'application',
+    'aria-label': 'The machine in space. Arrow keys turn it, plus and minus zoom, 0 fits it.'});
+  private readonly caption = make('p', {class: 'caption', 'aria-live': 'off'});
+  private readonly rest: Float32Array;
+  private readonly triangles: Int32Array;
+  private readonly edges: Int32Array;
+  private readonly moved: Float32Array;
+  private readonly field: SurfaceField | null;
+  private readonly range: [number, number];
+  private readonly scene: Scene;
+  private readonly camera: Camera;
+  private readonly marks: SensorMarks;
+  private factor = 0;
+  private pending = 0;
+  private dirty = {field: true, spots: true};
+  private hidden: boolean[] = [];
+  private fineness = 1;
+  private slow = 0;
+  private settle = 0;
+
+  constructor(private readonly machine: Machine, numbers: Numbers, time: Float32Array,
+              private readonly readings: Map<string, Course>, private readonly state: PageState) {
+    this.rest = numbers.single(machine.points);
+    this.triangles = numbers.whole(machine.triangles);
+    this.edges = numbers.whole(machine.edges);
+    this.moved = new Float32Array(this.rest.length);
+    this.field = machine.field ? new SurfaceField(machine.field, numbers, time) : null;
+    const ticks = roundTicks(...this.temperatureRange());
+    this.range = [ticks[0]!, ticks[ticks.length - 1]!];
+    this.scene = new Scene(this.stage, this.rest, this.triangles, this.edges, this.field && this.range);
+    this.camera = new Camera(machine.up);
+    this.marks = new SensorMarks(machine.sensors, state);
+    this.stage.append(this.marks.element, this.caption);
+    this.element = make('section', {class: 'machine', 'aria-label': machine.title},
+      this.stage,
+      make('div', {class: 'controls'}, this.deformationControl(), this.viewButtons()),
+      colourBar(gradient(viridis), ticks, 'Temperature / °C'),
+      this.bodyList());
+    this.listen();
+  }
+
+  private temperatureRange(): [number, number] {
+    const field = this.machine.field;
+    if (field) return [field.lowest, field.highest];
+    return extent(this.machine.sensors.map((s) => this.readings.get(s.name)?.values ?? []));
+  }
+
+  private deformationControl(): HTMLElement | null {
+    const largest = this.field?.largestDisplacement() ?? 0;
+    if (!(largest > 0)) return null;
+    const [low, high] = extent([this.rest]);
+    const choices = factors((0.05 * Math.hypot(high - low)) / largest);
+    this.factor = choices[3]!;
+    const text = make('output', {}, `×${grouped(this.factor)}`);
+    return make('label', {class: 'deformation'}, 'Deformation', make('input', {
+      type: 'range', min: 0, max: choices.length - 1, step: 1, value: 3, 'aria-label': 'Deformation factor',
+      oninput: (event) => {
+        this.factor = choices[+(event.target as HTMLInputElement).value]!;
+        text.textContent = `×${grouped(this.factor)}`;
+        this.refresh();
+      },
+    }), text);
+  }
+
+  private viewButtons(): HTMLElement {
+    const views: [string, number, number][] = [['Slant', 36.9, 26.4], ['Front', 0, 0], ['Side', 90, 0], ['Top', 0, 89]];
+    return make('div', {class: 'buttons', role: 'group', 'aria-label': 'View'},
+      ...views.map(([name, azimuth, elevation]) => make('button', {class: 'quiet', onclick: () => {
+        Object.assign(this.camera, {azimuth, elevation});
+        this.fit();
+      }}, name)),
+      make('button', {class: 'quiet', 'aria-label': 'Closer', onclick: () => this.zoom(1 / 1.25)}, '+'),
+      make('button', {class: 'quiet', 'aria-label': 'Farther', onclick: () => this.zoom(1.25)}, '−'));
+  }
+
+  private bodyList(): HTMLElement {
+    const chips = this.machine.bodies.map((body) => make('button', {class: 'chip', 'data-body': body.name,
+      onclick: () => this.state.choose({kind: 'body', name: body.name})}, body.name.replaceAll('_', ' ')));
+    this.state.selection.watch((selection) => chips.forEach((chip) => chip.setAttribute('aria-pressed',
+      String(selection?.kind === 'body' && selection.name === chip.dataset.body))));
+    return make('div', {class: 'chips bodies', role: 'group', 'aria-label': 'Bodies'},
+      make('span', {class: 'label'}, 'Bodies'), ...chips);
+  }
+
+  private listen(): void {
+    this.state.time.watch(() => this.refresh());
+    this.state.dark.watch((dark) => {
+      const ground: Rgb = dark ? [23, 28, 33] : [255, 255, 255], faces: Rgb = dark ? [92, 101, 110] : [206, 211, 215];
+      this.scene.paint(ground, faces, dark ? [20, 24, 28] : [235, 238, 240], dark ? [255, 255, 255] : [20, 24, 28]);
+      this.refresh();
+    });
+    this.state.selection.watch((selection) => {
+      const body = selection?.kind === 'body' && this.machine.bodies.find((b) => b.name === selection.name);
+      this.scene.choose(body ? this.edges.filter((_, i, all) => {
+        const point = all[i - (i % 2)]!;
+        return point >= body.first_point && point < body.first_point + body.points;
+      }) : []);
+      this.refresh();
+    });
+    this.stage.addEventListener('keydown', (event) => this.key(event));
+    this.stage.addEventListener('wheel', (event) => {
+      if (!event.ctrlKey) return;
+      event.preventDefault();
+      this.zoom(Math.exp(event.deltaY / 300));
+    }, {passive: false});
+    this.followPointers();
+    new ResizeObserver(() => this.resized()).observe(this.stage);
+  }
+
+  private key(event: KeyboardEvent): void {
+    const turns: Record<string, [number, number]> =
+      {ArrowLeft: [-8, 0], ArrowRight: [8, 0], ArrowUp: [0, 8], ArrowDown: [0, -8]};
+    const turn = turns[event.key];
+    if (turn) this.camera.turn(...turn);
+    else if (event.key === '+' || event.key === '=') this.camera.scale /= 1.15;
+    else if (event.key === '-') this.camera.scale *= 1.15;
+    else if (event.key === '0') this.fit();
+    else return;
+    event.preventDefault();
+    this.viewChanged();
+  }
+
+  private followPointers(): void {
+    const down = new Map<number, PointerEvent>();
+    let still = true;
+    this.stage.addEventListener('pointerdown', (event) => {
+      if ((event.target as Element).closest('button')) return;
+      down.set(event.pointerId, event);
+      still = true;
+      this.stage.setPointerCapture(event.pointerId);
+    });
+    this.stage.addEventListener('pointermove', (event) => {
+      const last = down.get(event.pointerId);
+      if (!last) return;
+      const dx = event.clientX - last.clientX, dy = event.clientY - last.clientY;
+      if (still && Math.hypot(dx, dy) < 4) return;
+      still = false;
+      const other = [...down.values()].find((p) => p.pointerId !== event.pointerId);
+      if (other) {
+        const gap = (p: PointerEvent): number => Math.hypot(p.clientX - other.clientX, p.clientY - other.clientY);
+        this.camera.scale *= gap(last) / Math.max(10, gap(event));
+        this.camera.shift(dx / 2 / this.stage.clientHeight, -dy / 2 / this.stage.clientHeight);
+      } else if (event.shiftKey || event.buttons === 2) {
+        this.camera.shift(dx / this.stage.clientHeight, -dy / this.stage.clientHeight);
+      } else {
+        this.camera.turn(dx * 0.4, dy * 0.4);
+      }
+      down.set(event.pointerId, event);
+      this.viewChanged();
+    });
+    const up = (event: PointerEvent): void => {
+      if (down.delete(event.pointerId) && still && event.type === 'pointerup') this.pick(event);
+    };
+    this.stage.addEventListener('pointerup', up);
+    this.stage.addEventListener('pointercancel', up);
+    this.stage.addEventListener('contextmenu', (event) => event.preventDefault());
+  }
+
+  private pick(event: PointerEvent): void {
+    const frame = this.stage.getBoundingClientRect();
+    const under = this.camera.unproject(event.clientX - frame.left, event.clientY - frame.top, frame.width, frame.height);
+    const hit = farthestHit(under, this.camera.towards, this.scene.points, this.triangles);
+    const body = hit && this.machine.bodies.find((b) =>
+      hit.triangle >= b.first_triangle && hit.triangle < b.first_triangle + b.triangles);
+    if (body) this.state.choose({kind: 'body', name: body.name});
+    else this.state.selection.value = null;
+  }
+
+  private zoom(by: number): void {
+    this.camera.scale *= by;
+    this.viewChanged();
+  }
+
+  private fit(): void {
+    this.camera.fit(this.rest, this.stage.clientWidth / Math.max(1, this.stage.clientHeight));
+    this.viewChanged();
+  }
+
+  private viewChanged(): void {
+    this.dirty.spots = true;
+    this.ask();
+  }
+
+  private refresh(): void {
+    this.dirty.field = true;
+    this.ask();
+  }
+
+  private resized(): void {
+    if (this.stage.clientWidth === 0) return;
+    this.setFineness(1);
+    this.fit();
+  }
+
+  private setFineness(fineness: number): void {
+    this.fineness = fineness;
+    const ratio = fineness * Math.min(2, devicePixelRatio);
+    this.scene.resize(this.stage.clientWidth * ratio, this.stage.clientHeight * ratio);
+  }
+
+  private ask(): void {
+    if (this.pending || this.stage.clientWidth === 0) return;
+    const asked = performance.now();
+    this.pending = requestAnimationFrame(() => {
+      this.pending = 0;
+      this.draw();
+      this.adapt(performance.now() - asked);
+    });
+  }
+
+  /** A machine that cannot follow gets fewer pixels while things move, and all of them when they rest. */
+  private adapt(took: number): void {
+    this.slow = 0.7 * this.slow + 0.3 * took;
+    if (this.slow > 30 && this.fineness > 0.4) {
+      this.setFineness(this.fineness / 1.5);
+      this.slow = 20;
+    }
+    clearTimeout(this.settle);
+    if (this.fineness < 1) this.settle = setTimeout(() => {
+      this.setFineness(1);
+      this.draw();
+    }, 300) as unknown as number;
+  }
+
+  private draw(): void {
+    const t = this.state.time.value;
+    if (this.dirty.field) this.showField(t);
+    this.scene.draw(this.camera);
+    this.placeMarks();
+    this.dirty = {field: false, spots: false};
+    const coarse = this.fineness < 1 ? ' · fewer pixels while it moves' : '';
+    this.caption.textContent = `t = ${timeText(t)}${coarse}`;
+  }
+
+  private showField(t: number): void {
+    if (this.field) {
+      this.field.temperature(t, this.scene.values);
+      this.field.displacement(t, this.moved);
+      const points = this.scene.points;
+      for (let i = 0; i < points.length; ++i) points[i] = this.rest[i]! + this.factor * this.moved[i]!;
+      this.scene.changed(true);
+    }
+    const [low, high] = this.range;
+    this.marks.colour(this.machine.sensors.map((sensor) => {
+      const course = this.readings.get(sensor.name);
+      const value = course ? valueAt(course, t) : NaN;
+      return Number.isFinite(value) ? css(viridis((value - low) / (high - low))) : 'transparent';
+    }));
+  }
+
+  private placeMarks(): void {
+    const {clientWidth: width, clientHeight: height} = this.stage;
+    const places = this.machine.sensors.map(({position, point}) =>
+      position.map((x, i) => x + this.factor * this.moved[3 * point + i]!) as Vec);
+    if (this.dirty.spots) {
+      const towards = this.camera.towards, near = 0.02 * this.camera.scale;
+      this.hidden = places.map((p) => (farthestHit(p, towards, this.scene.points, this.triangles)?.distance ?? 0) > near);
+    }
+    this.marks.place(places.map((p, i) => {
+      const [x, y] = this.camera.project(p, width, height);
+      return {x, y, hidden: this.hidden[i] ?? false};
+    }), width, height);
+  }
+}

@@ -1,0 +1,164 @@
+import {cividis, css, gradient} from '../colours';
+import type {DiagnosisSection, Finding, Gap} from '../data';
+import {colourBar, make, panel} from '../dom';
+import {roundTicks, unitText} from '../format';
+import type {PageState} from '../signal';
+import {freeHeatPanel} from './free_heat';
+
+const verdicts: Record<string, string> = {
+  nothing: 'Nothing missing', effect: 'Effect found', either: 'Either, or', sensor: 'Sensor at fault', none_known: 'Unknown heat',
+};
+
+/** What a diagnosis found, in the order in which one asks: what, how sure, how much better, where else. */
+export function diagnosisSection(section: DiagnosisSection, state: PageState): HTMLElement {
+  const {before, after} = section.gap;
+  const panels = [
+    section.effects.length > 0 && candidatesPanel(section.effects),
+    section.gaps.held_out.length > 0 && gapPanel('Gap on data held out', 'gap_held_out', section.gaps.held_out),
+    section.gaps.fitted.length > 0 && gapPanel('Gap on the fitted data', 'gap_fitted', section.gaps.fitted),
+    residualHeatMap([...section.gaps.fitted, ...section.gaps.held_out]),
+    section.heat && freeHeatPanel('Heat that no effect explains', 'unknown_heat', [section.heat], state),
+    section.unaccounted_heat.length > 0 && freeHeatPanel('Unaccounted heat, before any effect was added', 'unaccounted_heat',
+      section.unaccounted_heat, state),
+    estimatesPanel(section),
+  ].filter((p) => p !== false && p !== undefined);
+  return make('section', {class: 'diagnosis', 'data-kind': 'diagnosis'},
+    make('div', {class: `verdict ${section.verdict}`},
+      make('div', {}, make('p', {class: 'tag'}, verdicts[section.verdict] ?? section.verdict), make('h2', {}, section.sentence)),
+      make('dl', {class: 'figures'},
+        figure('gap before', size(before)), figure('gap after', size(after)),
+        figure('left of it', `${((100 * after) / before).toFixed(0)} %`)),
+      make('p', {class: 'remark'}, `Gap: root mean square over all channels ${section.gaps.held_out.length ? 'held out' : 'fitted'}, in units of 0.1 K and 1 µm; one constant per channel and run taken off.`),
+      ...section.where.map((w) => make('p', {class: 'remark'}, `Missing heat acts on ${w.body}: ${w.regime}.`))),
+    make('div', {class: 'flow'}, ...panels),
+    ...section.remarks.map((remark) => make('p', {class: 'remark'}, remark)));
+}
+
+const size = (x: number): string => (x < 10 ? x.toFixed(2) : x.toFixed(1));
+
+function figure(label: string, value: string): HTMLElement {
+  return make('div', {}, make('dt', {}, label), make('dd', {}, value));
+}
+
+function candidatesPanel(effects: Finding[]): HTMLElement {
+  const groups = [...new Set(effects.map((e) => e.group))];
+  const lists = groups.map((group) => {
+    const all = effects.filter((e) => e.group === group);
+    const list = make('ol', {class: 'candidates'}, ...all.map(candidate));
+    const apart = all[0]!.separated_by;
+    return make('div', {}, all.length > 1 && make('p', {class: 'words'}, `One of ${all.length}; these data do not tell them apart:`),
+      list, all.length > 1 && apart && make('p', {class: 'words'}, `What would tell them apart: ${apart}.`));
+  });
+  return panel('Candidates and their evidence', 'candidates', () => [
+    {name: 'effect', values: effects.map((e) => e.effect)}, {name: 'site', values: effects.map((e) => e.site)},
+    {name: 'parameter', values: effects.map((e) => e.parameter)}, {name: 'unit', values: effects.map((e) => e.unit)},
+    {name: 'amplitude', values: effects.map((e) => e.amplitude)}, {name: 'low', values: effects.map((e) => e.low)},
+    {name: 'high', values: effects.map((e) => e.high)}, {name: 'weight', values: effects.map((e) => e.weight)},
+    {name: 'two_ln_evidence', values: effects.map((e) => e.strength)},
+  ], ...lists);
+}
+
+function candidate(effect: Finding): HTMLElement {
+  const weight = make('i', {class: 'bar'});
+  weight.style.width = `${100 * effect.weight}%`;
+  return make('li', {},
+    make('p', {class: 'name'}, make('strong', {}, effect.effect.replaceAll('_', ' ')), ` at ${effect.site}`),
+    make('p', {class: 'words'}, effect.meaning),
+    interval(effect),
+    make('div', {class: 'measure'}, make('span', {}, 'weight in its group'), make('span', {class: 'track'}, weight),
+      make('span', {class: 'number'}, `${(100 * effect.weight).toFixed(0)} %`)),
+    make('p', {class: 'words'}, `2 ln evidence ${effect.strength.toFixed(0)} over a machine without it`));
+}
+
+/** The amplitude with its 95 % interval, on an axis that begins or ends at zero where zero is near. */
+function interval(effect: Finding): HTMLElement {
+  const ticks = roundTicks(Math.min(0, effect.low), Math.max(0, effect.high)), low = ticks[0]!, high = ticks[ticks.length - 1]!;
+  const at = (x: number): string => `${(100 * (x - low)) / (high - low)}%`;
+  const whisker = make('i', {class: 'whisker'}), point = make('i', {class: 'point'}), zero = make('i', {class: 'zero'});
+  whisker.style.left = at(effect.low);
+  whisker.style.right = `calc(100% - ${at(effect.high)})`;
+  point.style.left = at(effect.amplitude);
+  zero.style.left = at(0);
+  return make('div', {class: 'measure'}, make('span', {}, `${effect.parameter.replaceAll('_', ' ')}, 95 %`),
+    make('span', {class: 'track interval', role: 'img', 'aria-label': effect.text}, zero, whisker, point),
+    make('span', {class: 'number'}, effect.text.replaceAll('-', '−').replace(/\bu(?=m\b|rad\b)/g, 'µ')));
+}
+
+/** A row per channel: from the ring, before, to the disc, after. */
+function gapPanel(title: string, file: string, gaps: Gap[]): HTMLElement {
+  const units = [...new Set(gaps.map((g) => g.unit))], runs = [...new Set(gaps.map((g) => g.run))];
+  const blocks = runs.flatMap((run) => units.map((unit) => {
+    const all = gaps.filter((g) => g.unit === unit), shown = all.filter((g) => g.run === run);
+    const ticks = roundTicks(0, Math.max(...all.map((g) => Math.max(g.before, g.after)))), highest = ticks[ticks.length - 1]!;
+    return shown.length > 0 && make('div', {class: 'gap-block'},
+      make('p', {class: 'label'}, runs.length > 1 || units.length > 1 ? `${run}, ${unitText(unit)}` : unitText(unit)),
+      ...shown.map((gap) => gapRow(gap, highest)), gapAxis(ticks, `RMS / ${unitText(unit)}`));
+  }));
+  return panel(title, file, () => [
+    {name: 'run', values: gaps.map((g) => g.run)}, {name: 'channel', values: gaps.map((g) => g.channel)},
+    {name: 'unit', values: gaps.map((g) => g.unit)}, {name: 'before', values: gaps.map((g) => g.before)},
+    {name: 'after', values: gaps.map((g) => g.after)},
+  ], make('p', {class: 'key'}, make('span', {}, make('i', {class: 'ring'}), 'before'), make('span', {}, make('i', {class: 'disc'}), 'after')),
+  ...blocks);
+}
+
+function gapRow(gap: Gap, highest: number): HTMLElement {
+  const at = (x: number): string => `${(100 * x) / highest}%`;
+  const line = make('i', {class: `link ${gap.after > gap.before ? 'worse' : ''}`}), ring = make('i', {class: 'ring'}), disc = make('i', {class: 'disc'});
+  line.style.left = at(Math.min(gap.before, gap.after));
+  line.style.width = at(Math.abs(gap.before - gap.after));
+  ring.style.left = at(gap.before);
+  disc.style.left = at(gap.after);
+  return make('div', {class: 'gap-row'}, make('span', {}, gap.channel), make('span', {class: 'track'}, line, ring, disc),
+    make('span', {class: 'number'}, `${size(gap.before)} → ${size(gap.after)}`));
+}
+
+function gapAxis(ticks: number[], label: string): HTMLElement {
+  const track = make('span', {class: 'track axis'}), highest = ticks[ticks.length - 1]!;
+  for (const tick of ticks) {
+    const mark = make('span', {}, String(tick));
+    mark.style.left = `${(100 * tick) / highest}%`;
+    track.append(mark);
+  }
+  return make('div', {class: 'gap-row'}, make('span', {}), track, make('span', {class: 'number label'}, label));
+}
+
+/** Per channel and run, before and after; sizes in units of 0.1 K and 1 µm, so that one scale serves all. */
+function residualHeatMap(gaps: Gap[]): HTMLElement | false {
+  if (gaps.length === 0) return false;
+  const channels = [...new Set(gaps.map((g) => g.channel))], runs = [...new Set(gaps.map((g) => g.run))];
+  const scaled = (gap: Gap, x: number): number => (gap.unit === 'K' ? 10 * x : x);
+  const ticks = roundTicks(0, Math.max(...gaps.map((g) => Math.max(scaled(g, g.before), scaled(g, g.after)))));
+  const highest = ticks[ticks.length - 1]!;
+  const cell = (gap: Gap | undefined, x: number | undefined): HTMLElement => {
+    if (!gap || x === undefined) return make('td', {}, '–');
+    const share = scaled(gap, x) / highest, box = make('td', {class: 'cell', title: `${x.toPrecision(3)} ${unitText(gap.unit)}`}, size(x));
+    box.style.background = css(cividis(share));
+    box.style.color = share > 0.5 ? '#101418' : '#ffffff';
+    return box;
+  };
+  const rows = channels.map((channel) => {
+    const unit = gaps.find((g) => g.channel === channel)!.unit;
+    return make('tr', {}, make('th', {scope: 'row'}, `${channel} / ${unitText(unit)}`), ...runs.flatMap((run) => {
+      const gap = gaps.find((g) => g.channel === channel && g.run === run);
+      return [cell(gap, gap?.before), cell(gap, gap?.after)];
+    }));
+  });
+  return panel('Residual per channel and run, RMS', 'residual_heat_map', null, make('div', {class: 'scroll'}, make('table', {class: 'heat-map'},
+    make('tr', {}, make('td', {}), ...runs.map((run) => make('th', {colspan: 2, scope: 'colgroup'}, run))),
+    make('tr', {}, make('td', {}), ...runs.flatMap(() => [make('th', {}, 'before'), make('th', {}, 'after')])), ...rows)),
+  colourBar(gradient(cividis), ticks, 'RMS in units of 0.1 K and 1 µm'));
+}
+
+function estimatesPanel(section: DiagnosisSection): HTMLElement {
+  const estimates = section.estimates;
+  const known = estimates.filter((e) => e.standard_error < 0.5 * e.prior);
+  const rows = (known.length ? known : estimates).map((e) => make('tr', {}, make('th', {scope: 'row'}, e.name),
+    ...[e.estimate, e.standard_error, e.prior].map((x) => make('td', {class: 'number'}, x.toPrecision(2).replace('-', '−')))));
+  return panel('Unknowns of the final fit', 'estimates', () => [
+    {name: 'name', values: estimates.map((e) => e.name)}, {name: 'estimate', values: estimates.map((e) => e.estimate)},
+    {name: 'standard_error', values: estimates.map((e) => e.standard_error)}, {name: 'prior', values: estimates.map((e) => e.prior)},
+  ], make('p', {class: 'words'}, `${known.length} of ${estimates.length} are known at least twice as well as before; these are listed, as ln(value/nominal) or in their unit. The CSV holds all.`),
+  make('div', {class: 'scroll tall'}, make('table', {}, make('tr', {}, make('th', {}, 'unknown'), make('th', {class: 'number'}, 'estimate'),
+    make('th', {class: 'number'}, 'standard error'), make('th', {class: 'number'}, 'prior')), ...rows)));
+}

@@ -1,0 +1,83 @@
+import {extent, rootMeanSquare, type Course} from '../course';
+import type {Channel, Numbers, RunSet, RunsSection} from '../data';
+
+export interface NamedCourse extends Course {
+  name: string;
+  unit: string;
+  title: string;
+}
+
+/** A data set with its numbers at hand. */
+export interface Run {
+  name: string;
+  set: RunSet;
+  time: Float32Array;
+  readings: NamedCourse[];
+  displacements: NamedCourse[];
+  heat: NamedCourse[];
+}
+
+function courses(channels: Channel[], time: Float32Array, numbers: Numbers): NamedCourse[] {
+  return channels.filter((c) => c.values).map((c) =>
+    ({name: c.name, unit: c.unit, title: c.title, time, values: numbers.single(c.values!)}));
+}
+
+/** The reference comes first: what was measured, or else the first. */
+export function runsOf(section: RunsSection, numbers: Numbers): Run[] {
+  const runs = section.sets.map((set) => {
+    const time = numbers.single(set.time);
+    return {
+      name: set.name, set, time,
+      readings: courses(set.readings, time, numbers),
+      displacements: courses(set.displacements, time, numbers),
+      heat: courses(set.heat, time, numbers),
+    };
+  });
+  const reference = runs.findIndex((run) => !run.set.simulated);
+  if (reference > 0) runs.unshift(...runs.splice(reference, 1));
+  return runs;
+}
+
+export function timeRange(runs: Run[]): [number, number] {
+  return extent(runs.map((run) => [run.time[0] ?? 0, run.time[run.time.length - 1] ?? 1]));
+}
+
+const derived = /\.(running|time_running|revolutions)$|^time_of_day$|^clock\.|\.stroke_|reference_height|^(?!spindle)\w+\.(speed|duty)$/;
+const always = /^spindle\.speed$|\.feed$|^ambient\.temperature$/;
+
+/** What the machine was given that is worth a course; a constant one is drawn only if it is a speed or the air. */
+export function shownInputs(run: Run, numbers: Numbers): NamedCourse[] {
+  const {time, set} = run, ends = [time[0] ?? 0, time[time.length - 1] ?? 1];
+  const shown: NamedCourse[] = [];
+  for (const {name, unit, title, values, constant} of set.inputs) {
+    if (values ? derived.test(name) : !(always.test(name) && constant)) continue;
+    const course = values ? {time, values: numbers.single(values)} : {time: ends, values: [constant!, constant!]};
+    shown.push({name, unit, title, ...course});
+  }
+  return shown;
+}
+
+/** When the first run is hottest: a telling moment to begin with. */
+export function tellingTime(runs: Run[]): number {
+  const run = runs[0]!;
+  let best = run.time[0] ?? 0, highest = -Infinity;
+  for (const course of run.readings)
+    for (let i = 0; i < course.values.length; ++i)
+      if (course.values[i]! > highest) {
+        highest = course.values[i]!;
+        best = run.time[i]!;
+      }
+  return best;
+}
+
+export interface Misfit {
+  name: string;
+  unit: string;
+  rms: number;
+  largest: number;
+}
+
+export function misfit(name: string, unit: string, difference: ArrayLike<number>): Misfit {
+  const [low, high] = extent([difference]);
+  return {name, unit, rms: rootMeanSquare(difference), largest: Math.max(Math.abs(low), Math.abs(high))};
+}

@@ -1,0 +1,116 @@
+import {make} from '../dom';
+import type {Numbers, RunsSection} from '../data';
+import {bodyCourses} from '../field';
+import {valueText} from '../format';
+import {MachineView} from '../machine_view';
+import type {PageState} from '../signal';
+import {timeBar} from '../time_bar';
+import {bodyPanel} from './body';
+import {coursesPanel, residualRuns} from './courses';
+import {positioningPanels} from './positioning';
+import {misfitTable, residualMap} from './residuals';
+import {misfit, runsOf, shownInputs, tellingTime, timeRange, type NamedCourse, type Run} from './run_data';
+
+const quantities: Record<string, string> = {
+  rpm: 'Speed', 'mm/min': 'Feed', degC: 'Temperature', K: 'Temperature', W: 'Heat', um: 'Displacement', urad: 'Tilt',
+  mm: 'Position', 'K/m': 'Gradient', '1': 'Setting',
+};
+
+function byUnit(channels: NamedCourse[]): Map<string, NamedCourse[]> {
+  const groups = new Map<string, NamedCourse[]>();
+  for (const channel of channels) groups.set(channel.unit, [...(groups.get(channel.unit) ?? []), channel]);
+  return groups;
+}
+
+/** Angles after lengths, whatever the file's order. */
+const order = (unit: string): number => Number(unit === 'urad');
+
+const inputTitles: Record<string, string> =
+  {rpm: 'Spindle speed', 'mm/min': 'Feed', degC: 'Ambient', '1': 'Switches and shares', mm: 'Position'};
+
+/** One or several runs: the machine on one side, all courses on the other, one time for both. */
+export function runsSection(section: RunsSection, numbers: Numbers, state: PageState): HTMLElement {
+  const runs = runsOf(section, numbers), range = timeRange(runs), reference = runs[0]!;
+  state.time.value = tellingTime(runs);
+
+  const inputs = [...byUnit(shownInputs(reference, numbers))].map(([unit, channels]) => coursesPanel({
+    title: inputTitles[unit] ?? channels[0]!.name, file: `input_${unit.replace(/\W/g, '_')}`,
+    quantity: quantities[unit] ?? 'Value', runs: [{name: reference.name, channels}], kind: null, state, range, height: 130,
+  }));
+  const side = make('div', {class: 'side'}, ...machineParts(section, numbers, runs, state));
+  const courses = make('div', {class: 'courses'}, ...inputs,
+    ...channelPanels(runs, state, range), ...heatPanel(reference, state, range));
+  const below = [...positioningPanels(runs, numbers, state, range), factsPanel(runs)];
+  if (runs.length > 1) chooseWorst(runs, state);
+  return make('section', {class: 'runs', 'data-kind': 'runs'},
+    make('div', {class: side.childElementCount ? 'split' : 'whole'}, side, courses),
+    make('div', {class: 'grid'}, ...below),
+    timeBar(state, ...range));
+}
+
+function machineParts(section: RunsSection, numbers: Numbers, runs: Run[], state: PageState): (HTMLElement | null)[] {
+  const machine = section.machine;
+  const remarks = section.remarks.map((remark) => make('p', {class: 'remark'}, remark));
+  if (!machine) return runs.length ? remarks : [];
+  const drawn = runs.find((run) => run.set === section.sets[machine.set])!;
+  const readings = new Map(drawn.readings.map((course) => [course.name, course]));
+  const view = new MachineView(machine, numbers, drawn.time, readings, state);
+  const bodies = machine.field
+    ? bodyPanel(machine, bodyCourses(machine.field, numbers, drawn.time, machine.bodies.length), state, timeRange(runs))
+    : null;
+  return [view.element, bodies, ...remarks];
+}
+
+function channelPanels(runs: Run[], state: PageState, range: [number, number]): HTMLElement[] {
+  const panels: HTMLElement[] = [];
+  const add = (kind: 'sensor' | 'displacement', title: string, pick: (run: Run) => NamedCourse[]): void => {
+    const units = [...new Set(runs.flatMap((run) => pick(run).map((c) => c.unit)))].sort((a, b) => order(a) - order(b));
+    for (const unit of units) {
+      const ofUnit = (run: Run): NamedCourse[] => pick(run).filter((c) => c.unit === unit);
+      const shown = runs.map((run) => ({name: run.name, channels: ofUnit(run)})).filter((run) => run.channels.length > 0);
+      const heading = unit === 'urad' ? 'Tilt' : title, file = `${heading.toLowerCase().replaceAll(' ', '_')}_${unit}`;
+      const quantity = quantities[unit] ?? 'Value';
+      panels.push(coursesPanel({title: heading, file, quantity, runs: shown, kind, state, range, height: kind === 'sensor' ? 250 : 200}));
+      const differences = residualRuns(runs, ofUnit);
+      if (differences.length) panels.push(coursesPanel({
+        title: `Residual of ${heading.toLowerCase()}`, file: `residual_${file}`, quantity: 'Residual',
+        runs: differences, kind, state, range, height: 160,
+      }), residualMap(`${heading}: residual by window`, `residual_map_${file}`, differences, state, range));
+    }
+  };
+  add('sensor', 'Sensor temperatures', (run) => run.readings);
+  add('displacement', 'Displacements', (run) => run.displacements);
+  const rows = residualRuns(runs, (run) => [...run.readings, ...run.displacements]);
+  if (rows.length) panels.push(misfitTable(rows.map((run) =>
+    ({name: run.name, misfits: run.channels.map((c) => misfit(c.name, c.unit, c.values))})), state));
+  return panels;
+}
+
+function heatPanel(run: Run, state: PageState, range: [number, number]): HTMLElement[] {
+  const made = run.heat.filter((course) => Array.prototype.some.call(course.values, (v: number) => v !== 0));
+  if (made.length === 0) return [];
+  return [coursesPanel({title: 'Heat given to the bodies', file: 'heat', quantity: 'Heat', runs: [{name: run.name, channels: made}],
+    kind: null, state, range, height: 220})];
+}
+
+/** With several data sets, the channel that disagrees most is chosen to begin with. */
+function chooseWorst(runs: Run[], state: PageState): void {
+  const differences = residualRuns(runs, (run) => run.readings).flatMap((run) => run.channels);
+  const worst = differences.map((c) => misfit(c.name, c.unit, c.values)).sort((a, b) => b.rms - a.rms)[0];
+  if (worst && Number.isFinite(worst.rms)) state.selection.value = {kind: 'sensor', name: worst.name};
+}
+
+function factsPanel(runs: Run[]): HTMLElement {
+  const tables = runs.map((run) => {
+    const constants = run.set.inputs.filter((c) => c.constant !== undefined && c.constant !== 0);
+    const rows: [string, string][] = [
+      ['data set', run.set.title],
+      ['rows', `${run.time.length}${run.set.complete ? '' : ', interrupted: the run did not end'}`],
+      ...Object.entries(run.set.facts),
+      ...constants.map((c): [string, string] => [c.name, `${valueText(c.constant!, c.unit)} ${c.unit === '1' ? '' : c.unit}, constant`]),
+    ];
+    return make('details', {open: runs.length === 1}, make('summary', {}, run.name),
+      make('table', {class: 'facts'}, ...rows.map(([key, value]) => make('tr', {}, make('th', {scope: 'row'}, key), make('td', {}, value)))));
+  });
+  return make('section', {class: 'panel facts-panel', 'data-panel': 'facts'}, make('header', {}, make('h3', {}, 'About the data')), ...tables);
+}

@@ -1,0 +1,100 @@
+#include "twin/report/diagnosis_section.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "thermal/error.h"
+#include "thermal/units.h"
+#include "twin/diagnosis/run_files.h"
+#include "twin/effect.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using output::Json;
+
+Json read_diagnosis(std::filesystem::path const& path) {
+  Json const json = Json::parse(text_of_file(path), nullptr, false);
+  if (!json.is_object() || !json.contains("verdict") || !json.contains("effects") || !json.contains("gaps"))
+    throw thermal::InputError(fmt::format(
+        "{}: no diagnosis; a report takes what `thermotwin diagnose --json` prints, and data sets", path.string()));
+  return json;
+}
+
+/// "0.553 W/K": three digits, in the unit in which people say it.
+std::string short_text(double si, thermal::Dimension dimension) {
+  auto const text = thermal::format_quantity(si, dimension);
+  auto const space = std::min(text.find(' '), text.size());
+  return fmt::format("{:.3g}{}", std::stod(text.substr(0, space)), text.substr(space));
+}
+
+std::string amplitude_text(Json const& finding, Effect const& effect) {
+  auto const parameter = std::find_if(effect.parameters.begin(), effect.parameters.end(),
+                                      [&](auto const& p) { return p.key == finding["parameter"]; });
+  if (parameter == effect.parameters.end())
+    return fmt::format("{:.4g} {}", finding["amplitude"].get<double>(), finding["unit"].get<std::string>());
+  auto const text = [&](char const* key) { return short_text(finding[key].get<double>(), parameter->dimension); };
+  return fmt::format("{} ({} to {})", text("amplitude"), text("low"), text("high"));
+}
+
+void explain(Json& finding) {
+  auto const& catalogue = effect_catalogue();
+  auto const entry = std::find_if(catalogue.begin(), catalogue.end(),
+                                  [&](auto const& effect) { return effect.name == finding["effect"]; });
+  if (entry == catalogue.end())
+    throw thermal::InputError(
+        fmt::format("the effect '{}' is not in the catalogue of this program", finding["effect"].get<std::string>()));
+  finding["meaning"] = entry->meaning;
+  finding["separated_by"] = entry->separated_by;
+  finding["text"] = amplitude_text(finding, *entry);
+}
+
+std::string name_of(Json const& finding) {
+  auto name = finding["effect"].get<std::string>();
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return fmt::format("{} at {}", name, finding["site"].get<std::string>());
+}
+
+/// Each group is one missing thing; its members exclude one another.
+std::string missing_things(Json const& effects) {
+  if (effects.size() == 1) return fmt::format("{}: {}", name_of(effects[0]), effects[0]["meaning"].get<std::string>());
+  std::vector<std::vector<std::string>> groups;
+  for (auto const& finding : effects) {
+    auto const group = finding["group"].get<std::size_t>();
+    if (groups.size() <= group) groups.resize(group + 1);
+    groups[group].push_back(name_of(finding));
+  }
+  std::vector<std::string> things;
+  for (auto const& group : groups) things.push_back(fmt::format("{}", fmt::join(group, ", or ")));
+  return fmt::format("{}", fmt::join(things, "; and "));
+}
+
+std::string sentence(Json const& diagnosis) {
+  auto const verdict = diagnosis["verdict"].get<std::string>();
+  if (verdict == "nothing") return "Nothing is missing: the machine explains these data to within their noise.";
+  if (verdict == "sensor" && diagnosis.contains("sensor"))
+    return fmt::format("The sensor {} is at fault, not the machine.", diagnosis["sensor"]["name"].get<std::string>());
+  if (verdict == "none_known" && diagnosis.contains("heat"))
+    return fmt::format("Heat of {:.1f} W on average into {} is missing, and no effect of the catalogue explains it.",
+                       diagnosis["heat"]["watts"].get<double>(), diagnosis["heat"]["body"].get<std::string>());
+  if (diagnosis["effects"].empty()) return "Something is missing that no effect of the catalogue explains.";
+  return fmt::format("The machine file lacks {}.", missing_things(diagnosis["effects"]));
+}
+
+}  // namespace
+
+Json diagnosis_json(std::filesystem::path const& path) {
+  try {
+    Json json = read_diagnosis(path);
+    for (auto& finding : json["effects"]) explain(finding);
+    json["name"] = path.stem().string();
+    json["sentence"] = sentence(json);
+    return json;
+  } catch (Json::exception const& error) {
+    throw thermal::InputError(fmt::format("{}: a damaged diagnosis: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace thermotwin::twin

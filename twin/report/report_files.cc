@@ -1,0 +1,105 @@
+#include "twin/report/report_files.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "output/atomic_file.h"
+#include "output/report_page.h"
+#include "thermal/error.h"
+#include "twin/diagnosis/run_files.h"
+#include "twin/report/diagnosis_section.h"
+#include "twin/report/machine_section.h"
+#include "twin/report/shown_run.h"
+#include "twin/version.h"
+
+namespace thermotwin::twin {
+namespace {
+
+namespace fs = std::filesystem;
+using output::Json;
+using output::ReportPage;
+
+std::string title_of(ReportFiles const& files, std::vector<ShownRun> const& runs) {
+  if (runs.size() == 1 && !runs[0].data.title.empty()) return runs[0].data.title;
+  return names_of(files.data);
+}
+
+/// The run that the machine's picture shows: the first with all its nodes, or else the first whose machine is known.
+ShownRun const* drawn_run(std::vector<ShownRun> const& runs) {
+  for (auto const& run : runs)
+    if (run.data.node_temperatures && run.data.provenance.contains("machine.file")) return &run;
+  for (auto const& run : runs)
+    if (run.data.provenance.contains("machine.file")) return &run;
+  return nullptr;
+}
+
+/// The machine, when the data or the user say which; otherwise a remark why not.
+std::optional<Machine> machine_to_draw(ShownRun const* drawn, fs::path const& file, std::vector<std::string>& remarks) {
+  if (!file.empty()) return Machine::read(file);
+  try {
+    if (drawn) return machine_of(*drawn);
+    remarks.emplace_back("No machine is drawn: these data do not say which it was. Name it with --machine.");
+  } catch (thermal::InputError const& error) {
+    remarks.push_back(fmt::format("No machine is drawn: {}", error.what()));
+  }
+  return {};
+}
+
+std::string field_remark(Json const& machine) {
+  if (!machine.contains("field"))
+    return "Only the sensors are coloured: these data hold no field. `thermotwin run --nodes` keeps it.";
+  auto const& field = machine["field"];
+  return fmt::format(
+      "The field of {} nodes is drawn from {} shapes that change in time, to {:.2g} K at worst; every row of the data "
+      "is "
+      "there.",
+      field["nodes"].get<int>(), field["courses"]["shape"][1].get<int>(), field["largest_error"].get<double>());
+}
+
+Json runs_json(std::vector<ShownRun> const& runs, fs::path const& machine_file, ReportPage& page) {
+  std::vector<std::string> remarks;
+  Json json = {{"sets", Json::array()}};
+  for (auto const& run : runs) json["sets"].push_back(run_json(run, page));
+  auto const* drawn = drawn_run(runs);
+  if (auto const machine = machine_to_draw(drawn, machine_file, remarks)) {
+    if (!drawn) drawn = &runs.front();
+    json["machine"] = machine_json(*machine, drawn->data, page);
+    if (json["machine"].is_null()) {
+      remarks.emplace_back("No machine is drawn: its file gives its bodies no place in space.");
+    } else {
+      json["machine"]["set"] = drawn - runs.data();
+      remarks.push_back(field_remark(json["machine"]));
+    }
+  }
+  json["remarks"] = remarks;
+  return json;
+}
+
+}  // namespace
+
+std::string write_report(ReportFiles const& files) {
+  refuse_to_overwrite(files.output, files.machine, files.data);
+  std::vector<ShownRun> runs;
+  std::vector<fs::path> diagnoses;
+  for (auto const& file : files.data)
+    if (file.extension() == ".json")
+      diagnoses.push_back(file);
+    else
+      runs.push_back(read_shown_run(file));
+
+  ReportPage page(title_of(files, runs), fmt::format("ThermoTwin {} ({})", version(), commit()));
+  for (auto const& diagnosis : diagnoses) page.add_section("diagnosis", diagnosis_json(diagnosis));
+  std::string text;
+  if (!runs.empty()) {
+    Json const section = runs_json(runs, files.machine, page);
+    page.add_section("runs", section);
+    for (auto const& remark : section["remarks"]) text += remark.get<std::string>() + "\n";
+  }
+  auto const html = page.html();
+  output::write_atomically(files.output, html);
+  return fmt::format("{}{}: {:.1f} MB; open it in a browser\n", text, files.output.string(), double(html.size()) / 1e6);
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "output/dataset.h"
+#include "output/report_page.h"
+
+namespace thermotwin::twin {
+
+/// A data set as the page shows it.
+struct ShownRun {
+  std::filesystem::path path;
+  output::Dataset data;
+  bool simulated = false;  ///< with the provenance of a run of this program
+};
+
+/// A data set (`.h5`), a table (`.csv`), or a measurement file (`.toml`). InputError names the file.
+[[nodiscard]] ShownRun read_shown_run(std::filesystem::path const& path);
+
+/// Channels with their courses, positioning, and what is known of the run. An input that never changes is one number.
+[[nodiscard]] output::Json run_json(ShownRun const& run, output::ReportPage& page);
+
+}  // namespace thermotwin::twin
