@@ -17,6 +17,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+constexpr Index most_clusters = 10;
+
 /// c different rows, drawn by the first c steps of a Fisher-Yates shuffle.
 MatrixXd drawn_rows(MatrixXd const& points, int count, std::mt19937_64& generator) {
   std::vector<Index> rows(static_cast<std::size_t>(points.rows()));
@@ -113,7 +115,7 @@ double xie_beni(FuzzyClusters const& clusters, MatrixXd const& points) {
 int number_of_clusters(MatrixXd const& points, FuzzyOptions const& options) {
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
-  for (int c = 2; c <= static_cast<int>(points.rows() / 2); ++c) {
+  for (int c = 2; c <= std::min<Index>(points.rows() / 2, most_clusters); ++c) {
     double const index = xie_beni(fuzzy_c_means(points, c, options), points);
     if (index < least) {
       least = index;

@@ -39,7 +39,7 @@ FuzzyClusters fuzzy_c_means(Eigen::MatrixXd const& points, int clusters, FuzzyOp
 /// IEEE TPAMI 13 (1991) 841). Infinite for one cluster and where centres coincide.
 double xie_beni(FuzzyClusters const& clusters, Eigen::MatrixXd const& points);
 
-/// The c from 2 to n/2 with the least Xie-Beni index; 1 for fewer than four points.
+/// The c from 2 to n/2, 10 at most, with the least Xie-Beni index; 1 for fewer than four points.
 int number_of_clusters(Eigen::MatrixXd const& points, FuzzyOptions const& options = {});
 
 }  // namespace thermotwin::models
