@@ -82,10 +82,12 @@ TEST(FuzzyCMeans, RecoversPlantedClusters) {
 }
 
 TEST(FuzzyCMeans, CountsPlantedClustersByXieAndBeni) {
+  FuzzyOptions options;
+  options.starts = 5;
   int right = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed)
-    right += number_of_clusters(heaps(seed, 2 + int(seed % 3))) == 2 + int(seed % 3);
-  EXPECT_GE(right, 95);
+  for (std::uint64_t seed = 1; seed <= 60; ++seed)
+    right += number_of_clusters(heaps(seed, 2 + int(seed % 3)), options) == 2 + int(seed % 3);
+  EXPECT_GE(right, 57);
 }
 
 /// The best of ten starts does not depend on where they were.
