@@ -40,13 +40,15 @@ std::string all_figures(std::vector<ClassCountTrial> const& trials) {
   return fmt::format("{}", fmt::join(lines, "; "));
 }
 
-std::optional<std::size_t> best_adjusted(std::vector<ClassCountTrial> const& trials) {
-  std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (!trials[i].obstacle.empty()) continue;
-    if (!best || trials[i].regression.adjusted_r_squared > trials[*best].regression.adjusted_r_squared) best = i;
-  }
-  return best;
+/// From the first eligible trial to the next whenever that improves.
+template <typename Eligible>
+std::optional<std::size_t> walk(std::vector<ClassCountTrial> const& trials, ImprovedRule const& rule,
+                                Eligible const& eligible) {
+  std::optional<std::size_t> reached;
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    if (eligible(trials[i]) && (!reached || improves(trials[i].regression, trials[*reached].regression, rule)))
+      reached = i;
+  return reached;
 }
 
 }  // namespace
@@ -87,14 +89,11 @@ std::vector<int> counts_by_ratio(VectorXd const& loss, std::vector<int> const& c
 }
 
 ClassCountVerdict count_by_regression(std::vector<ClassCountTrial> const& trials, ImprovedRule const& rule) {
-  ClassCountVerdict verdict{{}, false, all_figures(trials)};
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (!significant(trials[i], rule)) continue;
-    if (!verdict.trial || improves(trials[i].regression, trials[*verdict.trial].regression, rule)) verdict.trial = i;
-  }
-  verdict.accepted = verdict.trial.has_value();
-  if (!verdict.accepted) verdict.trial = best_adjusted(trials);
-  return verdict;
+  auto const passes = [&](ClassCountTrial const& trial) { return significant(trial, rule); };
+  auto const has_regression = [](ClassCountTrial const& trial) { return trial.obstacle.empty(); };
+  auto const reached = walk(trials, rule, passes);
+  if (reached) return {reached, true, all_figures(trials)};
+  return {walk(trials, rule, has_regression), false, all_figures(trials)};
 }
 
 }  // namespace thermotwin::models

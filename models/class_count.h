@@ -47,7 +47,7 @@ struct ImprovedRule {
 
 struct ClassCountVerdict {
   std::optional<std::size_t> trial;  ///< which is chosen; none if no trial has a regression
-  bool accepted = false;             ///< false: every trial fails a test, and the one of largest R²_adj stands in
+  bool accepted = false;             ///< false: every trial fails a test of F or t, and the walk took no notice of them
   std::string reason;                ///< the figures that decided
 };
 

@@ -110,7 +110,7 @@ Selection select_by_ordered_clustering_improved(std::span<Batch const> batches, 
                   fmt::format("one sensor, since no number of classes has a regression ({})", verdict.reason));
   auto const& taken = tried[*verdict.trial];
   std::string_view const rule =
-      verdict.accepted ? "improved rule" : "largest adjusted R2, since every number fails a test,";
+      verdict.accepted ? "improved rule" : "improved rule without F and t, which every number fails,";
   return chosen(ordered, taken.sensors, fmt::format("{} ({})", by(taken.k, rule, ordered), verdict.reason));
 }
 
