@@ -1,5 +1,6 @@
 #include "models/batch_statistics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -38,9 +39,12 @@ MatrixXd deviation_matrix(std::span<VectorXd const> errors, std::vector<std::vec
     if (predictions[l].size() != errors.size())
       throw std::invalid_argument(
           fmt::format("model {} predicts {} batches; there are {}", l + 1, predictions[l].size(), errors.size()));
-    for (std::size_t k = 0; k < errors.size(); ++k)
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      auto const& prediction = predictions[l][k];
+      VectorXd const truth = errors[k].tail(std::min(prediction.size(), errors[k].size()));
       deviations(static_cast<Index>(l), static_cast<Index>(k)) =
-          residual_deviation(errors[k], predictions[l][k], k == l ? parameters[l] : 0.0);
+          residual_deviation(truth, prediction, k == l ? parameters[l] : 0.0);
+    }
   }
   return deviations;
 }

@@ -15,7 +15,8 @@ namespace thermotwin::models {
 double residual_deviation(Eigen::VectorXd const& truth, Eigen::VectorXd const& prediction, double parameters = 0);
 
 /// S_{l→k} for L models (rows), the l-th of them fitted to batch l, on K ≥ L batches (columns). `predictions[l][k]` is
-/// model l on batch k; `parameters[l]` are those of model l.
+/// model l on batch k, the last instants of that batch where it is shorter (ErrorModel::unclaimed_instants);
+/// `parameters[l]` are those of model l.
 Eigen::MatrixXd deviation_matrix(std::span<Eigen::VectorXd const> errors,
                                  std::vector<std::vector<Eigen::VectorXd>> const& predictions,
                                  std::span<double const> parameters);

@@ -56,4 +56,9 @@ VectorXd ErrorModel::predict(Batch const& batch) const {
   return std::visit(Prediction{readings}, form);
 }
 
+int ErrorModel::unclaimed_instants() const {
+  auto const* linear = std::get_if<LinearForm>(&form);
+  return linear ? linear->unfitted : 0;
+}
+
 }  // namespace thermotwin::models

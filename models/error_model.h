@@ -18,6 +18,7 @@ struct LinearForm {
   double intercept = 0;          ///< [µm]
   std::vector<int> lags{0};      ///< [samples], ascending, none negative
   Eigen::MatrixXd coefficients;  ///< p × lags [µm/K]; column l multiplies the readings lags[l] samples ago
+  int unfitted = 0;              ///< first instants of each batch that were history in the fit and nothing else
 };
 
 /// f(x) = Σ_k a_k exp(−g ‖x_k − x‖²) + b on scaled inputs and target: ε-SVR and LS-SVM.
@@ -52,6 +53,10 @@ struct ErrorModel {
   /// N errors [µm] for the batch's readings, found by name; a batch that lacks an input is refused by name, as is one
   /// whose sample period differs from the model's where lags count (std::invalid_argument).
   [[nodiscard]] Eigen::VectorXd predict(Batch const& batch) const;
+
+  /// How many of a batch's first instants the method does not claim to predict, as the papers of distributed lags leave
+  /// them out (N − n rows): what predict() says of them rests on ΔT = 0 before the run.
+  [[nodiscard]] int unclaimed_instants() const;
 };
 
 struct FitOptions {

@@ -11,14 +11,15 @@ namespace thermotwin::models {
 namespace {
 
 constexpr std::size_t generations_between_starts = 50;
+constexpr int trial_epochs = 500, final_epochs = 8000;
 
 Descent lowest_descent(NetworkLoss& loss, GeneticSearch const& search) {
   Descent lowest;
   for (std::size_t generation = 0; generation < search.best.size(); generation += generations_between_starts) {
-    auto found = descend(loss, search.best[generation]);
+    auto found = descend(loss, search.best[generation], {.epochs = trial_epochs});
     if (generation == 0 || found.loss < lowest.loss) lowest = std::move(found);
   }
-  return lowest;
+  return descend(loss, lowest.parameters, {.epochs = final_epochs});
 }
 
 }  // namespace

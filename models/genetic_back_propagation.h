@@ -8,7 +8,8 @@ namespace thermotwin::models {
 
 /// The network M-(2M+1)-1 whose back-propagation starts from a genetic search over its weights and thresholds with
 /// fitness 1/E (paper 003; methods.md §6.3): 5-11-1 and 78 genes for five inputs. The best of every fiftieth generation
-/// descends, and the one that gets lowest stays: a later generation is fitter, but not always nearer to a low valley.
+/// descends for 500 epochs, and the one that is lowest then goes on for 8000: a later generation is fitter, but not
+/// always nearer to a low valley. (Paper 003 does not say how its search and its descent share the work.)
 ErrorModel fit_genetic_back_propagation(std::span<Batch const> batches, FitOptions const& options);
 
 }  // namespace thermotwin::models

@@ -6,8 +6,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 Scaling standard_scaling(MatrixXd const& columns) {
-  VectorXd const mean = columns.colwise().mean();
   VectorXd const moves = columns.colwise().maxCoeff() - columns.colwise().minCoeff();
+  VectorXd const mean = (moves.array() > 0).select(columns.colwise().mean().transpose(), columns.row(0).transpose());
   MatrixXd const centred = columns.rowwise() - mean.transpose();
   VectorXd const deviation = (centred.colwise().squaredNorm() / static_cast<double>(columns.rows())).cwiseSqrt();
   return {mean, (moves.array() > 0).select(deviation, 1.0)};

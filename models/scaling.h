@@ -9,7 +9,7 @@ struct Scaling {
   Eigen::VectorXd offset, scale;
 };
 
-/// To mean 0 and variance 1 (divisor N).
+/// To mean 0 and variance 1 (divisor N); to exact zeros where a column does not move.
 Scaling standard_scaling(Eigen::MatrixXd const& columns);
 
 /// From [min, max] to [low, high].

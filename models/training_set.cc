@@ -44,8 +44,8 @@ TrainingSet training_set(std::span<Batch const> batches, std::vector<int> const&
   check_sensors_move(all);
 
   int const longest = lags.back();
-  Index const dropped = history == History::dropped ? longest : 0;
-  TrainingSet set{all.sensors, longest > 0 ? common_period(batches) : 0.0, lags, {}, {}, {}};
+  int const dropped = history == History::dropped ? longest : 0;
+  TrainingSet set{all.sensors, longest > 0 ? common_period(batches) : 0.0, lags, {}, {}, {}, dropped};
   auto const runs = static_cast<Index>(batches.size());
   set.regressors.resize(all.time.size() - runs * dropped,
                         all.temperature_rise.cols() * static_cast<Index>(lags.size()));
@@ -107,8 +107,9 @@ ErrorModel linear_model(std::string method, TrainingSet const& set, double inter
                         double parameters, std::string remark) {
   auto const inputs = static_cast<Index>(set.inputs.size());
   MatrixXd const table = coefficients.reshaped(inputs, static_cast<Index>(set.lags.size()));
-  return {std::move(method), set.inputs, set.sample_period, parameters, LinearForm{intercept, set.lags, table},
-          std::move(remark)};
+  return {
+      std::move(method), set.inputs, set.sample_period, parameters, LinearForm{intercept, set.lags, table, set.dropped},
+      std::move(remark)};
 }
 
 }  // namespace thermotwin::models

@@ -19,6 +19,7 @@ struct TrainingSet {
   Eigen::MatrixXd regressors;             ///< N × (p lags): column l p + j is input j, lags[l] samples ago [K]
   Eigen::VectorXd error;                  ///< N [µm]
   std::vector<Eigen::Index> run_lengths;  ///< rows of each batch
+  int dropped = 0;                        ///< instants of each batch that are only history
 };
 
 /// What stands for the readings before a batch's first instant.

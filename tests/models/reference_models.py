@@ -1,0 +1,32 @@
+"""Reads a table (inputs, then the response) from standard input and prints what scikit-learn makes of it."""
+
+import sys
+
+import numpy
+from sklearn.decomposition import PCA
+from sklearn.linear_model import Ridge
+from sklearn.svm import SVR
+
+table = numpy.loadtxt(sys.stdin)
+x, y = table[:, :-1], table[:, -1]
+kind, *numbers = sys.argv[1:]
+numbers = [float(n) for n in numbers]
+
+if kind == "support_vector":
+    cost, g, epsilon = numbers
+    model = SVR(kernel="rbf", C=cost, gamma=g, epsilon=epsilon, tol=1e-9).fit(x, y)
+    result = model.predict(x)
+elif kind == "principal_components":
+    z = (x - x.mean(0)) / x.std(0, ddof=1)
+    result = PCA(svd_solver="full").fit(z).explained_variance_
+elif kind == "directions":
+    z = (x - x.mean(0)) / x.std(0, ddof=1)
+    rows = PCA(svd_solver="full").fit(z).components_
+    signs = numpy.sign(rows[numpy.arange(len(rows)), numpy.abs(rows).argmax(1)])
+    result = (rows * signs[:, None]).ravel()
+elif kind == "ridge":
+    (penalty,) = numbers
+    z = (x - x.mean(0)) / x.std(0)
+    result = Ridge(alpha=penalty * len(y), solver="svd").fit(z, y).predict(z)
+
+print("\n".join(repr(float(value)) for value in result))

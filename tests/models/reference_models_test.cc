@@ -1,0 +1,88 @@
+#include <cstdio>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <numeric>
+
+#include "models/gaussian_kernel.h"
+#include "models/principal_component.h"
+#include "models/ridge.h"
+#include "models/support_vector.h"
+#include "tests/models/simulated_batch.h"
+#include "tests/output/temporary_directory.h"
+
+// ε-SVR, principal components and ridge against scikit-learn on the same numbers.
+
+namespace thermotwin::models {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// What the script prints for this question.
+VectorXd scikit_learn(std::string const& question, Batch const& batch) {
+  tests::TemporaryDirectory const directory;
+  auto const table = directory / "table.txt";
+  std::string text;
+  for (Eigen::Index t = 0; t < batch.error.size(); ++t) {
+    for (double const reading : batch.temperature_rise.row(t)) text += fmt::format("{} ", reading);
+    text += fmt::format("{}\n", batch.error(t));
+  }
+  tests::put(table, text);
+  auto const command = fmt::format("/usr/bin/python3 {}/tests/models/reference_models.py {} < {}",
+                                   THERMOTWIN_SOURCE_DIR, question, table.string());
+  std::vector<double> numbers;
+  auto* const pipe = popen(command.c_str(), "r");
+  for (double number = 0; std::fscanf(pipe, "%lf", &number) == 1;) numbers.push_back(number);
+  EXPECT_EQ(pclose(pipe), 0) << command;
+  return VectorXd::Map(numbers.data(), Eigen::Index(numbers.size()));
+}
+
+/// Readings and error of mean 0 and variance near 1: a warm-up with a bend.
+Batch fixture(std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  MatrixXd rise(90, 3);
+  for (Eigen::Index j = 0; j < 3; ++j)
+    rise.col(j) = (warm_up(3, 12.0 + 20.0 * double(j), 90, 0.05, generator).array() - 2.0);
+  VectorXd error = rise.col(0) + (2.0 * rise.col(2).array()).sin().matrix();
+  for (auto& e : error) e += 0.05 * normal(generator);
+  return batch_of(rise, error);
+}
+
+TEST(ReferenceModels, SupportVectorsPredictWhatScikitLearnPredicts) {
+  auto const batch = fixture(1);
+  std::vector<Eigen::Index> rows(90);
+  std::iota(rows.begin(), rows.end(), 0);
+  auto const distances = squared_distances(batch.temperature_rise, batch.temperature_rise);
+  for (auto const& [cost, g] : {std::pair{1.0, 0.5}, {16.0, 0.0625}, {0.0625, 4.0}}) {
+    MatrixXd const kernel = gaussian_kernel(distances, g);
+    auto const fit =
+        SupportVectorSolver(kernel).solve(batch.error, rows, {.cost = cost, .epsilon = 0.05, .tolerance = 1e-9});
+    VectorXd const ours = (kernel * fit.weights).array() + fit.intercept;
+    auto const theirs = scikit_learn(fmt::format("support_vector {} {} 0.05", cost, g), batch);
+    ASSERT_EQ(theirs.size(), 90);
+    EXPECT_LT((ours - theirs).cwiseAbs().maxCoeff(), 1e-6) << cost << ' ' << g;
+  }
+}
+
+TEST(ReferenceModels, PrincipalComponentsAreScikitLearns) {
+  auto const batch = fixture(2);
+  auto const ours = principal_components(batch.temperature_rise);
+  auto const variances = scikit_learn("principal_components", batch);
+  ASSERT_EQ(variances.size(), 3);
+  EXPECT_LT((ours.variances - variances).cwiseAbs().maxCoeff(), 1e-10);
+  auto const directions = scikit_learn("directions", batch);
+  ASSERT_EQ(directions.size(), 9);
+  EXPECT_LT((ours.directions.reshaped() - directions).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(ReferenceModels, RidgePredictsWhatScikitLearnPredicts) {
+  auto const batch = fixture(3);
+  auto const fit = ridge_regression(batch.temperature_rise, batch.error, 5);
+  VectorXd const ours = (batch.temperature_rise * fit.coefficients).array() + fit.intercept;
+  auto const theirs = scikit_learn(fmt::format("ridge {}", fit.penalty), batch);
+  ASSERT_EQ(theirs.size(), 90);
+  EXPECT_LT((ours - theirs).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+}  // namespace
+}  // namespace thermotwin::models

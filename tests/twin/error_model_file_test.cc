@@ -1,0 +1,120 @@
+#include "twin/error_model_file.h"
+
+#include <Eigen/Core>
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/output/temporary_directory.h"
+#include "thermal/error.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using models::Batch;
+using models::ErrorModel;
+using testing::HasSubstr;
+
+/// Two sensors with numbers that need all their digits.
+Batch run() {
+  constexpr Eigen::Index instants = 60;
+  Batch batch{"run",
+              Eigen::VectorXd::LinSpaced(instants, 0, 180.0 * (instants - 1)),
+              {"T2 \"front\"", "T4"},
+              {"spindle", "head"},
+              Eigen::MatrixXd(instants, 2),
+              Eigen::VectorXd(instants)};
+  for (Eigen::Index t = 0; t < instants; ++t) {
+    double const hours = 0.05 * double(t);
+    batch.temperature_rise.row(t) << 12.0 * (1 - std::exp(-hours / 0.4)),
+        7.0 * (1 - std::exp(-hours / 1.3)) + 0.1 * std::sin(9.0 * hours);
+    batch.error(t) = 2.0 * batch.temperature_rise(t, 0) + std::sin(7.0 * batch.temperature_rise(t, 1)) / 3.0;
+  }
+  return batch;
+}
+
+class SavedModel : public testing::TestWithParam<std::string> {
+ protected:
+  tests::TemporaryDirectory directory_;
+};
+
+std::vector<std::string> names() {
+  std::vector<std::string> result;
+  for (auto const& method : models::model_methods()) result.emplace_back(method.name);
+  return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, SavedModel, testing::ValuesIn(names()), [](auto const& info) { return info.param; });
+
+TEST_P(SavedModel, PredictsTheSameBytes) {
+  auto const batch = run();
+  auto const fitted = models::model_method(GetParam()).fit(std::span(&batch, 1), {});
+  write_error_model(directory_ / "model.toml", fitted);
+  auto const read = read_error_model(directory_ / "model.toml");
+  EXPECT_EQ(read.predict(batch), fitted.predict(batch));
+  EXPECT_EQ(read.method, fitted.method);
+  EXPECT_EQ(read.inputs, fitted.inputs);
+  EXPECT_EQ(read.parameters, fitted.parameters);
+  EXPECT_EQ(read.sample_period, fitted.sample_period);
+  EXPECT_EQ(read.remark, fitted.remark);
+  EXPECT_EQ(read.unclaimed_instants(), fitted.unclaimed_instants());
+  write_error_model(directory_ / "again.toml", read);
+  EXPECT_EQ(tests::contents(directory_ / "again.toml"), tests::contents(directory_ / "model.toml"));
+}
+
+class ErrorModelFile : public testing::Test {
+ protected:
+  std::string complaint(std::string const& text) {
+    tests::put(directory_ / "model.toml", text);
+    try {
+      static_cast<void>(read_error_model(directory_ / "model.toml"));
+    } catch (thermal::InputError const& error) {
+      return error.what();
+    }
+    return "";
+  }
+  static std::string linear(std::string const& form) {
+    return "[model]\nmethod = \"ridge\"\ninputs = [\"T2\", \"T4\"]\n[model.linear]\n" + form;
+  }
+  tests::TemporaryDirectory directory_;
+};
+
+TEST_F(ErrorModelFile, RefusesWhatIsNoModel) {
+  EXPECT_THAT(complaint("title = \"run\"\n"), HasSubstr("model.toml:1:1: no table [model]"));
+  EXPECT_THAT(complaint("[model]\nmethod = \n"), HasSubstr("model.toml:2:"));
+}
+
+TEST_F(ErrorModelFile, NamesTheNearestMethod) {
+  EXPECT_THAT(complaint("[model]\nmethod = \"rigde\"\ninputs = [\"T2\"]\n"),
+              HasSubstr("model.toml:2:10: unknown method 'rigde'; did you mean 'ridge'?"));
+}
+
+TEST_F(ErrorModelFile, WantsExactlyOneForm) {
+  EXPECT_THAT(complaint("[model]\nmethod = \"ridge\"\ninputs = [\"T2\"]\n"), HasSubstr("exactly one of"));
+  EXPECT_THAT(complaint("[model]\nmethod = \"ridge\"\n[model.linear]\nintercept = 1\n"),
+              HasSubstr("'inputs' is missing"));
+}
+
+TEST_F(ErrorModelFile, CountsTheNumbersOfEachLag) {
+  EXPECT_EQ(complaint(linear("intercept = 1\nlag = [{ samples = 0, coefficients = [1, 2] }]\n")), "");
+  EXPECT_THAT(complaint(linear("intercept = 1\nlag = [{ samples = 0, coefficients = [1] }]\n")),
+              HasSubstr("model.toml:4:1: 'coefficients' has 1 numbers; the model has 2 inputs"));
+  EXPECT_THAT(complaint(linear("intercept = 1\nlag = [{ samples = 2, coefficients = [1, 2] }, "
+                               "{ samples = 1, coefficients = [1, 2] }]\n")),
+              HasSubstr("lags ascend"));
+  EXPECT_THAT(complaint(linear("intercept = 1\n")), HasSubstr("'lag' is missing"));
+  EXPECT_THAT(complaint(linear("lag = [{ samples = 0, coefficients = [1, 2] }]\n")),
+              HasSubstr("'intercept' is missing"));
+  EXPECT_THAT(complaint(linear("intercept = nan\nlag = [{ samples = 0, coefficients = [1, 2] }]\n")),
+              HasSubstr("must be finite"));
+  EXPECT_THAT(complaint(linear("intercept = 1\nlagg = []\n")), HasSubstr("unknown key 'lagg'; did you mean 'lag'?"));
+}
+
+TEST_F(ErrorModelFile, DoesNotSaveWhatIsNoNumber) {
+  ErrorModel model{"ridge", {"T2"}, 0, 2, models::LinearForm{std::nan(""), {0}, Eigen::MatrixXd::Ones(1, 1)}, ""};
+  EXPECT_THROW(write_error_model(directory_ / "model.toml", model), thermal::InputError);
+  EXPECT_TRUE(directory_.files().empty());
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
