@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <stdexcept>
 
 #include "models/distributed_lag.h"
 #include "models/linear_regression.h"
@@ -47,9 +48,13 @@ LagOrder adhoc_lag_order(std::span<Batch const> batches) {
   for (int n = 1;; ++n) {
     if (!enough_samples(batches, n)) return {n - 1, fmt::format("too few samples for order {}", n)};
     auto const set = training_set(batches, lags_up_to(n));
-    auto after = regression(set);
-    if (auto reason = objection(before, after, set); !reason.empty()) return {n - 1, std::move(reason)};
-    before = std::move(after);
+    try {
+      auto after = regression(set);
+      if (auto reason = objection(before, after, set); !reason.empty()) return {n - 1, std::move(reason)};
+      before = std::move(after);
+    } catch (std::invalid_argument const& error) {
+      return {n - 1, error.what()};
+    }
   }
 }
 

@@ -18,7 +18,7 @@ struct LagOrder {
 ///
 ///   - no coefficient of the newest lag is significant (t test, 5 %), or
 ///   - a coefficient has another sign than in the fit of n − 1, or
-///   - there are too few samples,
+///   - a lagged reading is a combination of the others, or there are too few samples,
 ///
 /// and take n − 1.
 LagOrder adhoc_lag_order(std::span<Batch const> batches);

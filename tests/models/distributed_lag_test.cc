@@ -77,6 +77,14 @@ TEST(AdhocLagOrder, StopsWhereCollinearityTurnsASign) {
   EXPECT_THAT(found.reason, HasSubstr("T1, 1 sample ago changes its sign at order 2"));
 }
 
+TEST(AdhocLagOrder, StopsWhereALagSaysNothingNew) {
+  std::mt19937_64 generator(1);
+  VectorXd const sensor = warm_up(20, 30, 90, 0, generator), deep = warm_up(20, 45, 90, 0, generator);
+  auto const found = adhoc_lag_order(std::vector{batch_of(sensor, deep)});  // x_{t−1} is a + b x_t exactly
+  EXPECT_EQ(found.order, 0);
+  EXPECT_THAT(found.reason, HasSubstr("'T1, 1 sample ago' is a combination of the ones before it"));
+}
+
 TEST(AdhocLagOrder, EndsWithTheSamples) {
   MatrixXd alternating(1, 30);  // every lag matters and keeps its sign: only the samples end the search
   for (Eigen::Index i = 0; i < 30; ++i) alternating(0, i) = 1.0 + 0.1 * double(i);

@@ -26,8 +26,8 @@ Batch run() {
               Eigen::VectorXd(instants)};
   for (Eigen::Index t = 0; t < instants; ++t) {
     double const hours = 0.05 * double(t);
-    batch.temperature_rise.row(t) << 12.0 * (1 - std::exp(-hours / 0.4)),
-        7.0 * (1 - std::exp(-hours / 1.3)) + 0.1 * std::sin(9.0 * hours);
+    batch.temperature_rise.row(t) << 12.0 * (1 - std::exp(-hours / 0.4)) + 0.2 * std::sin(40.0 * hours * hours),
+        7.0 * (1 - std::exp(-hours / 1.3)) + 0.1 * std::sin(25.0 * hours * hours);
     batch.error(t) = 2.0 * batch.temperature_rise(t, 0) + std::sin(7.0 * batch.temperature_rise(t, 1)) / 3.0;
   }
   return batch;
