@@ -40,6 +40,8 @@ CLI::App* PlaceCommand::add_to(CLI::App& app, std::atomic<bool> const& stop) {
   command->add_option("--propose", proposed, "a set to judge: sites, sensors of the machine, places; T1,T2,motor");
   command->add_option("--dead", options.dead, "choose such that the loss of any so many hurts least")
       ->capture_default_str();
+  command->add_flag("--distinguish", options.distinguish,
+                    "choose such that effects which the machine may lack are told apart, not for the smallest error");
   command->add_option("--noise", noise, "standard deviation of a sensor's own error")->capture_default_str();
   command->add_option("--members", options.design.members, "machines to draw within the file's uncertainty")
       ->capture_default_str();
@@ -94,13 +96,16 @@ void PlaceCommand::write_map(PlacementReport const& report, Machine const& built
   frame.temperature_degC = report.map->alone_um;
   output::PictureOptions page;
   page.title = built.title;
-  page.remark = fmt::format("what one sensor tells of a displacement of {:.1f} µm; dots: the recommended {}",
+  page.remark = fmt::format("what one sensor there takes off an error of {:.1f} µm; dots: the {} recommended ones",
                             report.prior_um, report.recommended.sensors.size());
   page.quantity = "error removed [µm]";
   page.up = built.up;
-  for (auto const& sensor : report.recommended.sensors)
+  int number = 0;
+  for (auto const& sensor : report.recommended.sensors) {
+    ++number;
     if (sensor.site.at != std::vector<std::string>{"ambient"})
-      page.sensors.push_back({sensor.site.name, sensor.position});
+      page.sensors.push_back({std::to_string(number), sensor.position});
+  }
   output::render_picture(built.geometry, frame, picture, page);
 }
 
@@ -120,9 +125,9 @@ void PlaceCommand::operator()() {
   }
   auto const report = place_sensors(document, options);
   progress.reset();
+  fmt::print("{}", json ? placement_json(report) : placement_text(report));
   if (!output.empty()) output::write_atomically(output, sensor_tables(report));
   if (report.map) write_map(report, built);
-  fmt::print("{}", json ? placement_json(report) : placement_text(report));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "twin/placement/sensor_placement.h"
 
@@ -10,7 +11,7 @@ using Json = nlohmann::ordered_json;
 
 double percent(double part, double whole) { return whole > 0.0 ? 100.0 * (part / whole - 1.0) : 0.0; }
 
-std::string set_table(SetFigures const& set) {
+std::string set_table(SetFigures const& set, int dead) {
   std::size_t width = 4;
   for (auto const& sensor : set.sensors) width = std::max(width, sensor.site.name.size());
   std::string text = fmt::format("  {:<3} {:<{}}  {:>22}  {:>5}  {:>16}\n", "", "site", width, "position [mm]", "cost",
@@ -18,16 +19,43 @@ std::string set_table(SetFigures const& set) {
   int number = 0;
   for (auto const& sensor : set.sensors) {
     Eigen::Vector3d const p = 1e3 * sensor.position;
-    text +=
-        fmt::format("  {:<3} {:<{}}  {:>22}  {:>5g}  {:>8.2f} um {:+4.0f} %{}\n", ++number, sensor.site.name, width,
-                    fmt::format("{:.0f} {:.0f} {:.0f}", p.x(), p.y(), p.z()), sensor.site.cost, sensor.error_without_um,
-                    percent(sensor.error_without_um, set.model_um), sensor.idle ? "  idle" : "");
+    text += fmt::format("  {:<3} {:<{}}  {:>22}  {:>5g}  {:>8.2f} um {:+4.0f} %{}\n", ++number, sensor.site.name, width,
+                        fmt::format("{:.0f} {:.0f} {:.0f}", p.x(), p.y(), p.z()), sensor.site.cost,
+                        sensor.error_without_um, percent(sensor.error_without_um, set.model_um),
+                        sensor.idle ? (dead > 0 ? "  spare" : "  idle") : "");
   }
   text += fmt::format("\n  {:<14} {:>14} {:>14} {:>14}\n", "error [um]", "no sensor", "predicted 1s", "unseen rms");
   for (auto const& channel : set.channels)
     text += fmt::format("  {:<14} {:>14.2f} {:>14.2f} {:>14.2f}\n", channel.name, channel.prior_um,
                         channel.predicted_um, channel.unseen_um);
   return text;
+}
+
+double degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
+
+std::string distinction_text(Distinction const& d) {
+  std::string text = fmt::format(
+      "\ntelling {} missing effects apart: smallest angle between the signatures of two\n"
+      "  recommended      {:6.2f} degrees ({} and {})\n"
+      "  for displacement {:6.2f} degrees: the same number of sensors, chosen for the smallest error\n",
+      d.effects, degrees(d.recommended), d.first, d.second, degrees(d.for_displacement));
+  if (d.proposed) text += fmt::format("  proposed         {:6.2f} degrees\n", degrees(*d.proposed));
+  return text + fmt::format(
+                    "  all candidates   {:6.2f} degrees\n"
+                    "{} pairs; {} more that even all candidates take for each other (cosine beyond 0.6) are left out\n",
+                    degrees(d.of_all), d.pairs, d.alike);
+}
+
+Json to_json(Distinction const& d) {
+  Json json = {{"effects", d.effects},
+               {"pairs", d.pairs},
+               {"pairs_alike_to_all_candidates", d.alike},
+               {"recommended_deg", degrees(d.recommended)},
+               {"for_displacement_deg", degrees(d.for_displacement)},
+               {"all_candidates_deg", degrees(d.of_all)},
+               {"closest", {d.first, d.second}}};
+  if (d.proposed) json["proposed_deg"] = degrees(*d.proposed);
+  return json;
 }
 
 std::string error_line(std::string const& what, SetFigures const& set, double reference) {
@@ -71,8 +99,8 @@ std::string placement_text(PlacementReport const& report) {
       "{} machines that the file could stand for, {} spectra each; judged on {} others with other spectra\n\n"
       "recommended\n\n{}\n",
       count, report.candidates, report.machine, report.noise, report.members, report.experiments.size(),
-      report.unseen_members, set_table(best));
-  if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(*report.proposed));
+      report.unseen_members, set_table(best, report.dead));
+  if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(*report.proposed, 0));
   text += fmt::format("  {:<26} {:>8} {:>13} {:>12}  {:>16}\n", "all displacements [um]", "model", "predicted 1s",
                       "unseen rms", "80 % of machines");
   text += fmt::format("  {:<26} {:>8.2f}\n", "no sensor", report.prior_um);
@@ -88,6 +116,7 @@ std::string placement_text(PlacementReport const& report) {
   if (report.dead > 0)
     text += fmt::format("\nwith any {} of them dead: at most {:.2f} um, {:.2f} times the error of all\n", report.dead,
                         best.worst_um, best.worst_um / best.model_um);
+  if (report.distinction) return text + distinction_text(*report.distinction);
   text += report.proved
               ? fmt::format("\nno set of {} is better: all were looked at\n", count)
               : fmt::format("\nno set of {} has less than {:.2f} um: this one is at most {:.1f} % above the best\n",
@@ -113,6 +142,7 @@ std::string placement_json(PlacementReport const& report) {
   if (report.fewer) json["one_fewer"] = to_json(*report.fewer, report.dead);
   if (report.more) json["one_more"] = to_json(*report.more, report.dead);
   if (report.proposed) json["proposed"] = to_json(*report.proposed, report.dead);
+  if (report.distinction) json["distinction"] = to_json(*report.distinction);
   return json.dump(2) + "\n";
 }
 

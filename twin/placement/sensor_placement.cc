@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 #include "models/placement.h"
@@ -12,6 +13,7 @@
 #include "thermal/nearest_name.h"
 #include "twin/file/document.h"
 #include "twin/machine.h"
+#include "twin/placement/effect_signatures.h"
 #include "twin/placement/snapshot_moments.h"
 
 namespace thermotwin::twin {
@@ -81,6 +83,11 @@ double quantile(Eigen::VectorXd values, double share) {
   return values[below] + (place - double(below)) * (values[above] - values[below]);
 }
 
+Sites without(Sites sites, Index site) {
+  std::erase(sites, site);
+  return sites;
+}
+
 /// Judges sets with one design and one unseen ensemble.
 class Judge {
  public:
@@ -90,10 +97,15 @@ class Judge {
 
  private:
   [[nodiscard]] SetFigures figures(Sites const& set) const;
+  /// Those without which all others are worse by less than 1 % together; the least useful goes first.
+  [[nodiscard]] std::set<Index> idle_among(Sites set) const;
   [[nodiscard]] models::Placement best(Index count, Index dead) const;
   [[nodiscard]] InformationMap map(Sites const& set) const;
+  /// Fills in what the signatures say; returns the set that tells effects apart.
+  [[nodiscard]] Sites distinguishing(Distinction& distinction, Sites const& for_displacement) const;
   [[nodiscard]] EnsembleOptions unseen_options() const;
 
+  Value const& document_;
   PlacementOptions const& options_;
   std::vector<CandidateSite> sites_;
   Index candidates_;
@@ -107,7 +119,10 @@ class Judge {
 };
 
 Judge::Judge(Value const& document, PlacementOptions const& options)
-    : options_(options), sites_(candidate_sites(document, options.rules)), candidates_(Index(sites_.size())) {
+    : document_(document),
+      options_(options),
+      sites_(candidate_sites(document, options.rules)),
+      candidates_(Index(sites_.size())) {
   check(options, sites_.size());
   Proposal proposal(document, sites_);
   for (auto const& name : options.proposed) proposed_.push_back(proposal.index_of(name));
@@ -147,17 +162,30 @@ models::Placement Judge::best(Index count, Index dead) const {
   return models::place(problem_, count, dead);
 }
 
+std::set<Index> Judge::idle_among(Sites set) const {
+  double const limit = std::pow(1.0 + idle_share, 2) * models::remaining_variance(all_, set);
+  std::set<Index> idle;
+  while (set.size() > 1) {
+    auto const least = std::min_element(set.rbegin(), set.rend(), [&](Index a, Index b) {
+      return models::remaining_variance(all_, without(set, a)) < models::remaining_variance(all_, without(set, b));
+    });
+    auto const site = *least;
+    if (models::remaining_variance(all_, without(set, site)) > limit) break;
+    idle.insert(site);
+    set = without(set, site);
+  }
+  return idle;
+}
+
 SetFigures Judge::figures(Sites const& set) const {
   SetFigures result;
   auto const ordered = models::by_information(all_, set);
   double const variance = models::remaining_variance(all_, ordered);
+  auto const idle = idle_among(ordered);
   for (auto const site : ordered) {
-    Sites others;
-    std::copy_if(ordered.begin(), ordered.end(), std::back_inserter(others), [&](Index i) { return i != site; });
     auto const& described = sites_[std::size_t(site)];
-    double const without = std::sqrt(models::remaining_variance(all_, others));
-    result.sensors.push_back(
-        {described, positions_[std::size_t(site)], without, without < (1.0 + idle_share) * std::sqrt(variance)});
+    double const left = std::sqrt(models::remaining_variance(all_, without(ordered, site)));
+    result.sensors.push_back({described, positions_[std::size_t(site)], left, idle.contains(site)});
     result.cost += described.cost;
   }
   auto const predicted = moments_->cross_validated(ordered);
@@ -206,6 +234,28 @@ InformationMap Judge::map(Sites const& set) const {
   return map;
 }
 
+Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacement) const {
+  auto const found = effect_signatures(document_, sites_, options_.design);
+  auto signatures = found.signatures;
+  signatures.gram.resize(std::size_t(candidates_));
+  auto const set = models::place_to_distinguish(signatures, Index(for_displacement.size()));
+  auto const closest = models::closest_pair(signatures, set);
+  auto const [first, second] = signatures.pairs[closest.pair];
+  Sites every(static_cast<std::size_t>(candidates_));
+  std::iota(every.begin(), every.end(), Index(0));
+  distinction = {found.effects.size(),
+                 signatures.pairs.size(),
+                 found.alike,
+                 closest.angle,
+                 models::closest_pair(signatures, every).angle,
+                 models::closest_pair(signatures, for_displacement).angle,
+                 {},
+                 found.effects[std::size_t(first)],
+                 found.effects[std::size_t(second)]};
+  if (!proposed_.empty()) distinction.proposed = models::closest_pair(found.signatures, proposed_).angle;
+  return set;
+}
+
 PlacementReport Judge::operator()() {
   PlacementReport report;
   report.machine = machine_;
@@ -224,9 +274,10 @@ PlacementReport Judge::operator()() {
   report.floor_um = std::sqrt(models::remaining_variance(problem_, every));
 
   Index const count = options_.sensors, dead = options_.dead;
-  auto const chosen = best(count, dead);
+  auto chosen = best(count, dead);
   report.proved = dead == 0 && models::number_of_sets(candidates_, count) <= most_sets;
   report.bound_um = report.proved ? std::sqrt(chosen.variance) : std::sqrt(models::placement_bound(problem_, count));
+  if (options_.distinguish) chosen.sensors = distinguishing(report.distinction.emplace(), chosen.sensors);
   report.recommended = figures(chosen.sensors);
   if (count > 1) report.fewer = figures(best(count - 1, std::min(dead, count - 2)).sensors);
   if (count < candidates_) report.more = figures(best(count + 1, dead).sensors);

@@ -23,6 +23,7 @@ struct PlacementOptions {
   EnsembleOptions design;                     ///< machines and spectra that decide
   int unseen_members = 24;                    ///< machines that took no part
   std::vector<scenarios::Experiment> unseen;  ///< what those are put through; none: spectra drawn anew
+  bool distinguish = false;                   ///< choose such that missing effects are told apart, not by the error
   bool map = false;                           ///< how informative every node is
 };
 
@@ -32,7 +33,7 @@ struct SetFigures {
     CandidateSite site;
     Eigen::Vector3d position{0.0, 0.0, 0.0};  ///< [m]
     double error_without_um = 0.0;            ///< of the others [1σ]
-    bool idle = false;                        ///< the others alone are worse by less than 1 %
+    bool idle = false;                        ///< without all idle ones the set is worse by less than 1 %
   };
   struct Channel {
     std::string name;
@@ -55,6 +56,16 @@ struct InformationMap {
   Eigen::VectorXd beside_um;  ///< the same beside the recommended set
 };
 
+/// How well missing effects are told apart: the smallest angle between the signatures of any two [rad].
+struct Distinction {
+  std::size_t effects = 0, pairs = 0;
+  std::size_t alike = 0;  ///< pairs that a sensor at every candidate does not tell apart: cosine beyond 0.6
+  double recommended = 0.0, of_all = 0.0;
+  double for_displacement = 0.0;  ///< of as many sensors chosen for the displacement
+  std::optional<double> proposed;
+  std::string first, second;  ///< that the recommended set tells apart worst
+};
+
 struct PlacementReport {
   std::string machine;
   std::size_t candidates = 0;
@@ -68,10 +79,12 @@ struct PlacementReport {
   SetFigures recommended;
   std::optional<SetFigures> fewer, more, proposed;  ///< best sets of one sensor less, and one more
   std::optional<InformationMap> map;
+  std::optional<Distinction> distinction;
 };
 
 /// Chooses sensors before the hardware exists: V of the tool's displacement, all channels together, over machines that
-/// the file could stand for and spectra (Ensemble), by models::place; with few candidates all sets are looked at.
+/// the file could stand for and spectra (Ensemble), by models::place; with few candidates all sets are looked at. Or,
+/// to distinguish, for the smallest angle between effects that the machine may lack (EffectSignatures).
 /// InputError for sensors that cannot be placed or names that are not there.
 [[nodiscard]] PlacementReport place_sensors(Value const& document, PlacementOptions const& options);
 

@@ -1,0 +1,212 @@
+#include "twin/placement/sensor_placement.h"
+
+#include <algorithm>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "models/placement.h"
+#include "tests/output/temporary_directory.h"
+#include "tests/twin/random_machine.h"
+#include "thermal/error.h"
+#include "twin/machine.h"
+#include "twin/placement/snapshot_moments.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+Value v450() { return read_toml(machine_file("v450")); }
+
+PlacementOptions quick(int sensors) {
+  PlacementOptions options;
+  options.sensors = sensors;
+  options.design.members = 10;
+  options.unseen_members = 6;
+  return options;
+}
+
+std::string refusal(Value const& document, PlacementOptions const& options) {
+  try {
+    (void)place_sensors(document, options);
+  } catch (thermal::InputError const& error) {
+    return error.what();
+  }
+  return "";
+}
+
+CandidateRules rules_from(std::string const& text) {
+  tests::TemporaryDirectory const directory;
+  auto const path = directory.path() / "candidates.toml";
+  std::ofstream(path) << text;
+  return read_candidate_rules(path);
+}
+
+std::vector<std::string> names_of(std::vector<CandidateSite> const& sites) {
+  std::vector<std::string> names;
+  for (auto const& site : sites) names.push_back(site.name);
+  return names;
+}
+
+TEST(CandidateSites, AreOnWhatStandsStill) {
+  auto const document = v450();
+  EXPECT_THAT(turning_bodies(document), testing::UnorderedElementsAre("shaft", "test_bar"));
+  for (auto const& name : names_of(candidate_sites(document, {}))) {
+    EXPECT_FALSE(name.starts_with("shaft")) << name;
+    EXPECT_FALSE(name.starts_with("test_bar")) << name;
+  }
+}
+
+TEST(CandidateSites, CoverEverySolidWithinTheNumberAllowed) {
+  auto const document = read_toml(machine_file("v450_fine"));
+  CandidateRules rules;
+  rules.most = 60;
+  rules.forbidden = {"rotor"};
+  auto const names = names_of(candidate_sites(document, rules));
+  EXPECT_EQ(names.size(), 60U);
+  for (std::string const body : {"bed", "table", "column", "head", "cartridge", "front_ring", "motor"})
+    EXPECT_THAT(names, Contains(testing::StartsWith(body))) << body;
+  EXPECT_THAT(names, Contains("ambient"));
+  EXPECT_THAT(names, Not(Contains(testing::StartsWith("rotor"))));
+  EXPECT_NO_THROW((void)Machine::build(with_sensors_at(document, candidate_sites(document, rules))));
+}
+
+TEST(CandidateSites, AreThoseOfAFileWithTheirCosts) {
+  auto const rules = rules_from(
+      "budget = 3.5\n[[site]]\nat = \"head_front\"\ncost = 2.5\n[[site]]\nname = \"C\"\nat = \"cartridge[20 mm]\"\n"
+      "[[site]]\nat = \"column_rear\"\n");
+  auto const sites = candidate_sites(v450(), rules);
+  EXPECT_THAT(names_of(sites), testing::ElementsAre("head_front", "C", "column_rear"));
+  EXPECT_EQ(sites[0].cost, 2.5);
+  auto options = quick(3);
+  options.rules = rules;
+  EXPECT_LE(place_sensors(v450(), options).recommended.cost, 3.5);
+}
+
+TEST(CandidateSites, RefuseWhatIsNotThere) {
+  CandidateRules rules;
+  rules.forbidden = {"colum_front"};
+  auto options = quick(3);
+  options.rules = rules;
+  EXPECT_THAT(refusal(v450(), options), HasSubstr("did you mean 'column_front'?"));
+  EXPECT_THROW((void)rules_from("[[site]]\nname = \"A\"\n"), FileError);
+  EXPECT_THROW((void)rules_from("fobidden = [\"head\"]\n"), FileError);
+}
+
+/// Readings are the temperatures at the sites: every site's own column, and the same whatever stands beside it.
+TEST(Ensemble, IsTheSameForTheSameSeed) {
+  EnsembleOptions options;
+  options.members = 2;
+  auto const document = v450();
+  std::vector<CandidateSite> const two = {{"a", {"head_front"}}, {"b", {"cartridge[10 mm]"}}}, one = {two[1]};
+  auto const a = draw_ensemble(document, two, options), b = draw_ensemble(document, one, options);
+  EXPECT_EQ(a.rise.col(1), b.rise.col(0));
+  EXPECT_EQ(a.displacement, b.displacement);
+  EXPECT_EQ(a.runs.size(), 4U);
+  EXPECT_TRUE(a.rise.row(0).isZero());
+  EXPECT_THAT(a.channels, testing::ElementsAre("E_X", "E_Y", "E_Z"));
+}
+
+/// A sensor in every place that moves the tool leaves what the uncertain growth of the parts and its noise leave.
+TEST(SnapshotMoments, ForetellTheErrorOnMachinesThatTookNoPart) {
+  RandomMachine const machine(5);
+  auto const document = parse_toml(machine.text(), "random");
+  std::vector<CandidateSite> sites;
+  for (auto const& body : machine.bodies()) sites.push_back({body, {body}});
+  EnsembleOptions options;
+  options.members = 60;
+  auto const design = draw_ensemble(document, sites, options);
+  options.seed = 5000;
+  auto const unseen = draw_ensemble(document, sites, options);
+  SnapshotMoments const moments(design, 0.1);
+  auto const problem = moments.problem(Index(sites.size()));
+  auto const set = models::place(problem, 4).sensors;
+  double const predicted = moments.cross_validated(set).mean_square.sum();
+  double const realised = error_on(unseen, moments.estimate(set), moments.noise_variance()).mean_square.sum();
+  EXPECT_NEAR(predicted / realised, 1.0, 0.25);  // 60 machines, so 20 % of chance
+  EXPECT_GT(predicted, models::remaining_variance(problem, set));
+  EXPECT_NEAR(error_on(design, moments.estimate(set), moments.noise_variance()).mean_square.sum(),
+              models::remaining_variance(problem, set), 1e-6 * problem.prior);
+}
+
+TEST(PlaceSensors, TellsWhatSensorsAreWorth) {
+  auto options = quick(4);
+  options.proposed = {"T1", "T2", "T3", "T6"};
+  options.map = true;
+  auto const report = place_sensors(v450(), options);
+  auto const& best = report.recommended;
+  ASSERT_EQ(best.sensors.size(), 4U);
+  EXPECT_LT(best.model_um, report.prior_um);
+  EXPECT_GE(best.model_um, report.floor_um);
+  EXPECT_GE(best.model_um, report.bound_um * (1.0 - 1e-9));
+  EXPECT_GE(report.fewer->model_um, best.model_um);
+  EXPECT_LE(report.more->model_um, best.model_um);
+  EXPECT_GE(report.proposed->model_um, best.model_um);
+  EXPECT_LE(best.unseen_low_um, best.unseen_high_um);
+  for (auto const& sensor : best.sensors) EXPECT_GE(sensor.error_without_um, best.model_um);
+  auto const machine = Machine::build(v450());
+  ASSERT_EQ(report.map->alone_um.size(), machine.network().nodes());
+  EXPECT_GE(report.map->alone_um.minCoeff(), 0.0);
+  EXPECT_LE(report.map->alone_um.maxCoeff(), report.prior_um);
+}
+
+/// T6 sits on head_front: one of the two tells nothing that the other does not.
+TEST(PlaceSensors, FindsTheIdleSensorOfAProposal) {
+  auto options = quick(3);
+  options.proposed = {"head_front", "T6", "column_front"};
+  auto const report = place_sensors(v450(), options);
+  for (auto const& sensor : report.proposed->sensors)
+    EXPECT_EQ(sensor.idle, &sensor == &report.proposed->sensors.back()) << sensor.site.name;
+  EXPECT_NE(report.proposed->sensors.back().site.name, "column_front");
+}
+
+TEST(PlaceSensors, TellsMissingEffectsApart) {
+  RandomMachine const machine(3, 4, 1);
+  auto options = quick(2);
+  options.design.members = options.unseen_members = 3;
+  options.distinguish = true;
+  auto const report = place_sensors(parse_toml(machine.text(), "random"), options);
+  auto const& distinction = report.distinction.value();
+  EXPECT_GT(distinction.effects, 5U);
+  EXPECT_GE(distinction.recommended, distinction.for_displacement);
+  EXPECT_GT(distinction.recommended, 0.0);
+  EXPECT_LT(distinction.recommended, 1.5708);
+  EXPECT_THAT(placement_text(report), HasSubstr("degrees"));
+}
+
+TEST(PlaceSensors, SpeaksToPeopleAndPrograms) {
+  auto options = quick(2);
+  options.dead = 1;
+  auto const report = place_sensors(v450(), options);
+  auto const text = placement_text(report);
+  EXPECT_THAT(text, HasSubstr("recommended"));
+  EXPECT_THAT(text, HasSubstr("with any 1 of them dead"));
+  auto const json = nlohmann::json::parse(placement_json(report));
+  EXPECT_EQ(json["recommended"]["sensors"].size(), 2U);
+  EXPECT_NEAR(json["recommended"]["model_um"], report.recommended.model_um, 1e-9);
+  auto document = v450();
+  std::string const file = "name = \"x\"\n" + sensor_tables(report);
+  EXPECT_EQ(std::get<Value::List>(parse_toml(file, "tables").find("temperature_sensor")->content).size(), 2U);
+}
+
+TEST(PlaceSensors, RefusesWhatCannotBe) {
+  EXPECT_THAT(refusal(v450(), quick(0)), HasSubstr("at least 1"));
+  EXPECT_THAT(refusal(v450(), quick(500)), HasSubstr("candidate sites"));
+  auto options = quick(3);
+  options.dead = 3;
+  EXPECT_THAT(refusal(v450(), options), HasSubstr("3 of 3 sensors dead"));
+  options = quick(3);
+  options.proposed = {"T1", "haed_front"};
+  EXPECT_THAT(refusal(v450(), options), HasSubstr("did you mean 'head_front'?"));
+  options.proposed = {"cartridge[900 mm]"};
+  EXPECT_THAT(refusal(v450(), options), HasSubstr("900 mm is outside 'cartridge'"));
+  EXPECT_THAT(refusal(read_toml(machine_file("water_pipe")), quick(1)), HasSubstr("no displacement"));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
