@@ -1,19 +1,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <vtkActor.h>
-#include <vtkAxesActor.h>
 #include <vtkBillboardTextActor3D.h>
-#include <vtkCamera.h>
-#include <vtkCaptionActor2D.h>
 #include <vtkCellArray.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkDoubleArray.h>
 #include <vtkFeatureEdges.h>
-#include <vtkImageShrink3D.h>
 #include <vtkLight.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -22,28 +17,24 @@
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkTextActor.h>
 #include <vtkTextProperty.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkWindowToImageFilter.h>
 
 #include "output/atomic_file.h"
 #include "output/display.h"
 #include "output/picture.h"
 #include "output/vtk_grid.h"
 #include "output/vtk_page.h"
+#include "output/vtk_view.h"
 #include "thermal/error.h"
 
 namespace thermotwin::output {
 namespace {
 
 constexpr Colour edge_ink = {0.86, 0.88, 0.91};
-constexpr Colour faint_ink = {0.52, 0.55, 0.60};
 constexpr Colour sensor_red = {0.86, 0.15, 0.15};
 
 constexpr double largest_shown = 0.05;  // displacement, of the machine's diagonal
-constexpr int oversampling = 2;         // drawn so many times larger and averaged: smooth edges in software too
 
 /// The machine's skin at rest or deformed, coloured by temperature.
 class Skin {
@@ -130,68 +121,6 @@ void add_edges(vtkRenderer& renderer, vtkPolyData* surface, Colour const& colour
   renderer.AddActor(actor);
 }
 
-/// Columns: to the right, away from the viewer, up.
-Eigen::Matrix3d axes_of_view(PictureOptions const& options) {
-  Eigen::Matrix3d axes;
-  axes.col(2) = options.up;
-  axes.col(0) = options.up.x() == 0.0 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  return axes;
-}
-
-/// Parallel, from the front, right and above; the points fill the part of the picture that the texts leave free.
-void aim(vtkRenderer& renderer, Eigen::Matrix3Xd const& points, PictureOptions const& options) {
-  constexpr double left = 0.03, right = 0.84, bottom = 0.05, top = 0.86;
-  Eigen::Vector3d const towards_viewer = axes_of_view(options) * Eigen::Vector3d(0.75, -1.0, 0.62).normalized();
-  Eigen::Vector3d const across = options.up.cross(towards_viewer).normalized();
-  Eigen::Vector3d const up = towards_viewer.cross(across);
-  Eigen::RowVectorXd const x = across.transpose() * points, y = up.transpose() * points;
-  double const aspect = static_cast<double>(options.width) / options.height;
-  double const scale = std::max((y.maxCoeff() - y.minCoeff()) / (top - bottom),
-                                (x.maxCoeff() - x.minCoeff()) / ((right - left) * aspect)) /
-                       2;
-  double const x_middle = (x.maxCoeff() + x.minCoeff()) / 2 - scale * aspect * (left + right - 1);
-  double const y_middle = (y.maxCoeff() + y.minCoeff()) / 2 - scale * (bottom + top - 1);
-  Eigen::Vector3d const focus = x_middle * across + y_middle * up;
-  double const distance = 10 * scale;  // in front of everything; parallel, so it changes nothing else
-  auto& camera = *renderer.GetActiveCamera();
-  camera.ParallelProjectionOn();
-  camera.SetParallelScale(scale);
-  camera.SetFocalPoint(focus.data());
-  camera.SetPosition(Eigen::Vector3d(focus + distance * towards_viewer).data());
-  camera.SetViewUp(options.up.data());
-  renderer.ResetCameraClippingRange();
-}
-
-void add_axes(vtkRenderWindow& window, vtkCamera& camera, int font_size) {
-  vtkNew<vtkRenderer> corner;
-  corner->SetViewport(0.0, 0.0, 0.11, 0.17);
-  corner->SetLayer(1);
-  corner->InteractiveOff();
-  vtkNew<vtkAxesActor> axes;
-  axes->SetConeRadius(0.3);
-  for (auto* shaft : {axes->GetXAxisShaftProperty(), axes->GetYAxisShaftProperty(), axes->GetZAxisShaftProperty(),
-                      axes->GetXAxisTipProperty(), axes->GetYAxisTipProperty(), axes->GetZAxisTipProperty()}) {
-    shaft->SetColor(faint_ink[0], faint_ink[1], faint_ink[2]);
-    shaft->SetLineWidth(3);
-  }
-  for (auto* caption :
-       {axes->GetXAxisCaptionActor2D(), axes->GetYAxisCaptionActor2D(), axes->GetZAxisCaptionActor2D()}) {
-    caption->GetTextActor()->SetTextScaleModeToNone();
-    set_style(*caption->GetCaptionTextProperty(), font_size, true);
-  }
-  corner->AddActor(axes);
-  corner->GetActiveCamera()->ParallelProjectionOn();
-  corner->GetActiveCamera()->SetPosition(camera.GetDirectionOfProjection()[0] * -1,
-                                         camera.GetDirectionOfProjection()[1] * -1,
-                                         camera.GetDirectionOfProjection()[2] * -1);
-  corner->GetActiveCamera()->SetFocalPoint(0, 0, 0);
-  corner->GetActiveCamera()->SetViewUp(camera.GetViewUp());
-  corner->ResetCamera();
-  corner->GetActiveCamera()->Zoom(0.9);
-  window.AddRenderer(corner);
-}
-
 /// On a layer of their own, so that no wall hides them.
 void add_sensors(vtkRenderWindow& window, vtkCamera* camera, Skin const& skin, double magnification,
                  PictureOptions const& options, Page const& page) {
@@ -233,26 +162,9 @@ void add_light(vtkRenderer& renderer, PictureOptions const& options) {
   vtkNew<vtkLight> light;
   light->SetLightTypeToSceneLight();
   light->PositionalOff();
-  light->SetPosition(Eigen::Vector3d(axes_of_view(options) * Eigen::Vector3d(0.3, -0.55, 0.78)).data());
+  light->SetPosition(Eigen::Vector3d(axes_of_view(options.up) * Eigen::Vector3d(0.3, -0.55, 0.78)).data());
   light->SetFocalPoint(0, 0, 0);
   renderer.AddLight(light);
-}
-
-std::string as_png(vtkRenderWindow* window) {
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(window);
-  image->SetInputBufferTypeToRGB();
-  image->ReadFrontBufferOff();
-  vtkNew<vtkImageShrink3D> mean;
-  mean->SetInputConnection(image->GetOutputPort());
-  mean->SetShrinkFactors(oversampling, oversampling, 1);
-  mean->AveragingOn();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(mean->GetOutputPort());
-  writer->WriteToMemoryOn();
-  writer->Write();
-  auto* const bytes = writer->GetResult();
-  return {reinterpret_cast<char const*>(bytes->GetPointer(0)), static_cast<std::size_t>(bytes->GetNumberOfValues())};
 }
 
 double magnification_for(Skin const& skin, PictureOptions const& options) {
@@ -303,7 +215,7 @@ void render_picture(thermal::Geometry const& geometry, Frame const& frame, std::
   window->SetSize(width, height);
   window->SetNumberOfLayers(2);
   window->AddRenderer(scene);
-  aim(*scene, skin.points(magnification), options);
+  aim(*scene, skin.points(magnification), options.up, double(options.width) / options.height, {});
   if (!options.sensors.empty()) add_sensors(*window, scene->GetActiveCamera(), skin, magnification, options, page);
   add_axes(*window, *scene->GetActiveCamera(), page.scaled(20));
   window->Render();

@@ -13,6 +13,7 @@
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "twin/challenge/challenge.h"
+#include "twin/command_line_volumetric.h"
 #include "twin/command_line_place.h"
 #include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/comparison.h"
@@ -311,6 +312,7 @@ int command_line(int argc, char** argv) {
   add_diagnose_command(app);
   add_compare_command(app);
   add_challenge_command(app);
+  add_volumetric_command(app);
   add_place_command(app, stop_requested);
   add_report_command(app);
   std::signal(SIGINT, [](int) { stop_requested = true; });

@@ -9,6 +9,7 @@
 #include "twin/carried_bodies.h"
 #include "twin/channel_flow.h"
 #include "twin/file/tables.h"
+#include "twin/volumetric/volumetric_machine.h"
 
 namespace thermotwin::twin {
 
@@ -34,7 +35,8 @@ std::vector<std::string> const& own_tables() {
                                                  "ball_screw",
                                                  "displacement_probe",
                                                  "five_probe_nest",
-                                                 "laser"};
+                                                 "laser",
+                                                 "volumetric"};
   return names;
 }
 
@@ -101,6 +103,7 @@ class MachineBuilder {
   void read_displacements();
   void read_screws();
   void read_displacement_instruments();
+  void check_volumetric() const;
   void build_network();
   void hang_bodies();
 
@@ -244,6 +247,25 @@ void MachineBuilder::read_displacement_instruments() {
   if (Value const* table = document_.find("laser")) read_fields(*table, machine_.laser);
 }
 
+/// The volumetric errors are no part of the network; what they refer to must be there.
+void MachineBuilder::check_volumetric() const {
+  Value const* table = document_.find("volumetric");
+  if (!table) return;
+  std::vector<std::string> screws, channels;
+  for (auto const& screw : machine_.screws) screws.push_back(screw.description.name);
+  for (auto const& channel : machine_.displacements) channels.push_back(channel.name);
+  auto const check = [](std::string const& kind, std::string const& name, std::vector<std::string> const& known) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(fmt::format("unknown {} '{}'; {}", kind, name, thermal::did_you_mean(name, known)));
+  };
+  auto const description = read_volumetric(document_).description;
+  located(*table, [&] {
+    for (auto const& axis : description.axis)
+      if (!axis.screw.empty()) check("ball_screw", axis.screw, screws);
+    for (auto const& growth : description.growth) check("displacement", growth.channel, channels);
+  });
+}
+
 void MachineBuilder::build_network() {
   try {
     machine_.network_ = std::make_shared<thermal::Network const>(assembly_.network().build());
@@ -293,6 +315,7 @@ Machine MachineBuilder::operator()() {
   read_displacements();
   read_screws();
   read_displacement_instruments();
+  check_volumetric();
   machine_.reading_terms = assembly_.reading_terms();
   assembly_.add_air_terms();
   build_network();
@@ -339,7 +362,9 @@ std::vector<TableRecord> describe_machine() {
       {"ball_screw", "error of position along a stroke", list_fields<BallScrewDescription>()},
       {"displacement_probe", "an eddy-current or capacitive probe", list_fields<ProbeDescription>()},
       {"five_probe_nest", "X1, Y1, X2, Y2 and Z about a test bar; one table", list_fields<FiveProbeNest>()},
-      {"laser", "laser interferometer along an axis; one table", list_fields<LaserInterferometer>()}};
+      {"laser", "laser interferometer along an axis; one table", list_fields<LaserInterferometer>()},
+      {"volumetric", "21 error elements of a machine with three linear axes; one table",
+       list_fields<VolumetricDescription>()}};
   for (auto const& entry : effect_catalogue()) tables.push_back({entry.name, entry.meaning, entry.parameters});
   return tables;
 }

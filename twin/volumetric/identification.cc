@@ -144,11 +144,13 @@ std::vector<std::string> limits(Closure const& closure) {
                     "not square to their diagonals, or angular errors; the plain identification takes them "
                     "for squareness and scale",
                     1e6 * mean, 1e6 * closure.noise / std::sqrt(double(closure.residuals.cols()))));
+  double const change = std::sqrt((closure.residuals.colwise() - closure.residuals.rowwise().mean()).squaredNorm() /
+                                  double(closure.residuals.size()));
   if (closure.change_by_chance() < rare)
     found.push_back(
         fmt::format("the closures change along the axes (rms {:.2f} µm, laser noise alone: {:.2f}): "
                     "angular errors, which nine functions cannot represent off the diagonals",
-                    1e6 * closure.rms(), 1e6 * closure.noise));
+                    1e6 * change, 1e6 * closure.noise));
   return found;
 }
 
