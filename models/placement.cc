@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using Set = std::vector<Index>;
 
-constexpr Index most_starts = 200, most_polished = 24, most_sites_for_pairs = 1000;
+constexpr Index most_starts = 200, most_polished = 24, most_sites_for_pairs = 300;
 constexpr double least_progress = 1e-10;  // of an exchange, relative
 constexpr double intact_share = 1e-3;     // of the intact set's V in a robust objective: settles ties
 

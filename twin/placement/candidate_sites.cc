@@ -167,6 +167,14 @@ std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules
   return sites;
 }
 
+std::vector<CandidateSite> with_spares(std::vector<CandidateSite> sites, int spares) {
+  auto const once = sites;
+  for (int i = 1; i <= spares; ++i)
+    for (auto const& site : once)
+      sites.push_back({site.name + (i == 1 ? " (spare)" : fmt::format(" (spare {})", i)), site.at, site.cost});
+  return sites;
+}
+
 Value with_sensors_at(Value document, std::vector<CandidateSite> const& sites) {
   int number = 0;
   for (auto const& site : sites) {

@@ -66,6 +66,9 @@ struct CandidateRules {
 /// own diagonal. InputError for an unknown body, or a machine without any site.
 [[nodiscard]] std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules const& rules);
 
+/// Room for `spares` more sensors beside each: the sites, then as many copies "… (spare)", one after another.
+[[nodiscard]] std::vector<CandidateSite> with_spares(std::vector<CandidateSite> sites, int spares);
+
 /// The document with one more ideal sensor per site, after those that it has: `Machine::sensors` ends with them.
 [[nodiscard]] Value with_sensors_at(Value document, std::vector<CandidateSite> const& sites);
 

@@ -65,7 +65,8 @@ class Proposal {
     if (std::find(bodies_.begin(), bodies_.end(), body) != bodies_.end()) return {name, {name}};
     auto known = bodies_;
     for (auto const& sensor : sensors_) known.push_back(sensor.name);
-    for (auto const& site : sites_) known.push_back(site.name);
+    for (auto const& site : sites_)
+      if (std::find(known.begin(), known.end(), site.name) == known.end()) known.push_back(site.name);
     throw InputError(
         fmt::format("there is no site, sensor or body '{}'; {}", name, thermal::did_you_mean(name, known)));
   }
@@ -108,7 +109,8 @@ class Judge {
   Value const& document_;
   PlacementOptions const& options_;
   std::vector<CandidateSite> sites_;
-  Index candidates_;
+  Index places_;          ///< the first of the sites: candidates without spares
+  Index candidates_ = 0;  ///< with spares; proposed sites follow
   Sites proposed_;
   std::string machine_;
   std::vector<Eigen::Vector3d> positions_;
@@ -122,8 +124,10 @@ Judge::Judge(Value const& document, PlacementOptions const& options)
     : document_(document),
       options_(options),
       sites_(candidate_sites(document, options.rules)),
-      candidates_(Index(sites_.size())) {
+      places_(Index(sites_.size())) {
   check(options, sites_.size());
+  sites_ = with_spares(sites_, options.dead);
+  candidates_ = Index(sites_.size());
   Proposal proposal(document, sites_);
   for (auto const& name : options.proposed) proposed_.push_back(proposal.index_of(name));
   Machine const machine = Machine::build(with_sensors_at(document, sites_));
@@ -241,7 +245,7 @@ Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacem
   auto const set = models::place_to_distinguish(signatures, Index(for_displacement.size()));
   auto const closest = models::closest_pair(signatures, set);
   auto const [first, second] = signatures.pairs[closest.pair];
-  Sites every(static_cast<std::size_t>(candidates_));
+  Sites every(static_cast<std::size_t>(places_));
   std::iota(every.begin(), every.end(), Index(0));
   distinction = {found.effects.size(),
                  signatures.pairs.size(),
@@ -259,7 +263,7 @@ Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacem
 PlacementReport Judge::operator()() {
   PlacementReport report;
   report.machine = machine_;
-  report.candidates = std::size_t(candidates_);
+  report.candidates = std::size_t(places_);
   report.members = options_.design.members;
   report.unseen_members = options_.unseen_members;
   report.dead = options_.dead;
@@ -269,7 +273,7 @@ PlacementReport Judge::operator()() {
   for (auto const& run : unseen_.runs)
     if (run.member == 0) report.unseen_experiments.push_back(run.experiment);
   report.prior_um = std::sqrt(problem_.prior);
-  Sites every(static_cast<std::size_t>(candidates_));
+  Sites every(static_cast<std::size_t>(places_));
   std::iota(every.begin(), every.end(), Index(0));
   report.floor_um = std::sqrt(models::remaining_variance(problem_, every));
 

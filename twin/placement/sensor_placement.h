@@ -16,7 +16,7 @@ namespace thermotwin::twin {
 /// What to place sensors for.
 struct PlacementOptions {
   int sensors = 6;
-  int dead = 0;        ///< sensors whose loss shall hurt least
+  int dead = 0;        ///< sensors whose loss shall hurt least; every site then has room for as many spares
   double noise = 0.1;  ///< standard deviation of each sensor's own error [K]
   CandidateRules rules;
   std::vector<std::string> proposed;          ///< a set to judge: sites, sensors of the machine, or places

@@ -98,6 +98,13 @@ TEST(CandidateSites, RefuseWhatIsNotThere) {
   EXPECT_THROW((void)rules_from("fobidden = [\"head\"]\n"), FileError);
 }
 
+TEST(CandidateSites, HaveRoomForSpares) {
+  auto const sites = with_spares({{"a", {"motor"}, 2.0}, {"b", {"bed"}, 1.0}}, 2);
+  EXPECT_THAT(names_of(sites), testing::ElementsAre("a", "b", "a (spare)", "b (spare)", "a (spare 2)", "b (spare 2)"));
+  EXPECT_EQ(sites[4].cost, 2.0);
+  EXPECT_EQ(sites[4].at, sites[0].at);
+}
+
 /// Readings are the temperatures at the sites: every site's own column, and the same whatever stands beside it.
 TEST(Ensemble, IsTheSameForTheSameSeed) {
   EnsembleOptions options;
