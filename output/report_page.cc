@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 #include <zlib.h>
 
 namespace thermotwin::output {
@@ -16,10 +18,21 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the page reads numbers as they lie in memory");
 
-/// The page before and after its data, as output/web/build.mjs made it.
-std::string_view const shell[] = {  // too long for a compiler to measure
-#include "output/web/page.inc"
-};
+/// The page without data, as output/web/build.mjs made it: too long for a C++ text.
+// clang-format off
+__asm__(".section .rodata\n"
+        "thermotwin_page_begin: .incbin \"" THERMOTWIN_PAGE "\"\n"
+        "thermotwin_page_end: .previous\n");
+// clang-format on
+extern "C" char const thermotwin_page_begin[], thermotwin_page_end[];
+
+/// Data go where the mark is.
+std::pair<std::string_view, std::string_view> shell() {
+  constexpr std::string_view mark = "<!--data-->";
+  std::string_view const page(thermotwin_page_begin, std::size_t(thermotwin_page_end - thermotwin_page_begin));
+  auto const at = page.find(mark);
+  return {page.substr(0, at), page.substr(at + mark.size())};
+}
 
 std::string deflated(std::string const& bytes) {
   auto size = compressBound(uLong(bytes.size()));
@@ -91,13 +104,14 @@ void ReportPage::add_section(std::string_view kind, Json section) {
 }
 
 std::string ReportPage::html() const {
+  auto const [before, after] = shell();
   std::string const document =
       fmt::format(R"({{"title":{},"version":{},"bytes":{},"sections":[{}]}})", Json(title_).dump(),
                   Json(version_).dump(), numbers_.size(), fmt::join(sections_, ","));
   return fmt::format(
       "{}<script type=\"application/json\" id=\"document\">{}</script>\n"
       "<script type=\"text/plain\" id=\"numbers\">{}</script>\n{}",
-      shell[0], for_script(document), base64(deflated(numbers_)), shell[1]);
+      before, for_script(document), base64(deflated(numbers_)), after);
 }
 
 }  // namespace thermotwin::output

@@ -1,5 +1,5 @@
-// build.mjs OUTPUT          bundles the page and writes it as two C++ texts: what stands before its data, and after.
-// build.mjs --tests FOLDER  bundles the tests, for node --test.
+// build.mjs OUTPUT          bundles the page into one file, to which the program adds data.
+// build.mjs --tests FOLDER  bundles the tests, for node --test, and measure.cjs.
 import {mkdirSync, readFileSync, readdirSync, writeFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
@@ -20,11 +20,6 @@ function bundled(entry, options = {}) {
 /** `</script` in a string of the program would end it in the middle. */
 const insideScript = (text) => text.replaceAll('</script', '<\\/script');
 
-function asCpp(text) {
-  if (text.includes(')page"')) throw new Error('the page holds the end of a C++ text');
-  return `R"page(${text})page"`;
-}
-
 function buildPage(output) {
   const parts = {
     style: bundled('page.css'),
@@ -32,18 +27,17 @@ function buildPage(output) {
   };
   const html = readFileSync(join(here, 'src/page.html'), 'utf8')
     .replace(/<!--(style|script)-->/g, (_, name) => parts[name]);
-  const halves = html.split('<!--data-->');
-  if (halves.length !== 2) throw new Error('page.html needs <!--data--> once');
+  if (html.split('<!--data-->').length !== 2) throw new Error('page.html needs <!--data--> once');
   mkdirSync(dirname(output), {recursive: true});
-  writeFileSync(output, halves.map(asCpp).join(',\n') + '\n');
+  writeFileSync(output, html);
 }
 
 function buildTests(folder) {
-  const tests = readdirSync(join(here, 'test')).filter((name) => name.endsWith('.test.ts'));
+  const tests = readdirSync(join(here, 'test')).filter((name) => name.endsWith('.test.ts') || name === 'measure.ts');
   esbuild.buildSync({
     entryPoints: tests.map((name) => join(here, 'test', name)),
-    bundle: true, platform: 'node', format: 'esm', outdir: folder, outExtension: {'.js': '.mjs'},
-    external: ['playwright-core'], nodePaths: [join(here, 'node_modules')], logLevel: 'warning',
+    bundle: true, platform: 'node', format: 'cjs', outdir: folder, outExtension: {'.js': '.cjs'},
+    external: ['playwright-core'], logLevel: 'warning',
   });
 }
 

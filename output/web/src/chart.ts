@@ -42,7 +42,10 @@ function styleOf(name: string): string {
 
 /** A little more than the values need; a course that stays where it is lies in the middle. */
 function roomFor(low: number, high: number): [number, number] {
-  if (high - low < 1e-6 * Math.abs(high)) return [low - 1, high + 1];
+  if (high - low < 1e-6 * Math.abs(high)) {
+    const room = Math.max(1, 0.05 * Math.abs(high));
+    return [low - room, high + room];
+  }
   return uPlot.rangeNum(low, high, 0.08, true) as [number, number];
 }
 

@@ -26,8 +26,8 @@ function dress(element: Element, attributes: Attributes, children: Child[]): voi
 }
 
 /** A panel with its title, what is said beside it, and its numbers as CSV. */
-export function panel(title: string, file: string, columns: (() => Column[]) | null, ...children: Child[]): HTMLElement {
-  const button = columns && make('button', {
+export function panel(title: string, file: string, columns: () => Column[], ...children: Child[]): HTMLElement {
+  const button = make('button', {
     class: 'quiet', title: `numbers of “${title}” as CSV`, 'aria-label': `Download ${title} as CSV`,
     onclick: () => download(`${file}.csv`, csv(columns())),
   }, 'CSV');

@@ -38,7 +38,7 @@ export class SurfaceField {
   }
 
   /** The largest of any point at any of `samples` times. */
-  largestDisplacement(samples = 40): number {
+  largestDisplacement(samples = 12): number {
     const last = this.time.length - 1, into = new Float32Array(3 * this.start.length);
     let largest = 0;
     for (let s = 1; s <= samples; ++s) {

@@ -8,6 +8,7 @@ import {grouped, roundDown, roundTicks, timeText} from './format';
 import {Scene} from './scene';
 import {SensorMarks} from './sensor_marks';
 import type {PageState} from './signal';
+import {visibleTriangles} from './visible';
 
 const factors = (largest: number): number[] => [0, ...[0.2, 0.5, 1, 2, 5].map((m) => roundDown(m * largest * 1.0001))];
 
@@ -31,6 +32,7 @@ export class MachineView {
   private dirty = {field: true, spots: true};
   private hidden: boolean[] = [];
   private fineness = 1;
+  private sized = 0;
   private slow = 0;
   private settle = 0;
 
@@ -73,6 +75,7 @@ export class MachineView {
       oninput: (event) => {
         this.factor = choices[+(event.target as HTMLInputElement).value]!;
         text.textContent = `×${grouped(this.factor)}`;
+        this.dirty.spots = true;
         this.refresh();
       },
     }), text);
@@ -209,6 +212,8 @@ export class MachineView {
   }
 
   private setFineness(fineness: number): void {
+    if (fineness === this.fineness && this.sized === this.stage.clientWidth) return;
+    this.sized = this.stage.clientWidth;
     this.fineness = fineness;
     const ratio = fineness * Math.min(2, devicePixelRatio);
     this.scene.resize(this.stage.clientWidth * ratio, this.stage.clientHeight * ratio);
@@ -227,20 +232,22 @@ export class MachineView {
   /** A machine that cannot follow gets fewer pixels while things move, and all of them when they rest. */
   private adapt(took: number): void {
     this.slow = 0.7 * this.slow + 0.3 * took;
-    if (this.slow > 30 && this.fineness > 0.4) {
+    if (this.slow > 30 && this.fineness > 0.5) {
       this.setFineness(this.fineness / 1.5);
       this.slow = 20;
     }
     clearTimeout(this.settle);
-    if (this.fineness < 1) this.settle = setTimeout(() => {
+    this.settle = setTimeout(() => {
       this.setFineness(1);
+      this.dirty.spots = true;
       this.draw();
-    }, 300) as unknown as number;
+    }, 500) as unknown as number;
   }
 
   private draw(): void {
     const t = this.state.time.value;
     if (this.dirty.field) this.showField(t);
+    if (this.dirty.spots) this.showVisible();
     this.scene.draw(this.camera);
     this.placeMarks();
     this.dirty = {field: false, spots: false};
@@ -262,6 +269,11 @@ export class MachineView {
       const value = course ? valueAt(course, t) : NaN;
       return Number.isFinite(value) ? css(viridis((value - low) / (high - low))) : 'transparent';
     }));
+  }
+
+  private showVisible(): void {
+    const aspect = this.stage.clientWidth / Math.max(1, this.stage.clientHeight);
+    this.scene.show(visibleTriangles(this.camera, this.scene.points, this.triangles, aspect));
   }
 
   private placeMarks(): void {

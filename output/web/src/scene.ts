@@ -82,6 +82,12 @@ export class Scene {
     return mapper;
   }
 
+  /** The faces to draw: what is hidden anyway need not be. */
+  show(triangles: ArrayLike<number>): void {
+    this.surface.getPolys().setData(withSizes(triangles, 3));
+    this.surface.modified();
+  }
+
   /** Edges of a part: pairs of points. */
   choose(edges: ArrayLike<number>): void {
     this.chosen.getLines().setData(withSizes(edges, 2));

@@ -20,7 +20,7 @@ export function timeBar(state: PageState, start: number, end: number): HTMLEleme
     },
   });
   const text = make('output', {class: 'time'});
-  let last = 0, playing = false;
+  let last = 0, playing = false, told = 0;
   const button = make('button', {class: 'play', 'aria-label': 'Play', onclick: () => play(!playing)});
 
   function play(on: boolean): void {
@@ -44,7 +44,8 @@ export function timeBar(state: PageState, start: number, end: number): HTMLEleme
 
   state.time.watch((t) => {
     slider.value = String(t);
-    slider.setAttribute('aria-valuetext', timeText(t - start));
+    clearTimeout(told);
+    told = setTimeout(() => slider.setAttribute('aria-valuetext', timeText(t)), 200) as unknown as number;
     slider.style.setProperty('--share', String((t - start) / (end - start || 1)));
     text.textContent = timeText(t);
   });

@@ -1,4 +1,5 @@
 import {cividis, css, gradient} from '../colours';
+import type {Column} from '../csv';
 import type {DiagnosisSection, Finding, Gap} from '../data';
 import {colourBar, make, panel} from '../dom';
 import {roundTicks, unitText} from '../format';
@@ -84,6 +85,14 @@ function interval(effect: Finding): HTMLElement {
     make('span', {class: 'number'}, effect.text.replaceAll('-', '−').replace(/\bu(?=m\b|rad\b)/g, 'µ')));
 }
 
+function gapColumns(gaps: Gap[]): Column[] {
+  return [
+    {name: 'run', values: gaps.map((g) => g.run)}, {name: 'channel', values: gaps.map((g) => g.channel)},
+    {name: 'unit', values: gaps.map((g) => g.unit)}, {name: 'before', values: gaps.map((g) => g.before)},
+    {name: 'after', values: gaps.map((g) => g.after)},
+  ];
+}
+
 /** A row per channel: from the ring, before, to the disc, after. */
 function gapPanel(title: string, file: string, gaps: Gap[]): HTMLElement {
   const units = [...new Set(gaps.map((g) => g.unit))], runs = [...new Set(gaps.map((g) => g.run))];
@@ -94,11 +103,7 @@ function gapPanel(title: string, file: string, gaps: Gap[]): HTMLElement {
       make('p', {class: 'label'}, runs.length > 1 || units.length > 1 ? `${run}, ${unitText(unit)}` : unitText(unit)),
       ...shown.map((gap) => gapRow(gap, highest)), gapAxis(ticks, `RMS / ${unitText(unit)}`));
   }));
-  return panel(title, file, () => [
-    {name: 'run', values: gaps.map((g) => g.run)}, {name: 'channel', values: gaps.map((g) => g.channel)},
-    {name: 'unit', values: gaps.map((g) => g.unit)}, {name: 'before', values: gaps.map((g) => g.before)},
-    {name: 'after', values: gaps.map((g) => g.after)},
-  ], make('p', {class: 'key'}, make('span', {}, make('i', {class: 'ring'}), 'before'), make('span', {}, make('i', {class: 'disc'}), 'after')),
+  return panel(title, file, () => gapColumns(gaps), make('p', {class: 'key'}, make('span', {}, make('i', {class: 'ring'}), 'before'), make('span', {}, make('i', {class: 'disc'}), 'after')),
   ...blocks);
 }
 
@@ -144,7 +149,7 @@ function residualHeatMap(gaps: Gap[]): HTMLElement | false {
       return [cell(gap, gap?.before), cell(gap, gap?.after)];
     }));
   });
-  return panel('Residual per channel and run, RMS', 'residual_heat_map', null, make('div', {class: 'scroll'}, make('table', {class: 'heat-map'},
+  return panel('Residual per channel and run, RMS', 'residual_heat_map', () => gapColumns(gaps), make('div', {class: 'scroll'}, make('table', {class: 'heat-map'},
     make('tr', {}, make('td', {}), ...runs.map((run) => make('th', {colspan: 2, scope: 'colgroup'}, run))),
     make('tr', {}, make('td', {}), ...runs.flatMap(() => [make('th', {}, 'before'), make('th', {}, 'after')])), ...rows)),
   colourBar(gradient(cividis), ticks, 'RMS in units of 0.1 K and 1 µm'));

@@ -3,17 +3,10 @@ import {css, gradient, viridis} from '../colours';
 import {extent, rowAt} from '../course';
 import {colourBar, make, panel} from '../dom';
 import type {Numbers, Positioning} from '../data';
+import {edgesAround} from '../edges';
 import {roundTicks, timeText, timeUnitFor} from '../format';
 import type {PageState} from '../signal';
 import type {Run} from './run_data';
-
-/** Edges half-way between places; the outer ones as far out. */
-export function edgesAround(places: ArrayLike<number>): number[] {
-  const p = Array.from(places), n = p.length;
-  if (n === 1) return [p[0]! - 0.5, p[0]! + 0.5];
-  const middles = p.slice(1).map((x, i) => (x + p[i]!) / 2);
-  return [2 * p[0]! - middles[0]!, ...middles, 2 * p[n - 1]! - middles[n - 2]!];
-}
 
 /** What the laser saw: the error along the stroke, pass by pass, and as a map over stroke and time. */
 export function positioningPanels(runs: Run[], numbers: Numbers, state: PageState, range: [number, number]): HTMLElement[] {

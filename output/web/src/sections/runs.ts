@@ -1,7 +1,7 @@
 import {make} from '../dom';
 import type {Numbers, RunsSection} from '../data';
 import {bodyCourses} from '../field';
-import {valueText} from '../format';
+import {unitText, valueText} from '../format';
 import {MachineView} from '../machine_view';
 import type {PageState} from '../signal';
 import {timeBar} from '../time_bar';
@@ -35,7 +35,8 @@ export function runsSection(section: RunsSection, numbers: Numbers, state: PageS
 
   const inputs = [...byUnit(shownInputs(reference, numbers))].map(([unit, channels]) => coursesPanel({
     title: inputTitles[unit] ?? channels[0]!.name, file: `input_${unit.replace(/\W/g, '_')}`,
-    quantity: quantities[unit] ?? 'Value', runs: [{name: reference.name, channels}], kind: null, state, range, height: 130,
+    quantity: unit === 'degC' ? 'Air' : quantities[unit] ?? 'Value', runs: [{name: reference.name, channels}], kind: null, state, range,
+    height: 138,
   }));
   const side = make('div', {class: 'side'}, ...machineParts(section, numbers, runs, state));
   const courses = make('div', {class: 'courses'}, ...inputs,
@@ -44,7 +45,7 @@ export function runsSection(section: RunsSection, numbers: Numbers, state: PageS
   if (runs.length > 1) chooseWorst(runs, state);
   return make('section', {class: 'runs', 'data-kind': 'runs'},
     make('div', {class: side.childElementCount ? 'split' : 'whole'}, side, courses),
-    make('div', {class: 'grid'}, ...below),
+    make('div', {class: 'flow'}, ...below),
     timeBar(state, ...range));
 }
 
@@ -107,7 +108,7 @@ function factsPanel(runs: Run[]): HTMLElement {
       ['data set', run.set.title],
       ['rows', `${run.time.length}${run.set.complete ? '' : ', interrupted: the run did not end'}`],
       ...Object.entries(run.set.facts),
-      ...constants.map((c): [string, string] => [c.name, `${valueText(c.constant!, c.unit)} ${c.unit === '1' ? '' : c.unit}, constant`]),
+      ...constants.map((c): [string, string] => [c.name, `${valueText(c.constant!, c.unit)} ${unitText(c.unit)}`.trim() + ', constant']),
     ];
     return make('details', {open: runs.length === 1}, make('summary', {}, run.name),
       make('table', {class: 'facts'}, ...rows.map(([key, value]) => make('tr', {}, make('th', {scope: 'row'}, key), make('td', {}, value)))));

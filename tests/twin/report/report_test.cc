@@ -1,0 +1,188 @@
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "output/dataset_file.h"
+#include "output/field_mesh.h"
+#include "tests/output/page_reader.h"
+#include "tests/output/temporary_directory.h"
+#include "thermal/error.h"
+#include "thermal/growth_field.h"
+#include "twin/diagnosis/run_files.h"
+#include "twin/experiment_file.h"
+#include "twin/report/machine_section.h"
+#include "twin/report/report_files.h"
+#include "twin/run.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using testing::Test;
+using tests::PageReader;
+using tests::TemporaryDirectory;
+
+/// An hour of v450 with all its nodes, as `run --nodes` leaves it.
+output::Dataset short_run() {
+  auto document = read_toml(experiment_file("golden_b_4000"));
+  set_parameter(document, "duration", "1 h");
+  auto const experiment = read_experiment(document, experiment_file("golden_b_4000"));
+  RunOptions options;
+  options.node_temperatures = true;
+  options.provenance = {{"machine.file", text_of_file(machine_file("v450"))},
+                        {"settings", "lump.motor.mass=\"20 kg\""}};
+  return run(Machine::read(machine_file("v450")), experiment, options).dataset;
+}
+
+class Report : public Test {
+ protected:
+  static void SetUpTestSuite() { dataset = short_run(); }
+
+  PageReader report(std::vector<std::filesystem::path> const& data) {
+    (void)write_report({data, "", folder / "report.html"});
+    return PageReader(tests::contents(folder / "report.html"));
+  }
+
+  std::filesystem::path written(std::string const& name, output::Dataset const& data = dataset) {
+    output::write(data, folder / name);
+    return folder / name;
+  }
+
+  std::filesystem::path text(std::string const& name, std::string const& content) {
+    tests::put(folder / name, content);
+    return folder / name;
+  }
+
+  inline static output::Dataset dataset;
+  TemporaryDirectory folder;
+};
+
+nlohmann::json const& section(PageReader const& page, std::string const& kind) {
+  for (auto const& entry : page.document["sections"])
+    if (entry["kind"] == kind) return entry;
+  throw std::runtime_error("no section of kind " + kind);
+}
+
+TEST_F(Report, CarriesEveryCourseOfARun) {
+  auto const page = report({written("run.h5")});
+  auto const& set = section(page, "runs")["sets"][0];
+  EXPECT_TRUE(set["simulated"]);
+  ASSERT_EQ(set["readings"].size(), dataset.readings.size());
+  for (std::size_t c = 0; c < dataset.readings.size(); ++c) {
+    auto const values = page.numbers<float>(set["readings"][c]["values"]);
+    ASSERT_EQ(Eigen::Index(values.size()), dataset.time_s.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      EXPECT_FLOAT_EQ(values[i], float(dataset.readings[c].values[Eigen::Index(i)]));
+  }
+}
+
+TEST_F(Report, TellsAnInputThatNeverChangesAsOneNumber) {
+  auto const page = report({written("run.h5")});
+  for (auto const& input : section(page, "runs")["sets"][0]["inputs"])
+    if (input["name"] == "ambient.gradient") {
+      EXPECT_EQ(input["constant"], 0.0);
+      return;
+    }
+  FAIL() << "no ambient.gradient";
+}
+
+/// What the browser computes must be what the mesh shows, to the error that the page states and the quantisation.
+TEST_F(Report, RebuildsTemperatureAndDisplacementOfTheSurface) {
+  auto const page = report({written("run.h5")});
+  auto const& machine = section(page, "runs")["machine"];
+  auto const& field = machine["field"];
+  auto const points = page.numbers<float>(machine["points"]);
+  std::size_t const n = points.size() / 3, modes = field["temperature"]["shape"][0];
+  auto const start = page.numbers<float>(field["start"]), courses = page.numbers<float>(field["courses"]);
+  auto const temperature = page.numbers<std::int16_t>(field["temperature"]);
+  auto const displacement = page.numbers<std::int16_t>(field["displacement"]);
+  std::size_t const row = std::size_t(dataset.time_s.size()) - 1;
+
+  Machine const built = Machine::read(machine_file("v450"));
+  output::FieldMesh const mesh(built.geometry);
+  Eigen::VectorXd const nodes = dataset.node_temperatures->row(Eigen::Index(row)).cast<double>();
+  Eigen::VectorXd const rise = nodes - dataset.node_temperatures->row(0).transpose().cast<double>();
+  Eigen::VectorXd const shown = mesh.mean_at_points(nodes.head(mesh.n_nodes()));
+  Eigen::Matrix3Xd const grown =
+      mesh.continued_to_points(thermal::growth_field(built.growing, {rise.data(), std::size_t(rise.size())}));
+  double const error = field["largest_error"].get<double>() + 0.005, span = grown.cwiseAbs().maxCoeff();
+  for (std::size_t p = 0; p < n; ++p) {
+    double t = start[p];
+    Eigen::Vector3d u = Eigen::Vector3d::Zero();
+    for (std::size_t k = 0; k < modes; ++k) {
+      double const c = courses[row * modes + k];
+      t += c * field["temperature"]["scales"][k].get<double>() * temperature[k * n + p];
+      for (std::size_t i = 0; i < 3; ++i)
+        u[Eigen::Index(i)] +=
+            c * field["displacement"]["scales"][k].get<double>() * displacement[k * 3 * n + 3 * p + i];
+    }
+    Eigen::Vector3d const place(points[3 * p], points[3 * p + 1], points[3 * p + 2]);
+    Eigen::Index at = 0;
+    double nearest = INFINITY;  // bodies touch: of the mesh's points here, the one that fits
+    for (Eigen::Index q = 0; q < mesh.points().cols(); ++q)
+      if ((mesh.points().col(q) - place).norm() < 1e-6 && std::abs(shown[q] - t) < nearest) {
+        nearest = std::abs(shown[q] - t);
+        at = q;
+      }
+    EXPECT_LT(nearest, error);
+    EXPECT_LT((grown.col(at) - u).norm(), 0.02 * span);
+  }
+}
+
+TEST_F(Report, BuildsTheMachineWithItsSettings) {
+  auto const machine = machine_of({folder / "run.h5", dataset, true});
+  ASSERT_TRUE(machine);
+  EXPECT_EQ(machine->name, "v450");
+  auto unknown = dataset;
+  unknown.provenance["settings"] = "lump.mtor.mass=\"20 kg\"";
+  EXPECT_THROW((void)machine_of({folder / "run.h5", unknown, true}), thermal::InputError);
+}
+
+TEST_F(Report, DrawsNoFieldWithoutNodesAndSaysSo) {
+  auto bare = dataset;
+  bare.node_temperatures.reset();
+  bare.node_names.clear();
+  auto const page = report({written("bare.h5", bare)});
+  EXPECT_FALSE(section(page, "runs")["machine"].contains("field"));
+  EXPECT_NE(section(page, "runs")["remarks"].dump().find("--nodes"), std::string::npos);
+}
+
+TEST_F(Report, DrawsNoMachineWhenNobodySaysWhich) {
+  auto foreign = dataset;
+  foreign.provenance.clear();
+  auto const page = report({written("foreign.h5", foreign)});
+  EXPECT_TRUE(section(page, "runs")["machine"].is_null());
+  EXPECT_NE(section(page, "runs")["remarks"].dump().find("--machine"), std::string::npos);
+}
+
+constexpr char const* either = R"({"verdict": "either", "effects": [
+  {"group": 0, "effect": "bearing_shift", "site": "E_Z", "body": "E_Z", "parameter": "weight", "amplitude": -0.2262091,
+   "low": -0.2987953, "high": -0.1536229, "unit": "1", "keys": {}, "weight": 0.98, "strength": 55.0},
+  {"group": 0, "effect": "centrifugal_growth", "site": "E_Z", "body": "E_Z", "parameter": "growth",
+   "amplitude": -8.921e-7, "low": -1.189e-6, "high": -5.949e-7, "unit": "m", "keys": {}, "weight": 0.02,
+   "strength": 48.0}],
+  "where": [], "gap": {"before": 2.0, "after": 1.0}, "gaps": {"fitted": [], "held_out": []},
+  "unaccounted_heat": [], "estimates": [], "remarks": []})";
+
+TEST_F(Report, NamesWhatADiagnosisFound) {
+  auto const page = report({text("found.json", either)});
+  auto const& found = section(page, "diagnosis");
+  EXPECT_EQ(found["sentence"], "The machine file lacks bearing shift at E_Z, or centrifugal growth at E_Z.");
+  EXPECT_EQ(found["effects"][0]["meaning"], effect("bearing_shift").meaning);
+  EXPECT_EQ(found["effects"][0]["text"], "-0.226 (-0.299 to -0.154)");
+  EXPECT_EQ(found["effects"][1]["text"], "-0.892 um (-1.19 um to -0.595 um)");
+}
+
+TEST_F(Report, TakesNoOtherJson) {
+  EXPECT_THROW(report({text("other.json", "{\"verdict\": 3}")}), thermal::InputError);
+  EXPECT_THROW(report({text("broken.json", "{")}), thermal::InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
+}
+
+TEST_F(Report, NeverOverwritesWhatItReads) {
+  auto const path = written("run.h5");
+  EXPECT_THROW((void)write_report({{path}, "", path}), thermal::InputError);
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
