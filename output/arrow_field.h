@@ -21,7 +21,7 @@ struct ArrowField {
 void write_arrows(ArrowField const& field, std::filesystem::path const& path);
 
 struct ArrowPictureOptions {
-  std::string title;
+  std::string title = {};
   std::vector<std::string> shown = {};     ///< names of vectors: one panel each, side by side, same scale
   std::vector<std::string> captions = {};  ///< of the panels
   int width = 1800;                        ///< pixels
