@@ -175,7 +175,7 @@ TEST_F(PictureOnDisplay, MarksSensorsInFrontOfEverything) {
 
 TEST_F(PictureOnDisplay, SameFrameSameBytes) {
   PictureOptions const options{
-      .width = 400, .height = 250, .title = "v450", .time_s = 60.0, .magnification = {}, .sensors = {}};
+      .width = 400, .height = 250, .title = "v450", .time_s = 60.0, .remark = {}, .magnification = {}, .sensors = {}};
   draw(leaning_frame(), options);
   std::string const first = contents(directory_ / "a.png");
   draw(leaning_frame(), options);

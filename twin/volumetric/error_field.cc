@@ -45,7 +45,7 @@ ErrorField without_rigid_motion(ErrorField field) {
   return field;
 }
 
-ErrorFunction error_of(PoseFunction pose, Eigen::Vector3d origin) {
+ErrorFunction error_of(PoseFunction pose, Eigen::Vector3d const& origin) {
   Eigen::Vector3d const start = pose(origin).translation() - origin;
   return [pose = std::move(pose), start](Eigen::Vector3d const& q) -> Eigen::Vector3d {
     return pose(q).translation() - q - start;

@@ -35,6 +35,6 @@ struct ErrorField {
 [[nodiscard]] ErrorField without_rigid_motion(ErrorField field);
 
 /// The error function of a machine by its exact poses: pose(q) less pose(q₀) less the command.
-[[nodiscard]] ErrorFunction error_of(PoseFunction pose, Eigen::Vector3d origin);
+[[nodiscard]] ErrorFunction error_of(PoseFunction pose, Eigen::Vector3d const& origin);
 
 }  // namespace thermotwin::twin
