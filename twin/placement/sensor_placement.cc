@@ -101,6 +101,8 @@ class Judge {
   /// Those without which all others are worse by less than 1 % together; the least useful goes first.
   [[nodiscard]] std::set<Index> idle_among(Sites set) const;
   [[nodiscard]] models::Placement best(Index count, Index dead) const;
+  /// The same places, where no spare stands beside a sensor that is not there.
+  [[nodiscard]] Sites spares_last(Sites const& set) const;
   [[nodiscard]] InformationMap map(Sites const& set) const;
   /// Fills in what the signatures say; returns the set that tells effects apart.
   [[nodiscard]] Sites distinguishing(Distinction& distinction, Sites const& for_displacement) const;
@@ -163,7 +165,18 @@ EnsembleOptions Judge::unseen_options() const {
 models::Placement Judge::best(Index count, Index dead) const {
   if (dead == 0 && models::number_of_sets(candidates_, count) <= most_sets)
     return models::exhaustive_placement(problem_, count);
-  return models::place(problem_, count, dead);
+  auto placement = models::place(problem_, count, dead);
+  placement.sensors = spares_last(placement.sensors);
+  return placement;
+}
+
+Sites Judge::spares_last(Sites const& set) const {
+  Sites named;
+  for (auto site : set) {
+    for (site %= places_; std::find(named.begin(), named.end(), site) != named.end();) site += places_;
+    named.push_back(site);
+  }
+  return named;
 }
 
 std::set<Index> Judge::idle_among(Sites set) const {

@@ -186,6 +186,18 @@ TEST(PlaceSensors, TellsMissingEffectsApart) {
   EXPECT_THAT(placement_text(report), HasSubstr("degrees"));
 }
 
+TEST(PlaceSensors, PutsSparesBesideSensorsThatAreThere) {
+  auto options = quick(4);
+  options.dead = 1;
+  options.rules.sites = {
+      {"head", {"head_front"}}, {"column", {"column_front"}}, {"ring", {"front_ring"}}, {"bed", {"bed"}}};
+  auto const report = place_sensors(v450(), options);
+  std::vector<std::string> names;
+  for (auto const& sensor : report.recommended.sensors) names.push_back(sensor.site.name);
+  for (auto const& name : names) EXPECT_THAT(names, Contains(name.substr(0, name.find(" (spare)"))));
+  EXPECT_LE(report.recommended.model_um, report.recommended.worst_um);
+}
+
 TEST(PlaceSensors, SpeaksToPeopleAndPrograms) {
   auto options = quick(2);
   options.dead = 1;
