@@ -22,6 +22,8 @@ std::vector<scenarios::Experiment> experiments_of(EnsembleOptions const& options
   if (experiments.empty()) {
     auto const drawn = challenge_runs(machine.limits, seed);
     experiments = {drawn[1], drawn[2]};
+    experiments[0].title = "blocks of 20 min, drawn at random";
+    experiments[1].title = "blocks of 20 to 90 min, drawn at random";
   }
   for (auto& experiment : experiments) experiment.sampling = experiment.duration / options.snapshots;
   return experiments;
