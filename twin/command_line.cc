@@ -18,6 +18,7 @@
 #include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnose_files.h"
+#include "twin/diagnosis/plan.h"
 #include "twin/diagnosis/run_files.h"
 #include "twin/effect_page.h"
 #include "twin/experiment_file.h"
@@ -260,6 +261,13 @@ void add_compare_command(CLI::App& app) {
   });
 }
 
+void print_plan(DiagnoseFiles const& files, std::vector<std::string> const& experiments, bool json) {
+  std::vector<Schedule> schedules;
+  for (auto const& name : experiments) schedules.push_back(read_schedule(experiment_file(name)));
+  auto const made = plan(read_toml(files.machine), schedules, {.without = files.without, .progress = files.progress});
+  fmt::print("{}", json ? plan_json(made) : plan_text(made));
+}
+
 void add_diagnose_command(CLI::App& app) {
   auto* command =
       app.add_subcommand("diagnose", "find where machine and measurement disagree, and name what is missing");
@@ -267,14 +275,22 @@ void add_diagnose_command(CLI::App& app) {
   auto json = std::make_shared<bool>(false);
   auto machine = std::make_shared<std::string>();
   command->add_option("machine", *machine, "machine file or name")->required();
-  command->add_option("data", files->data, "measured runs: .h5, .csv, or a measurement file .toml")->required();
+  auto* data = command->add_option("data", files->data, "measured runs: .h5, .csv, or a measurement file .toml");
   command->add_option("--hold-out", files->held_out, "runs that take no part in the fit");
   command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
   command->add_option("--without", files->without, "effects that are not to be tried");
   command->add_flag("--json", *json, "print everything as JSON");
-  command->callback([files, json, machine] {
+  auto planned = std::make_shared<std::vector<std::string>>();
+  auto* plans =
+      command->add_option("--plan", *planned,
+                          "before any data: what these experiments (files or names) would show of each effect, "
+                          "which could be taken for each other, and what would tell them apart");
+  plans->excludes(data);
+  command->callback([files, json, machine, planned, data] {
     files->machine = machine_file(*machine);
     if (!*json) files->progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
+    if (!planned->empty()) return print_plan(*files, *planned, *json);
+    if (data->empty()) throw thermal::InputError("diagnose needs measured runs, or --plan with experiments");
     auto const report = diagnose_files(*files);
     fmt::print("{}", *json ? report_json(report) : report_text(report));
   });

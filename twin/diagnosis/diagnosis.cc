@@ -99,6 +99,7 @@ class Diagnostician {
   void listen_to_noise();
   void take_joint_estimates();
   void find_where();
+  void propose();
   [[nodiscard]] bool is_unknown() const;
   [[nodiscard]] std::string faulty_sensor() const;
   [[nodiscard]] Diagnosis::Verdict verdict() const;
@@ -116,9 +117,8 @@ class Diagnostician {
 };
 
 void Diagnostician::calibrate() {
-  auto const channels = channels_of(runs_);
-  for (auto const& channel : channels) expected_.push_back(expected_noise(machine_, channel, runs_));
-  estimation_.emplace(document_, runs_, channels, expected_);
+  estimation_.emplace(expected_estimation(document_, runs_));
+  expected_ = estimation_->noise();
   fit_ = estimation_->fit(estimation_->prior_mean(), 12);
   listen_to_noise();
 }
@@ -223,7 +223,8 @@ std::vector<std::size_t> Diagnostician::most_promising(std::vector<Score> const&
 /// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
 bool Diagnostician::add_effect(int round) {
   say(fmt::format("{} effects at their sites, round {}", hypotheses_.size(), round));
-  double const threshold = std::max(options_.threshold, options_.least_share * strongest_);
+  double const threshold =
+      round == 1 ? options_.threshold : std::max(options_.further_threshold, options_.least_share * strongest_);
   auto const scores = score(fit_, whitened_signatures(), hypotheses_);
   auto const first = refits(fit_, most_promising(scores), scores);
   if (first.empty() || first[0].strength < threshold) return false;
@@ -285,6 +286,7 @@ Diagnosis Diagnostician::operator()() {
   diagnosis_.document = estimation_->document_at(fit_.x);
   if (diagnosis_.verdict != Diagnosis::Verdict::none_known) take_joint_estimates();
   find_where();
+  if (diagnosis_.verdict == Diagnosis::Verdict::either) propose();
   return diagnosis_;
 }
 
@@ -337,6 +339,21 @@ void Diagnostician::find_where() {
   for (auto const& [place, watts] : heat) largest = std::max(largest, watts);
   for (auto const& [place, watts] : heat)
     if (watts > 0.2 * largest) diagnosis_.where.push_back(place);
+}
+
+/// What would tell the first of the either/ors apart.
+void Diagnostician::propose() {
+  say("looking for an experiment that would tell them apart");
+  for (auto const& explanation : diagnosis_.explanations) {
+    if (explanation.alternatives.size() < 2) continue;
+    Rivals rivals;
+    for (auto const& finding : explanation.alternatives) {
+      rivals.hypotheses.push_back(finding.hypothesis);
+      rivals.amplitudes.push_back(finding.amplitude / finding.hypothesis.trial->largest);
+    }
+    diagnosis_.proposals = remedies(document_, runs_, rivals);
+    return;
+  }
 }
 
 /// Changes from one sample to the next that no body makes: half a kelvin at least, ten times the channel's usual, and
@@ -434,6 +451,14 @@ ChannelNoise expected_noise(Machine const& machine, std::string const& channel, 
     noise.white = sensor.description.noise.value_or(noise.white);
   }
   return noise;
+}
+
+Estimation expected_estimation(Value const& document, std::vector<BinnedRun> const& runs) {
+  Machine const machine = Machine::build(document);
+  auto const channels = channels_of(runs);
+  std::vector<ChannelNoise> noise;
+  for (auto const& channel : channels) noise.push_back(expected_noise(machine, channel, runs));
+  return {document, runs, channels, noise};
 }
 
 Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options) {

@@ -7,6 +7,7 @@
 
 #include "twin/diagnosis/estimation.h"
 #include "twin/diagnosis/free_heat.h"
+#include "twin/diagnosis/remedy.h"
 #include "twin/diagnosis/score.h"
 
 namespace thermotwin::twin {
@@ -30,9 +31,10 @@ struct DiagnosisOptions {
   int most_effects = 4;
   /// 2 ln of the evidence that an effect must have; see docs/diagnosis.md for how often chance alone reaches it.
   double threshold = 20.0;
-  /// A further effect must reach this share of the strongest: what is left of one whose shape is not quite right looks
-  /// like others.
-  double least_share = 0.2;
+  /// What a further effect must have, and its share of the strongest: what is left of an effect whose shape is not quite
+  /// right looks like others.
+  double further_threshold = 40.0;
+  double least_share = 0.04;
   double indistinct = 9.0;  ///< alternatives within this of the best are told as well
   std::function<void(std::string const&)> progress;
 };
@@ -51,6 +53,7 @@ struct Diagnosis {
   /// Bodies that the missing heat enters, and whether it does so while the spindle turns or while it stands.
   std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`
+  std::vector<Remedy> proposals;         ///< of `either`: experiments that would tell the first one apart, best first
   std::string faulty_sensor;             ///< a sensor that shows nothing, or jumps about; empty: none
   std::vector<FreeHeat> scan;            ///< before any effect was added, best first
   std::vector<Hypothesis> hypotheses;    ///< those that were tried
@@ -71,5 +74,8 @@ struct Diagnosis {
 /// ten minutes and of 2 % of what the channel goes through over hours (physics.md 8.6).
 [[nodiscard]] ChannelNoise expected_noise(Machine const& machine, std::string const& channel,
                                           std::vector<BinnedRun> const& runs);
+
+/// The question to these runs with that noise.
+[[nodiscard]] Estimation expected_estimation(Value const& machine, std::vector<BinnedRun> const& runs);
 
 }  // namespace thermotwin::twin

@@ -1,5 +1,6 @@
 #include "twin/diagnosis/diagnosis_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -91,6 +92,24 @@ std::string words_of(Explanation const& explanation) {
   return text;
 }
 
+/// The best that needs no further sensor.
+Remedy const* proposal_of(Diagnosis const& diagnosis) {
+  auto const it = std::find_if(diagnosis.proposals.begin(), diagnosis.proposals.end(),
+                               [](Remedy const& remedy) { return remedy.sensor.empty(); });
+  return it == diagnosis.proposals.end() ? nullptr : &*it;
+}
+
+std::string words_of_proposal(Diagnosis const& diagnosis) {
+  auto const* proposal = proposal_of(diagnosis);
+  if (!proposal) return "";
+  auto const& best = diagnosis.proposals[0];
+  std::string text = fmt::format("Experiment that would tell them apart: {} ({:.0f} h), {:.1f} σ.", proposal->schedule,
+                                 proposal->hours, proposal->distance);
+  if (!best.sensor.empty() && best.distance > 1.5 * proposal->distance)
+    text += fmt::format(" With one more sensor on {}: {}, {:.1f} σ.", best.sensor, best.schedule, best.distance);
+  return text + "\n\n";
+}
+
 std::string headline(Diagnosis const& diagnosis) {
   switch (diagnosis.verdict) {
     case Diagnosis::Verdict::nothing:
@@ -127,6 +146,10 @@ std::string report_json(DiagnosisReport const& report) {
   json["unaccounted_heat"] = Json::array();
   for (std::size_t i = 0; i < std::min<std::size_t>(3, diagnosis.scan.size()); ++i)
     json["unaccounted_heat"].push_back(json_of(diagnosis.scan[i]));
+  if (auto const* proposal = proposal_of(diagnosis)) {
+    json["experiment"] = proposal->file.string();
+    json["experiment_distance"] = proposal->distance;
+  }
   json["estimates"] = Json::array();
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
     auto const i = Eigen::Index(u);
@@ -143,6 +166,7 @@ std::string report_text(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
   std::string text = "\n" + headline(diagnosis) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
+  text += words_of_proposal(diagnosis);
   if (!diagnosis.faulty_sensor.empty())
     text += fmt::format("{} shows nothing, or jumps about as no temperature does.\n\n", diagnosis.faulty_sensor);
   if (diagnosis.unknown_heat)

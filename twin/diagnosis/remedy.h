@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "twin/diagnosis/binned_run.h"
+#include "twin/diagnosis/hypothesis.h"
+#include "twin/file/value.h"
+
+namespace thermotwin::twin {
+
+/// One more run, one more sensor, or both, and how far apart rivals would be then.
+struct Remedy {
+  std::string schedule;        ///< name; empty: no further run
+  std::filesystem::path file;  ///< of the schedule
+  double hours = 0.0;          ///< of the schedule
+  std::string sensor;          ///< where it would sit; empty: none
+  double distance = 0.0;       ///< least d_ij among the rivals, in units of the noise
+};
+
+/// Effects as somebody may look for them: an amplitude each [units of the trial's largest].
+struct Rivals {
+  std::vector<Hypothesis> hypotheses;
+  std::vector<double> amplitudes;
+};
+
+/// What tells rivals apart that the runs so far do not: every separating schedule of the catalogue, and one more sensor
+/// on every body in it (physics.md 8.10, the linear version of T-optimality). Best first.
+///
+/// `document`: the machine without the rivals; `runs`: what was measured.
+[[nodiscard]] std::vector<Remedy> remedies(Value const& document, std::vector<BinnedRun> const& runs,
+                                           Rivals const& rivals);
+
+}  // namespace thermotwin::twin
