@@ -306,6 +306,46 @@ flow = "6 L/min"
   EXPECT_GT(rise[3], 9.9);
 }
 
+/// A front of plug flow over a wall at equilibrium with it travels slower by 1 + C_w/C_fluid: it comes through later by
+/// C_w/(ṁ c), 600 s here beside 216 s of the water alone, and ends where it would without a wall.
+TEST(ChannelWall, DelaysTheFrontByItsHeatCapacityOverThatOfTheFlow) {
+  std::string const text = R"toml(
+    name = "pipe"
+    [[channel]]
+    name = "pipe"
+    direction = "x"
+    length = "30 m"
+    diameter = "30.3 mm"
+    cells = 40
+    flow = "pipe.flow"
+    inlet = "pipe.inlet"
+    )toml";
+  std::string const wall = R"toml(
+    [[channel_wall]]
+    name = "steel"
+    channel = "pipe"
+    heat_capacity = "251 kJ/K"
+    time_constant = "10 s"
+    )toml";
+  auto const integral_of_what_is_missing = [&](std::string const& description) {
+    Machine const machine = Machine::build(parse_toml(description, "pipe"));
+    auto const& pipe = machine.network().range("pipe");
+    auto const course = bench_course(machine, {{"pipe.flow", 0.1}, {"pipe.inlet", 303.15}});
+    std::vector<double> times;
+    for (double t = 0.0; t <= 4000.0; t += 5.0) times.push_back(t);
+    double missing = 0.0, rise = 0.0;
+    thermal::integrate(machine.network(), course, uniform_temperatures(machine, 293.15), times, {},
+                       [&](thermal::Sample const& sample) {
+                         rise = sample.temperatures[std::size_t(pipe.first + pipe.count - 1)] - 293.15;
+                         missing += 5.0 * (1.0 - 0.1 * rise);
+                       });
+    EXPECT_NEAR(rise, 10.0, 0.01);
+    return missing;
+  };
+  EXPECT_NEAR(integral_of_what_is_missing(text + wall) - integral_of_what_is_missing(text), 251e3 / (0.1 * 4181.0),
+              6.0);
+}
+
 TEST(ExtraMass, IsForgottenInTheSteadyStateAndDelaysOnTheWay) {
   auto const& mass = snippet("extra_mass");
   Machine const with_mass = Machine::build(bench(mass));

@@ -23,7 +23,7 @@ struct Tried {
 std::vector<Tried> const& tried() {
   static std::vector<Tried> const all = [] {
     std::vector<Tried> result;
-    for (std::string const name : {"v450", "g200", "vmc850"}) {
+    for (std::string const name : {"v450", "g200", "vmc850", "water_pipe"}) {
       Value document = read_toml(machine_file(name));
       auto found = hypotheses(document, Machine::build(document));
       result.push_back({name, std::move(document), std::move(found)});

@@ -40,6 +40,7 @@ class Sites {
   void add_motors();
   void add_nuts();
   void add_films();
+  void add_channels();
   void add_pairs();
   void for_tables(std::string_view kind, std::function<void(Value const&)> const& action) const;
 
@@ -54,6 +55,7 @@ Sites::Sites(Value const& document, Machine const& machine) : document_(document
   add_motors();
   add_nuts();
   add_films();
+  add_channels();
   add_pairs();
   for (auto const& sensor : machine.sensors) add("sensor", {sensor.description.name, sensor.description.name});
   for (auto const& channel : machine.displacements)
@@ -123,8 +125,20 @@ void Sites::add_films() {
     auto const to = texts_of(table, "to");
     auto const correlation = texts_of(table, "correlation");
     bool const turns = !correlation.empty() && correlation[0].starts_with("rotating");
-    if (to.empty() || to[0] == "ambient")
-      for (auto const& place : texts_of(table, "on")) add(turns ? "shaft" : "room surface", {place, body_of(place)});
+    bool const radiates = correlation.empty() || correlation[0] == "room";
+    if (!to.empty() && to[0] != "ambient") return;
+    for (auto const& place : texts_of(table, "on")) {
+      add(turns ? "shaft" : "room surface", {place, body_of(place)});
+      if (!turns && !radiates) add("bare surface", {place, body_of(place)});
+    }
+  });
+}
+
+void Sites::add_channels() {
+  for_tables("channel", [&](Value const& table) {
+    std::string const name = texts_of(table, "name").at(0);
+    add("channel", {name, name});
+    add("wetted wall", {name + ".wall", name});
   });
 }
 

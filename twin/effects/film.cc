@@ -185,7 +185,8 @@ struct Film {
 
 Effect const& film_effect() {
   static Effect const effect = make_effect<Film>(
-      {"film", "convection and radiation from a surface to the room or to a fluid",
+      {"film",
+       "convection and radiation from a surface to the room or to a fluid",
        "q = h A (T_fluid − T_surface), in series with the half cell of a discretised body. room: h = 1.7·1.3 "
        "|ΔT|^(1/3) + "
        "0.8 ε 4σ T_m³;  rotating_cylinder: Nu = (Nu_f³ + Nu_n³)^(1/3), Nu_f = 0.133 Re^(2/3) Pr^(1/3) (anderson: 0.10 "
@@ -193,12 +194,20 @@ Effect const& film_effect() {
        "rotating_disc: "
        "Nu = 0.36 Re^(1/2), turbulent 0.015 Re^0.8 (jungnickel: h = 2.73 ω^0.8 R^0.6), 0 at rest;  vertical_plate: "
        "Churchill & Chu (jungnickel: 0.55 Ra^(1/4), 0.14 Ra^(1/3));  fan: constant while it runs, room film otherwise",
-       "film", "any surface",
+       "film",
+       "any surface",
        "sink proportional to T − T_air; sets the slow time constants; a rotating surface cools with speed^0.67 and "
        "stops "
        "cooling when it stops",
        "physics.md 2.5, 2.6 (2.6), (2.8); Becker 1963; Anderson & Saunders 1953; Churchill & Chu 1975; Jungnickel "
-       "2010"});
+       "2010",
+       {3},
+       {"channel_wall"},
+       "two flows: what a pipe loses to the room is felt most at the slower one, and in the steady state"},
+      {{.amplitude = "coefficient",
+        .largest = 20.0,
+        .sites = {{"on", "wetted wall"}},
+        .shapes = {{{"correlation", "constant"}}}}});
   return effect;
 }
 

@@ -72,7 +72,8 @@ Effect const& radiation_effect() {
                               {23},
                               {"air_gap", "motor_loss"},
                               "a shield between both; what remains is the loss itself"},
-                             {{.amplitude = "area", .largest = 1.0, .sites = {{"on", "pair", "to"}}}});
+                             {{.amplitude = "area", .largest = 1.0, .sites = {{"on", "pair", "to"}}},
+                              {.amplitude = "area", .largest = 1.0, .sites = {{"on", "bare surface"}}}});
   return effect;
 }
 
