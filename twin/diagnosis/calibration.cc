@@ -111,8 +111,8 @@ std::vector<ChangedValue> changes_of(Calibration const& calibration) {
 
 }  // namespace
 
-double CalibratedNumber::estimate() const { return number.nominal * std::exp(logarithm); }
-double CalibratedNumber::standard_error() const { return estimate() * deviation; }
+double CalibratedNumber::estimate() const { return number.value(logarithm); }
+double CalibratedNumber::standard_error() const { return std::abs(number.slope(logarithm)) * deviation; }
 
 Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) {
   Estimation const estimation = estimation_of(machine, runs);

@@ -12,7 +12,7 @@ namespace thermotwin::twin {
 /// A number of the machine file after calibration. A priori ln(value/nominal) ~ N(0, number.deviation²).
 struct CalibratedNumber {
   UncertainNumber number;
-  double logarithm = 0.0;  ///< ln(estimate/nominal)
+  double logarithm = 0.0;  ///< ln(estimate/nominal); of either sign: estimate − nominal
   double deviation = 0.0;  ///< its posterior standard deviation
   /// The data have at least halved what was uncertain: deviation ≤ 0.5 · number.deviation (physics.md 8.9). If not,
   /// the estimate is mostly the prior's and the number keeps its nominal value.

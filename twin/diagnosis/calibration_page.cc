@@ -33,7 +33,7 @@ Json json_of(CalibratedNumber const& number) {
           {"standard_error", number.standard_error()},
           {"prior_deviation_of_logarithm", number.number.deviation},
           {"deviation_of_logarithm", number.deviation},
-          {"written", number.number.nominal * std::exp(number.written)},
+          {"written", number.number.value(number.written)},
           {"verdict", number.identified ? "identified" : "not identified"}};
 }
 
@@ -65,7 +65,7 @@ std::string number_table(Calibration const& calibration) {
                                  "std. error", "prior", "in the file");
   for (auto const& number : calibration.numbers) {
     auto const& of = number.number;
-    double const written = of.nominal * std::exp(number.written);
+    double const written = of.value(number.written);
     text +=
         fmt::format("{:<42} {:>14} {:>14} {:>14} {:>4.0f} % {:>14}  {}\n", of.path, written_value(of.nominal, of.unit),
                     written_value(number.estimate(), of.unit, 4), written_value(number.standard_error(), of.unit, 2),

@@ -27,9 +27,10 @@ std::string written_interval(double standard_error, std::string const& unit) {
   return "± " + written_value(two_sided_95 * standard_error, unit, 2);
 }
 
-ChangedValue changed_value(UncertainNumber const& number, double logarithm, double deviation) {
-  double const value = number.nominal * std::exp(logarithm);
-  return {number.path, written_value(value, number.unit), written_interval(value * deviation, number.unit)};
+ChangedValue changed_value(UncertainNumber const& number, double x, double deviation) {
+  double const value = number.value(x);
+  return {number.path, written_value(value, number.unit),
+          written_interval(std::abs(number.slope(x)) * deviation, number.unit)};
 }
 
 }  // namespace thermotwin::twin

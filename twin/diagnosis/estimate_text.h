@@ -19,7 +19,7 @@ inline constexpr double two_sided_95 = 1.96;
 /// Half of the 95 % interval, two digits: "± 4.1 W/K".
 [[nodiscard]] std::string written_interval(double standard_error, std::string const& unit);
 
-/// A number of the file at nominal · exp(logarithm), with its interval as comment; `deviation` that of the logarithm.
-[[nodiscard]] ChangedValue changed_value(UncertainNumber const& number, double logarithm, double deviation);
+/// A number of the file where its unknown is x ± `deviation`, with its interval as comment.
+[[nodiscard]] ChangedValue changed_value(UncertainNumber const& number, double x, double deviation);
 
 }  // namespace thermotwin::twin

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double offset_deviation = 0.3;     // of a temperature sensor [K]
 constexpr double zero_deviation = 1e-6;      // of a displacement's zero [m]
+constexpr double unread_zero = 200e-6;       // where the run begins before the channel was read
 constexpr double usual_lag = 30.0;           // [s]
 constexpr double lag_deviation = 25.0;       // [s]
 constexpr double start_deviation = 0.3;      // [K]
@@ -61,6 +62,19 @@ Machine later(Machine machine) {
   return machine;
 }
 
+/// Besides the lag that the file states, which is known to a third or a second; without that, the usual one.
+Unknown lag_unknown(std::vector<Sensor> const& sensors, std::string const& channel, std::size_t index) {
+  Unknown unknown{Unknown::Kind::lag, "lag of " + channel, usual_lag, lag_deviation, 0.0, INFINITY, index, -1};
+  for (auto const& sensor : sensors)
+    if (sensor.description.name == channel && sensor.description.lag) {
+      double const stated = *sensor.description.lag;
+      unknown.mean = 0.0;
+      unknown.deviation = std::max(1.0, stated / 3.0);
+      unknown.lower = -stated;
+    }
+  return unknown;
+}
+
 std::string table_name(std::size_t effect) { return fmt::format("diagnosed_{}", effect + 1); }
 
 /// What people see of an added effect acts through sensors or displacements, not through heat alone.
@@ -98,6 +112,7 @@ Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::
 
 void Estimation::add_unknowns() {
   using Kind = Unknown::Kind;
+  auto const sensors = Machine::build(document_).sensors;
   for (std::size_t i = 0; i < numbers_.size(); ++i)
     unknowns_.push_back({Kind::number, numbers_[i].path, 0.0, numbers_[i].deviation, -INFINITY, INFINITY, i, -1});
   for (std::size_t c = 0; c < channels_.size(); ++c) {
@@ -109,12 +124,12 @@ void Estimation::add_unknowns() {
       if (it == all.end()) continue;
       sensor = sensor || !it->displacement;
       if (it->displacement)
-        unknowns_.push_back({Kind::offset, fmt::format("zero of {}, run {}", channels_[c], r + 1), 0.0, zero_deviation,
-                             -INFINITY, INFINITY, c, int(r)});
+        unknowns_.push_back({Kind::offset, fmt::format("zero of {}, run {}", channels_[c], r + 1), 0.0,
+                             std::isnan(it->values[0]) ? unread_zero : zero_deviation, -INFINITY, INFINITY, c, int(r)});
     }
     if (!sensor) continue;
     unknowns_.push_back({Kind::offset, "offset of " + channels_[c], 0.0, offset_deviation, -INFINITY, INFINITY, c, -1});
-    unknowns_.push_back({Kind::lag, "lag of " + channels_[c], usual_lag, lag_deviation, 0.0, INFINITY, c, -1});
+    unknowns_.push_back(lag_unknown(sensors, channels_[c], c));
   }
   for (std::size_t r = 0; r < data_->size(); ++r) {
     unknowns_.push_back({Kind::start, fmt::format("warm start of run {}", r + 1), 0.0, start_deviation, -INFINITY,
@@ -210,8 +225,7 @@ Value Estimation::document_at(Eigen::VectorXd const& x) const {
     auto const& unknown = unknowns_[u];
     if (unknown.kind == Unknown::Kind::number) {
       auto const& number = numbers_[unknown.index];
-      set_number(document, {number.path, number.nominal, number.dimension, false},
-                 number.nominal * std::exp(x[Eigen::Index(u)]));
+      set_number(document, {number.path, number.nominal, number.dimension, false}, number.value(x[Eigen::Index(u)]));
     } else if (unknown.kind == Unknown::Kind::amplitude) {
       auto const& effect = effects_[unknown.index];
       document = with_hypothesis(std::move(document), effect, table_name(unknown.index),
@@ -283,7 +297,7 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
       auto const& own = number ? number_derivatives_[unknown.index].network : amplitudes[unknown.index].network;
       if (!changes_heat(own)) continue;
       heat.push_back(thermal::lengthened(own, network));
-      if (number) scale(heat.back(), numbers_[unknown.index].nominal * std::exp(x[Eigen::Index(u)]));
+      if (number) scale(heat.back(), numbers_[unknown.index].slope(x[Eigen::Index(u)]));
       columns.push_back(Eigen::Index(u));
     }
     jacobian->setZero(rows_ + unknowns, unknowns);
@@ -319,7 +333,7 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
                   (difference - (run.values - slower)).col(Eigen::Index(c)) * -1.0;
             }
         if (unknown.kind == Unknown::Kind::number && moves_tool(number_derivatives_[unknown.index]))
-          column -= numbers_[unknown.index].nominal * std::exp(x[Eigen::Index(u)]) *
+          column -= numbers_[unknown.index].slope(x[Eigen::Index(u)]) *
                     twin.growth(number_derivatives_[unknown.index].displacements).reshaped();
         if (unknown.kind == Unknown::Kind::amplitude && is_read_directly(effects_[unknown.index])) {
           double const step = relative_step * std::max(std::abs(x[Eigen::Index(u)]), 1e-3);

@@ -52,21 +52,39 @@ void add_numbers(Value const& document, std::string const& kind, Value const& ta
   }
 }
 
+bool is_nothing(Value const& value) {
+  auto const* number = std::get_if<double>(&value.content);
+  auto const* whole = std::get_if<std::int64_t>(&value.content);
+  return (number && *number == 0.0) || (whole && *whole == 0);
+}
+
 /// Every step of the structural loop may do more or less than it was computed to.
-void add_growth(Value& channel, std::string const& kind, std::vector<UncertainNumber>& numbers) {
+void add_growth(Value& channel, std::string const& kind, Value const& document, std::vector<UncertainNumber>& numbers) {
   Value* segments = channel.find("segment");
   Value const* name = channel.find("name");
   if (!segments || !is_list_of_tables(*segments) || !name) return;
   auto& list = std::get<Value::List>(segments->content);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (!list[i].find("growth_factor"))
-      std::get<Value::Table>(list[i].content).push_back({"growth_factor", list[i].where, Value{list[i].where, 1.0}});
-    numbers.push_back(
-        {fmt::format("{}.{}.segment.{}.growth_factor", kind, std::get<std::string>(name->content), i), 1.0, {}, 0.10});
+    Value* weight = list[i].find("weight");
+    bool const unknown = weight && is_nothing(*weight);
+    if (unknown) weight->content = 0.0;  // not a whole number: it can change
+    char const* key = unknown ? "weight" : "growth_factor";
+    if (!list[i].find(key))
+      std::get<Value::Table>(list[i].content).push_back({key, list[i].where, {list[i].where, 1.0}});
+    UncertainNumber number;
+    number.path = fmt::format("{}.{}.segment.{}.{}", kind, std::get<std::string>(name->content), i, key);
+    number.nominal = unknown ? 0.0 : find_number(document, number.path).value;
+    number.deviation = unknown ? 1.0 : 0.10;
+    number.of_either_sign = unknown;
+    numbers.push_back(std::move(number));
   }
 }
 
 }  // namespace
+
+double UncertainNumber::value(double x) const { return of_either_sign ? nominal + x : nominal * std::exp(x); }
+
+double UncertainNumber::slope(double x) const { return of_either_sign ? 1.0 : value(x); }
 
 std::vector<UncertainNumber> uncertain_numbers(Value& document) {
   std::vector<UncertainNumber> numbers;
@@ -80,7 +98,7 @@ std::vector<UncertainNumber> uncertain_numbers(Value& document) {
   for (auto const& entry : effect_catalogue())
     with_tables(entry.name, [&](Value& table) { add_numbers(document, entry.name, table, numbers); });
   for (std::string const kind : {"rotation", "displacement"})
-    with_tables(kind, [&](Value& table) { add_growth(table, kind, numbers); });
+    with_tables(kind, [&](Value& table) { add_growth(table, kind, document, numbers); });
   return numbers;
 }
 

@@ -8,13 +8,19 @@
 
 namespace thermotwin::twin {
 
-/// A number of a machine file that its author did not know exactly: ln(value/nominal) ~ N(0, deviation²).
+/// A number of a machine file that its author did not know exactly: value = nominal eˣ, x ~ N(0, deviation²); one of
+/// which not even the sign is known: value = nominal + x.
 struct UncertainNumber {
   std::string path;  ///< bearing.front.grease_factor
   double nominal = 0.0;
   thermal::Dimension dimension;
   double deviation = 0.2;
   std::string unit = {};  ///< that its author chose; empty: a bare number
+  bool of_either_sign = false;
+
+  [[nodiscard]] double value(double x) const;
+  /// ∂value/∂x.
+  [[nodiscard]] double slope(double x) const;
 };
 
 /// What is uncertain in a machine file, by what kind of number it is (physics.md 8.1, as deviations of the logarithm):
@@ -27,6 +33,9 @@ struct UncertainNumber {
 /// | area of a film, film coefficient         | 0.20      |
 /// | mass, heat capacity                      | 0.10      |
 /// | growth of a segment of the loop          | 0.10      |
+///
+/// A segment of weight 0 stands for a machine without drawings: nobody knows what this body does to the channel. Its
+/// weight is N(0, 1), so that the segment's length says how much it may do.
 ///
 /// `document` gets a growth_factor of 1 wherever a segment has none, so that every path can be set.
 [[nodiscard]] std::vector<UncertainNumber> uncertain_numbers(Value& document);

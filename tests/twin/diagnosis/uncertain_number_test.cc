@@ -1,6 +1,7 @@
 #include "twin/diagnosis/uncertain_number.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -54,6 +55,32 @@ TEST(UncertainNumbers, DoNotContainWhatIsKnown) {
                            "bearing.front.count", "bearing.front.pitch_diameter", "material.casting.expansion",
                            "temperature_sensor.T1.lag", "film.test_bar.diameter"})
     EXPECT_FALSE(v450.find(path)) << path;
+}
+
+/// Without drawings: a weight of nothing may become anything, in proportion.
+TEST(UncertainNumbers, OfASegmentWithoutAWeightIsTheWeight) {
+  Value document = tests::v450();
+  auto& channel = std::get<Value::List>(document.find("displacement")->content)[0];
+  auto& segment = std::get<Value::List>(channel.find("segment")->content)[0];
+  auto& keys = std::get<Value::Table>(segment.content);
+  std::erase_if(keys, [](auto const& entry) { return entry.key == "weight"; });
+  keys.push_back({"weight", segment.where, {segment.where, std::int64_t{0}}});
+  std::string const name = std::get<std::string>(channel.find("name")->content);
+  Uncertain const machine(document);
+  auto const* weight = machine.find("displacement." + name + ".segment.0.weight");
+  ASSERT_TRUE(weight);
+  EXPECT_FALSE(machine.find("displacement." + name + ".segment.0.growth_factor"));
+  EXPECT_EQ(weight->value(0.0), 0.0);
+  EXPECT_EQ(weight->value(-0.4), -0.4);
+  EXPECT_EQ(weight->slope(-0.4), 1.0);
+  EXPECT_EQ(weight->deviation, 1.0);
+  auto const* mass = machine.find("lump.column_rear.mass");
+  ASSERT_TRUE(mass);
+  EXPECT_DOUBLE_EQ(mass->value(0.2), 230.0 * std::exp(0.2));
+  EXPECT_DOUBLE_EQ(mass->slope(0.2), mass->value(0.2));
+  auto const d = differentiate(machine.document, weight->path);
+  EXPECT_TRUE(std::any_of(d.displacements.begin(), d.displacements.end(),
+                          [](auto const& weights) { return !weights.empty(); }));
 }
 
 class UncertainNumbersOf : public testing::TestWithParam<char const*> {};
