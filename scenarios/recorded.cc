@@ -83,7 +83,7 @@ std::string value_or_default(std::string_view reference, std::filesystem::path c
   std::string const name(reference.substr(0, mark));
   char const* value = std::getenv(name.c_str());
   if (value != nullptr && *value != '\0') return std::filesystem::absolute(value).string();
-  if (mark != std::string_view::npos) return (directory / reference.substr(mark + 2)).string();
+  if (mark != std::string_view::npos) return std::filesystem::absolute(directory / reference.substr(mark + 2)).string();
   throw InputError("the environment variable " + name + " is not set; it names the folder of a recorded file");
 }
 

@@ -70,6 +70,21 @@ std::string amended(std::string const& text, Diagnosis const& diagnosis, RunFile
                                      name_of(diagnosis.verdict)));
 }
 
+/// The machine has numbers that its author did not know exactly, and the data know none of them, nor an effect, twice
+/// as well.
+bool identify_nothing(Diagnosis const& diagnosis) {
+  bool has_numbers = false;
+  for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
+    auto const& unknown = diagnosis.unknowns[u];
+    bool const number = unknown.kind == Unknown::Kind::number;
+    if (!number && unknown.kind != Unknown::Kind::amplitude) continue;
+    auto const i = Eigen::Index(u);
+    if (std::sqrt(diagnosis.amended.covariance(i, i)) < 0.5 * unknown.deviation) return false;
+    has_numbers = has_numbers || number;
+  }
+  return has_numbers;
+}
+
 }  // namespace
 
 DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
@@ -86,6 +101,10 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   options.without = files.without;
   options.progress = files.progress;
   report.diagnosis = diagnose(document, fitted, options);
+  if (identify_nothing(report.diagnosis))
+    report.remarks.push_back(
+        "the data identify no number of the machine and no effect: the runs are too short, or too little happens in "
+        "them; nothing can be said about what is missing");
   Machine const amended_machine = Machine::build(report.diagnosis.document);
   report.fitted = gaps(machine, amended_machine, fitted);
   report.held_out = gaps(machine, amended_machine, held_out);

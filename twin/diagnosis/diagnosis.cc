@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "thermal/error.h"
+#include "twin/diagnosis/excitation.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -267,6 +268,7 @@ Diagnosis Diagnostician::operator()() {
   calibrate();
   diagnosis_.calibrated = fit_;
   hypotheses_ = hypotheses(document_, machine_, options_.without);
+  std::erase_if(hypotheses_, [&](auto const& h) { return !is_excited(h, document_, machine_, runs_); });
   diagnosis_.hypotheses = hypotheses_;
   say("scanning for heat that the machine does not know");
   diagnosis_.scan = scan_for_free_heat(*estimation_, fit_);
