@@ -1,0 +1,141 @@
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include "tests/output/temporary_directory.h"
+#include "twin/diagnosis/linearised_run.h"
+#include "twin/diagnosis/measured_run.h"
+
+/// `thermotwin diagnose` on what was measured on real plants (docs/measured_data.md). Nothing is chosen on held-out
+/// data.
+namespace thermotwin::twin {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+fs::path const measured = fs::path(THERMOTWIN_SOURCE_DIR) / "scenarios" / "measured";
+
+std::string run_file(std::string const& name) { return (measured / (name + ".toml")).string(); }
+
+class MeasuredDiagnosis : public testing::Test {
+ protected:
+  void SetUp() override {
+    char const* given = std::getenv("THERMOTWIN_MEASURED_DATA");
+    auto const folder = given ? fs::path(given) : fs::path(THERMOTWIN_SOURCE_DIR) / ".." / "shared" / "data";
+    if (!fs::exists(folder)) GTEST_SKIP() << "measured data are not at " << folder;
+  }
+};
+
+Json diagnose(std::string const& arguments) {
+  std::string const command = std::string(THERMOTWIN_PROGRAM) + " diagnose " + arguments + " --json 2>/dev/null";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string text;
+  std::array<char, 4096> buffer{};
+  while (std::size_t const n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
+  int const status = pclose(pipe);
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0) << command;
+  return Json::parse(text, nullptr, false);
+}
+
+/// The named effects, alternatives included: amplitude by name; of several sites the last.
+std::map<std::string, double> named(Json const& diagnosis) {
+  std::map<std::string, double> effects;
+  for (auto const& effect : diagnosis["effects"])
+    effects[effect["effect"].get<std::string>()] = effect["amplitude"].get<double>();
+  return effects;
+}
+
+double left(Json const& gap) { return gap["after"].get<double>() / gap["before"].get<double>(); }
+
+std::string pipe(std::string const& fitted, std::string const& unseen) {
+  return run_file("plain_pipe") + " " + run_file("water_pipe_" + fitted) + " --hold-out " +
+         run_file("water_pipe_" + unseen);
+}
+
+void expect_wall(Json const& found) {
+  auto const effects = named(found);
+  ASSERT_TRUE(effects.contains("channel_wall")) << found["effects"];
+  EXPECT_NEAR(effects.at("channel_wall"), 101e3, 20e3);  // 39 m, 5.40 kg/m, 480 J/(kg K)
+  EXPECT_FALSE(effects.contains("film")) << "loss of heat";
+  EXPECT_LT(left(found["gap"]), 0.35);
+}
+
+TEST_F(MeasuredDiagnosis, OfThePlainPipeNamesTheHeatCapacityOfItsWallAndNoLoss) {
+  expect_wall(diagnose(pipe("150801", "151204_1")));
+}
+
+/// At the one flow of the shorter run a lag of the thermocouple does as well; whoever knows his thermocouples is told
+/// of the wall.
+TEST_F(MeasuredDiagnosis, OfThePlainPipeTheOtherWayRoundNeedsToBeToldOfTheThermocouple) {
+  auto const found = diagnose(pipe("151204_1", "150801"));
+  auto const effects = named(found);
+  EXPECT_TRUE(effects.contains("channel_wall") || effects.contains("sensor_lag")) << found["effects"];
+  EXPECT_FALSE(effects.contains("film")) << "loss of heat";
+  EXPECT_LT(left(found["gap"]), 0.35);
+  expect_wall(diagnose(pipe("151204_1", "150801") + " --without sensor_lag"));
+}
+
+class Board : public MeasuredDiagnosis, public testing::WithParamInterface<std::pair<char const*, char const*>> {};
+
+TEST_P(Board, OfTwoCoupledNodesLacksTheLagOfItsThermistorAndNoRadiation) {
+  auto const [fitted, unseen] = GetParam();
+  auto const found = diagnose(run_file("plain_board") + " " + run_file(fitted) + " --hold-out " + run_file(unseen));
+  auto const effects = named(found);
+  ASSERT_TRUE(effects.contains("sensor_lag")) << found["effects"];
+  EXPECT_NEAR(effects.at("sensor_lag"), 18.0, 6.0);
+  EXPECT_EQ(found["effects"][0]["site"], "T1");
+  for (auto const* refused : {"radiation", "ambient_cycle"}) EXPECT_FALSE(effects.contains(refused)) << refused;
+  EXPECT_LT(left(found["gap"]), 0.35);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothWays, Board,
+                         testing::Values(std::pair("tclab_energy_balance", "tclab_second_order"),
+                                         std::pair("tclab_second_order", "tclab_energy_balance")),
+                         [](auto const& info) { return info.index == 0 ? "first" : "second"; });
+
+/// RMS of measured less predicted displacements after `from` [um]: the twin runs from the start, and each probe's zero
+/// is that of the rows before.
+std::map<std::string, double> errors_after(Machine const& machine, MeasuredRun const& run, double from) {
+  auto const data = bin(run, 300.0);
+  Eigen::MatrixXd const residual = data.values - LinearisedRun(machine, data).prediction();
+  std::map<std::string, double> errors;
+  for (std::size_t c = 0; c < run.channels.size(); ++c) {
+    if (!run.channels[c].displacement) continue;
+    double zero = 0.0, square = 0.0;
+    int before = 0, after = 0;
+    auto const column = residual.col(Eigen::Index(c));
+    for (Eigen::Index row = 0; row < column.size(); ++row)
+      if (data.time[row] < from && !std::isnan(column[row])) zero += column[row], ++before;
+    for (Eigen::Index row = 0; row < column.size(); ++row)
+      if (data.time[row] >= from && !std::isnan(column[row]))
+        square += std::pow(column[row] - zero / before, 2), ++after;
+    errors[run.channels[c].name] = 1e6 * std::sqrt(square / after);
+  }
+  return errors;
+}
+
+TEST_F(MeasuredDiagnosis, OfTheSpindlePredictsHoursAtASpeedNeverSeen) {
+  tests::TemporaryDirectory const directory;
+  auto const amended = (directory / "amended.toml").string();
+  auto const found = diagnose("spindle_5probe " + run_file("spindle_5probe_first") + " -o " + amended);
+  ASSERT_FALSE(found.is_discarded());
+  Machine const machine = Machine::read(amended);
+  auto const run = read_measured_run(run_file("spindle_5probe_all"), machine);
+  auto const errors = errors_after(machine, run, (24.0 + 24.12) * 3600.0);  // the run begins 24 h before the record
+  std::map<std::string, double> const bars = {{"ch1", 4.2}, {"ch2", 3.9}, {"ch3", 7.9}, {"ch4", 7.7}, {"ch5", 4.2}};
+  for (auto const& [channel, bar] : bars) {
+    RecordProperty(channel, std::to_string(errors.at(channel)));
+    std::printf("%s: %.2f um RMSE, bar %.1f\n", channel.c_str(), errors.at(channel), bar);
+    EXPECT_LT(errors.at(channel), bar) << channel;
+  }
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
