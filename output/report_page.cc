@@ -97,7 +97,7 @@ Json ReportPage::add_quantised(Eigen::MatrixXd const& columns) {
   return reference;
 }
 
-void ReportPage::add_section(std::string_view kind, Json section) {
+void ReportPage::add_section(std::string_view kind, Json const& section) {
   Json whole = {{"kind", kind}};
   whole.update(section);
   sections_.push_back(whole.dump());

@@ -31,7 +31,7 @@ class ReportPage {
   Json add_quantised(Eigen::MatrixXd const& columns);
 
   /// The kind names the drawer.
-  void add_section(std::string_view kind, Json section);
+  void add_section(std::string_view kind, Json const& section);
 
   [[nodiscard]] std::string html() const;
 

@@ -23,19 +23,18 @@ Json read_diagnosis(std::filesystem::path const& path) {
   return json;
 }
 
-/// "0.553 W/K": three digits, in the unit in which people say it.
-std::string short_text(double si, thermal::Dimension dimension) {
-  auto const text = thermal::format_quantity(si, dimension);
-  auto const space = std::min(text.find(' '), text.size());
-  return fmt::format("{:.3g}{}", std::stod(text.substr(0, space)), text.substr(space));
-}
-
+/// "-0.892 um (-1.19 um to -0.595 um)", to three digits, in the unit in which people say the amplitude.
 std::string amplitude_text(Json const& finding, Effect const& effect) {
   auto const parameter = std::find_if(effect.parameters.begin(), effect.parameters.end(),
                                       [&](auto const& p) { return p.key == finding["parameter"]; });
   if (parameter == effect.parameters.end())
     return fmt::format("{:.4g} {}", finding["amplitude"].get<double>(), finding["unit"].get<std::string>());
-  auto const text = [&](char const* key) { return short_text(finding[key].get<double>(), parameter->dimension); };
+  auto const whole = thermal::format_quantity(finding["amplitude"].get<double>(), parameter->dimension);
+  auto const unit = whole.substr(std::min(whole.find(' '), whole.size()));  // " um", or nothing
+  auto const text = [&](char const* key) {
+    double const si = finding[key].get<double>();
+    return fmt::format("{:.3g}{}", unit.empty() ? si : thermal::to_unit(si, unit.substr(1)), unit);
+  };
   return fmt::format("{} ({} to {})", text("amplitude"), text("low"), text("high"));
 }
 

@@ -32,7 +32,7 @@ export class MachineView {
   private dirty = {field: true, spots: true};
   private hidden: boolean[] = [];
   private fineness = 1;
-  private sized = 0;
+  private size = '';
   private slow = 0;
   private settle = 0;
 
@@ -207,16 +207,17 @@ export class MachineView {
 
   private resized(): void {
     if (this.stage.clientWidth === 0) return;
-    this.setFineness(1);
+    this.fineness = 1;
     this.fit();
   }
 
-  private setFineness(fineness: number): void {
-    if (fineness === this.fineness && this.sized === this.stage.clientWidth) return;
-    this.sized = this.stage.clientWidth;
-    this.fineness = fineness;
-    const ratio = fineness * Math.min(2, devicePixelRatio);
-    this.scene.resize(this.stage.clientWidth * ratio, this.stage.clientHeight * ratio);
+  /** The picture's pixels; only before a drawing, because it empties the picture. */
+  private fitPixels(): void {
+    const ratio = this.fineness * Math.min(2, devicePixelRatio), {clientWidth: width, clientHeight: height} = this.stage;
+    const size = [width * ratio, height * ratio].map(Math.round).join();
+    if (size === this.size) return;
+    this.size = size;
+    this.scene.resize(width * ratio, height * ratio);
   }
 
   private ask(): void {
@@ -231,14 +232,14 @@ export class MachineView {
 
   /** A machine that cannot follow gets fewer pixels while things move, and all of them when they rest. */
   private adapt(took: number): void {
-    this.slow = 0.7 * this.slow + 0.3 * took;
+    this.slow = 0.7 * this.slow + 0.3 * Math.min(60, took); // the first drawing is slow anywhere
     if (this.slow > 30 && this.fineness > 0.5) {
-      this.setFineness(this.fineness / 1.5);
+      this.fineness /= 1.5;
       this.slow = 20;
     }
     clearTimeout(this.settle);
     this.settle = setTimeout(() => {
-      this.setFineness(1);
+      this.fineness = 1;
       this.dirty.spots = true;
       this.draw();
     }, 500) as unknown as number;
@@ -248,6 +249,7 @@ export class MachineView {
     const t = this.state.time.value;
     if (this.dirty.field) this.showField(t);
     if (this.dirty.spots) this.showVisible();
+    this.fitPixels();
     this.scene.draw(this.camera);
     this.placeMarks();
     this.dirty = {field: false, spots: false};
