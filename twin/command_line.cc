@@ -15,6 +15,7 @@
 #include "twin/challenge/challenge.h"
 #include "twin/command_line_volumetric.h"
 #include "twin/command_line_place.h"
+#include "twin/command_line_study.h"
 #include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnose_files.h"
@@ -330,6 +331,7 @@ int command_line(int argc, char** argv) {
   add_challenge_command(app);
   add_volumetric_command(app);
   add_place_command(app, stop_requested);
+  add_study_command(app, stop_requested);
   add_report_command(app);
   std::signal(SIGINT, [](int) { stop_requested = true; });
   std::signal(SIGTERM, [](int) { stop_requested = true; });

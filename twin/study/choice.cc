@@ -1,0 +1,80 @@
+#include "twin/study/choice.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+
+models::Selection every_sensor(Index count) {
+  models::Selection all{std::vector<Index>(std::size_t(count)), Eigen::VectorXd::Zero(count), ""};
+  std::iota(all.sensors.begin(), all.sensors.end(), Index{0});
+  return all;
+}
+
+models::Selection selected(NamedSelection const& method, Question const& question, WorldData const& data,
+                           std::uint64_t seed) {
+  auto const moving = Index(question.columns.size());
+  if (method.name == "all") return every_sensor(moving);
+  models::SelectionOptions options{.count = method.count, .seed = seed};
+  if (method.name == "thermal_modes") {
+    if (data.mode_shapes.size() == 0) throw std::invalid_argument(data.no_modes);
+    options.mode_shapes = data.mode_shapes(question.columns, Eigen::all);
+  }
+  return models::selection_method(method.name).select(question.training, options);
+}
+
+}  // namespace
+
+Choice choose(NamedSelection const& method, Question const& question, WorldData const& data, std::uint64_t seed) {
+  Choice choice;
+  try {
+    auto const found = selected(method, question, data, seed);
+    choice.selection.remark = found.remark;
+    choice.selection.score = Eigen::VectorXd::Zero(Index(data.sensors.size()));
+    for (std::size_t j = 0; j < question.columns.size(); ++j)
+      choice.selection.score[question.columns[j]] = found.score[Index(j)];
+    for (auto const sensor : found.sensors) choice.selection.sensors.push_back(question.columns[std::size_t(sensor)]);
+    choice.columns = choice.selection.sensors;
+    std::sort(choice.columns.begin(), choice.columns.end());
+    if (choice.columns.empty()) choice.refused = "no sensor chosen";
+  } catch (std::invalid_argument const& error) {
+    choice.refused = error.what();
+  }
+  return choice;
+}
+
+SelectionTruth::SelectionTruth(WorldData const& data) {
+  if (Index(data.sensors.size()) > models::largest_exhaustive) return;
+  std::vector<models::Batch> runs;
+  for (auto const* list : {&data.train.front(), &data.test.front()})
+    for (auto const& run : *list) runs.push_back(run.truth ? *run.truth : run.seen);
+  validation_ = std::make_unique<models::SubsetValidation>(models::stacked(runs));
+}
+
+void SelectionTruth::prepare(int count) {
+  if (!validation_ || best_.contains(count) || count < 1 || count > validation_->sensors() ||
+      count > validation_->largest_set())
+    return;
+  best_.emplace(count, models::best_subset(*validation_, count));
+}
+
+std::optional<ChoiceQuality> SelectionTruth::quality(Choice const& choice) const {
+  auto const best = best_.find(int(choice.columns.size()));
+  if (best == best_.end()) return std::nullopt;
+  auto const& margin = best->second.margin;
+  return ChoiceQuality{models::regret(choice.selection, *validation_, best->second),
+                       models::score(choice.selection, margin.array() - margin.minCoeff())};
+}
+
+std::optional<double> switch_share(std::vector<Choice const*> const& choices) {
+  if (choices.size() < 2) return std::nullopt;
+  int switches = 0;
+  for (std::size_t i = 1; i < choices.size(); ++i) switches += choices[i]->columns != choices[i - 1]->columns ? 1 : 0;
+  return double(switches) / double(choices.size() - 1);
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/exhaustive_selection.h"
+#include "models/selection.h"
+#include "models/selection_score.h"
+#include "models/subset_validation.h"
+#include "twin/study/question.h"
+
+namespace thermotwin::twin {
+
+/// What a method chose for a question, in columns of the world's sensors; or why it could not.
+struct Choice {
+  models::Selection selection;        ///< score 0 for sensors that stand still in the training set
+  std::vector<Eigen::Index> columns;  ///< the same sensors, ascending: what models are fitted to
+  std::string refused;                ///< empty if it chose
+};
+
+[[nodiscard]] Choice choose(NamedSelection const& method, Question const& question, WorldData const& data,
+                            std::uint64_t seed);
+
+/// How good a choice is, by the truth of a world.
+struct ChoiceQuality {
+  double regret = 0;  ///< [µm], see models::regret
+  models::SelectionScore score;
+};
+
+/// What selections are measured against: the runs of a world, all of them, without noise where they are simulated, and
+/// the best of all sets of a size on them by blocked cross-validation of a linear regression (exhaustive_selection.h).
+///
+/// The truth of a sensor for sets of k is its margin there: RMSE of the best k without it − RMSE of the best k with it,
+/// shifted so that the least is 0. The k truly informative ones are thus the best set. Only for up to 20 sensors.
+class SelectionTruth {
+ public:
+  explicit SelectionTruth(WorldData const& data);
+
+  /// Finds the best set of that size. To be called for every size before quality() is asked from several threads.
+  void prepare(int count);
+
+  /// None when the number of sensors, or of those chosen, is out of reach.
+  [[nodiscard]] std::optional<ChoiceQuality> quality(Choice const& choice) const;
+
+ private:
+  std::unique_ptr<models::SubsetValidation> validation_;
+  std::map<int, models::BestSubset> best_;
+};
+
+/// Share of the choices, from the second on, whose set is not that of the one before; none for fewer than two.
+[[nodiscard]] std::optional<double> switch_share(std::vector<Choice const*> const& choices);
+
+}  // namespace thermotwin::twin

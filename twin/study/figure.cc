@@ -1,0 +1,39 @@
+#include "twin/study/figure.h"
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace thermotwin::twin {
+
+Interval interval(std::vector<double> const& values) {
+  Interval result;
+  for (double const x : values)
+    if (std::isfinite(x)) {
+      result.mean += x;
+      ++result.values;
+    }
+  if (result.values == 0) return {std::nan(""), 0, 0};
+  result.mean /= result.values;
+  if (result.values < 2) return result;
+  double squares = 0;
+  for (double const x : values)
+    if (std::isfinite(x)) squares += (x - result.mean) * (x - result.mean);
+  double const freedom = result.values - 1;
+  double const t = boost::math::quantile(boost::math::students_t(freedom), 0.975);
+  result.half = t * std::sqrt(squares / freedom / result.values);
+  return result;
+}
+
+std::vector<double> values_of(Figures const& figures, std::string const& name) {
+  auto const it = figures.find(name);
+  return it == figures.end() ? std::vector<double>() : it->second;
+}
+
+std::string text_of(Interval const& interval, int decimals) {
+  if (interval.values == 0) return "-";
+  if (interval.values == 1) return fmt::format("{:.{}f}", interval.mean, decimals);
+  return fmt::format("{:.{}f} ± {:.{}f}", interval.mean, decimals, interval.half, decimals);
+}
+
+}  // namespace thermotwin::twin

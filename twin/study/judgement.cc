@@ -1,0 +1,155 @@
+#include "twin/study/judgement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "models/batch_statistics.h"
+#include "models/feed_axis.h"
+#include "models/metrics.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using Named = std::map<std::string, double>;
+
+/// Truths and predictions of one part, one below the other.
+struct Pool {
+  std::vector<double> truth, prediction;
+
+  void add(VectorXd const& t, VectorXd const& p) {
+    truth.insert(truth.end(), t.begin(), t.end());
+    prediction.insert(prediction.end(), p.begin(), p.end());
+  }
+};
+
+void put(Named& figures, std::string const& part, models::Metrics const& m) {
+  figures[part + ".rmse"] = m.rmse;
+  figures[part + ".mae"] = m.mae;
+  figures[part + ".max"] = m.max;
+  figures[part + ".r_squared"] = m.r_squared;
+  figures[part + ".mape"] = m.mape;
+}
+
+void put(Named& figures, std::string const& part, Pool const& pool) {
+  if (pool.truth.empty()) return;
+  auto const n = Index(pool.truth.size());
+  put(figures, part,
+      models::metrics(Eigen::Map<VectorXd const>(pool.truth.data(), n),
+                      Eigen::Map<VectorXd const>(pool.prediction.data(), n)));
+}
+
+/// The last instants of a stretch, without those that the model does not claim.
+VectorXd claimed(VectorXd const& all, Asked const& asked, int unclaimed) {
+  Index const first = std::max(asked.first, Index(unclaimed));
+  return all.segment(first, asked.first + asked.count - first);
+}
+
+void put_spread(Named& figures, std::string const& name, VectorXd const& values) {
+  figures[name] = values.mean();
+  figures[name + ".least"] = values.minCoeff();
+  figures[name + ".most"] = values.maxCoeff();
+}
+
+/// Models of single runs.
+void put_statistics(Named& figures, std::vector<Answer> const& fits,
+                    std::vector<std::vector<VectorXd>> const& predictions) {
+  std::vector<VectorXd> errors;
+  for (auto const& asked : fits.front().question->asked) errors.push_back(asked.batch.error);
+  std::vector<double> parameters;
+  for (auto const& fit : fits) parameters.push_back(fit.model->parameters);
+  auto const s = models::batch_statistics(models::deviation_matrix(errors, predictions, parameters));
+  put_spread(figures, "S", s.S);
+  put_spread(figures, "Mn", s.Mn);
+  put_spread(figures, "Sd", s.Sd);
+  if (s.verification_Mn.size() == 0) return;
+  put_spread(figures, "verification.Mn", s.verification_Mn);
+  put_spread(figures, "verification.Sd", s.verification_Sd);
+}
+
+/// One model of all training runs.
+void put_statistics(Named& figures, Answer const& fit, std::vector<VectorXd> const& predictions) {
+  Pool training;
+  std::vector<double> tests;
+  auto const& asked = fit.question->asked;
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    VectorXd const measured = claimed(asked[k].batch.error, asked[k], fit.model->unclaimed_instants());
+    if (asked[k].role == Role::self)
+      training.add(measured, predictions[k]);
+    else
+      tests.push_back(models::residual_deviation(measured, predictions[k]));
+  }
+  auto const n = Index(training.truth.size());
+  figures["S"] =
+      models::residual_deviation(Eigen::Map<VectorXd const>(training.truth.data(), n),
+                                 Eigen::Map<VectorXd const>(training.prediction.data(), n), fit.model->parameters);
+  Eigen::Map<VectorXd const> const deviations(tests.data(), Index(tests.size()));
+  figures["Mn"] = deviations.mean();
+  if (tests.size() > 1)
+    figures["Sd"] = std::sqrt((deviations.array() - deviations.mean()).square().sum() / double(tests.size() - 1));
+}
+
+}  // namespace
+
+Fit fit_model(models::ModelMethod const& method, Question const& question, std::vector<Index> const& columns,
+              std::uint64_t seed) {
+  std::vector<Index> own;
+  for (auto const column : columns)
+    own.push_back(std::find(question.columns.begin(), question.columns.end(), column) - question.columns.begin());
+  std::vector<models::Batch> batches;
+  for (auto const& batch : question.training) batches.push_back(models::with_sensors(batch, own));
+  try {
+    return {method.fit(batches, {.seed = seed}), ""};
+  } catch (std::invalid_argument const& error) {
+    return {{}, error.what()};
+  }
+}
+
+Named judged(std::vector<Answer> const& fits, std::vector<Answer> const& validations, std::size_t train_runs) {
+  Named figures;
+  std::map<Role, Pool> pools;
+  std::vector<std::vector<VectorXd>> predictions;
+  for (auto const* answers : {&fits, &validations})
+    for (auto const& [question, model] : *answers) {
+      auto& own = predictions.emplace_back();
+      for (auto const& asked : question->asked) {
+        own.push_back(claimed(model->predict(asked.batch), asked, model->unclaimed_instants()));
+        pools[asked.role].add(claimed(asked.truth, asked, model->unclaimed_instants()), own.back());
+      }
+    }
+  predictions.resize(fits.size());
+  put(figures, "self", pools[Role::self]);
+  put(figures, "cross", pools[Role::cross]);
+  put(figures, "validation", pools[Role::validation]);
+  if (fits.size() > 1 && fits.size() == train_runs)
+    put_statistics(figures, fits, predictions);
+  else
+    put_statistics(figures, fits.front(), predictions.front());
+  return figures;
+}
+
+Named judged_instants(StudyWorld const& world, WorldData const& data, int repetition, models::ErrorModel const& slope) {
+  Named figures;
+  auto const& train = data.train[std::size_t(repetition)];
+  auto const& test = data.test[std::size_t(repetition)];
+  std::vector<models::AxisRecord> records;
+  for (auto const& run : train) records.push_back(*run.axis);
+  models::FeedAxisModel const model{slope, models::zero_position(records)};
+  for (auto const& run : test) records.push_back(*run.axis);
+  for (auto const& instant : world.instants)
+    for (auto const& record : records) {
+      if (record.name != instant.experiment) continue;
+      Index row = 0;
+      (record.time.array() - instant.time).abs().minCoeff(&row);
+      auto const m = model.at_instant(record, row, record.position.minCoeff(), record.position.maxCoeff());
+      auto const name = fmt::format("{} at {:g} min", record.name, instant.time / 60.0);
+      figures[name + ".rmse"] = m.rmse;
+      figures[name + ".mae"] = m.mae;
+      figures[name + ".max"] = m.max;
+    }
+  return figures;
+}
+
+}  // namespace thermotwin::twin

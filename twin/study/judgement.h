@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "models/error_model.h"
+#include "twin/study/question.h"
+
+namespace thermotwin::twin {
+
+/// A model fitted for a question, or why it was not.
+struct Fit {
+  models::ErrorModel model;
+  std::string refused;  ///< empty if it was fitted
+};
+
+/// On the question's sensors `columns` (of the world's, ascending).
+[[nodiscard]] Fit fit_model(models::ModelMethod const& method, Question const& question,
+                            std::vector<Eigen::Index> const& columns, std::uint64_t seed);
+
+/// A question and the model that answers it.
+struct Answer {
+  Question const* question;
+  models::ErrorModel const* model;
+};
+
+/// Figures of one combination in one repetition, by name; none of the answers may be refused.
+///
+///   self.*, cross.*, validation.*   rmse, mae, max [µm], r_squared [1], mape [%] of the pooled predictions against the
+///                                   true errors (metrics.h), where the model claims any
+///                                   (ErrorModel::unclaimed_instants)
+///   S, Mn, Sd                       batch_statistics.h, mean over the models, against the measured errors as in paper
+///                                   004; of a single model, S over the training runs, Mn and Sd over the test runs
+///   Mn.least, Mn.most, Sd.least …   over the models, where each is of one run
+///   verification.Mn, .Sd            over the test runs, where models are of single runs
+[[nodiscard]] std::map<std::string, double> judged(std::vector<Answer> const& fits,
+                                                   std::vector<Answer> const& validations, std::size_t train_runs);
+
+/// rmse, mae, max over the judged positions of a laser at the world's instants: "feed_8000 at 60 min.rmse".
+[[nodiscard]] std::map<std::string, double> judged_instants(StudyWorld const& world, WorldData const& data,
+                                                            int repetition, models::ErrorModel const& slope);
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,158 @@
+#include "twin/study/question.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "models/contiguous_folds.h"
+#include "thermal/error.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using models::Batch;
+
+Eigen::VectorXd const& truth_of(StudyRun const& run) { return run.truth ? run.truth->error : run.seen.error; }
+
+Asked whole(StudyRun const& run, Role role) { return {role, run.seen, truth_of(run), 0, run.seen.time.size()}; }
+
+bool moves(std::vector<Batch> const& batches, Index column) {
+  return std::any_of(batches.begin(), batches.end(), [&](Batch const& batch) {
+    auto const values = batch.temperature_rise.col(column).array();
+    return values.maxCoeff() > values.minCoeff();
+  });
+}
+
+class QuestionWriter {
+ public:
+  QuestionWriter(StudyWorld const& world, WorldData const& data, int repetition)
+      : world_(world), train_(data.train[std::size_t(repetition)]), test_(data.test[std::size_t(repetition)]) {}
+  Questions write(int folds);
+
+ private:
+  void add(std::vector<Question>& to, std::string name, std::vector<Batch> training, std::vector<Asked> asked);
+  void together();
+  void split_run();
+  void each();
+  void folds_of_run(Batch const& run, Eigen::VectorXd const& truth, int folds);
+  void folds_of_runs(int folds);
+  [[nodiscard]] Index split_row() const;
+
+  StudyWorld const& world_;
+  std::vector<StudyRun> const& train_;
+  std::vector<StudyRun> const& test_;
+  Questions questions_;
+};
+
+void QuestionWriter::add(std::vector<Question>& to, std::string name, std::vector<Batch> training,
+                         std::vector<Asked> asked) {
+  Question question{std::move(name), {}, {}, std::move(asked)};
+  auto const& sensors = training.front().sensors;
+  for (std::size_t j = 0; j < sensors.size(); ++j)
+    if (moves(training, Index(j)))
+      question.columns.push_back(Index(j));
+    else
+      questions_.remarks.push_back(
+          fmt::format("{} stands still in {}, and is left out there", sensors[j], question.name));
+  if (question.columns.empty()) throw thermal::InputError(fmt::format("no sensor moves in {}", question.name));
+  for (auto const& batch : training) question.training.push_back(models::with_sensors(batch, question.columns));
+  to.push_back(std::move(question));
+}
+
+Index QuestionWriter::split_row() const {
+  auto const& time = train_.front().seen.time;
+  auto const row = std::lower_bound(time.begin(), time.end(), *world_.split - 1e-6) - time.begin();
+  if (row < 10 || time.size() - row < 10)
+    throw thermal::InputError(
+        fmt::format("'split' leaves {} rows to train on and {} to test on; ten are the least", row, time.size() - row));
+  return row;
+}
+
+void QuestionWriter::split_run() {
+  auto const& run = train_.front();
+  Index const row = split_row(), rows = run.seen.time.size();
+  add(questions_.fits, run.seen.name, {rows_of(run.seen, 0, row)},
+      {{Role::self, run.seen, truth_of(run), 0, row}, {Role::cross, run.seen, truth_of(run), row, rows - row}});
+}
+
+void QuestionWriter::together() {
+  std::vector<Batch> training;
+  std::vector<Asked> asked;
+  for (auto const& run : train_) {
+    training.push_back(run.seen);
+    asked.push_back(whole(run, Role::self));
+  }
+  for (auto const& run : test_) asked.push_back(whole(run, Role::cross));
+  add(questions_.fits, train_.size() == 1 ? train_.front().seen.name : "the training runs", std::move(training),
+      std::move(asked));
+}
+
+void QuestionWriter::each() {
+  for (std::size_t l = 0; l < train_.size(); ++l) {
+    std::vector<Asked> asked;
+    for (std::size_t k = 0; k < train_.size(); ++k)
+      asked.push_back(whole(train_[k], k == l ? Role::self : Role::cross));
+    for (auto const& run : test_) asked.push_back(whole(run, Role::cross));
+    add(questions_.fits, train_[l].seen.name, {train_[l].seen}, std::move(asked));
+  }
+}
+
+void QuestionWriter::folds_of_run(Batch const& run, Eigen::VectorXd const& truth, int folds) {
+  for (auto const& fold : models::contiguous_folds(run.time.size(), folds)) {
+    std::vector<Batch> training;
+    Index const behind = fold.first + fold.count;
+    if (fold.first > 0) training.push_back(rows_of(run, 0, fold.first));
+    if (behind < run.time.size()) training.push_back(rows_of(run, behind, run.time.size() - behind));
+    add(questions_.validations, fmt::format("{} without rows {} to {}", run.name, fold.first + 1, behind),
+        std::move(training), {{Role::validation, run, truth, fold.first, fold.count}});
+  }
+}
+
+void QuestionWriter::folds_of_runs(int folds) {
+  auto const runs = Index(train_.size());
+  for (auto const& fold : models::contiguous_folds(runs, std::min(folds, int(runs)))) {
+    std::vector<Batch> training;
+    std::vector<Asked> asked;
+    for (Index k = 0; k < runs; ++k)
+      if (k >= fold.first && k < fold.first + fold.count)
+        asked.push_back(whole(train_[std::size_t(k)], Role::validation));
+      else
+        training.push_back(train_[std::size_t(k)].seen);
+    auto const name = fmt::format("the training runs without {}", asked.front().batch.name);
+    add(questions_.validations, name, std::move(training), std::move(asked));
+  }
+}
+
+Questions QuestionWriter::write(int folds) {
+  if (world_.split)
+    split_run();
+  else if (world_.fit == "each")
+    each();
+  else
+    together();
+  if (folds == 0 || world_.fit == "each") return std::move(questions_);
+  auto const& first = train_.front();
+  if (train_.size() > 1) {
+    folds_of_runs(folds);
+  } else {
+    Index const rows = world_.split ? split_row() : first.seen.time.size();
+    folds_of_run(rows_of(first.seen, 0, rows), truth_of(first).head(rows), folds);
+  }
+  return std::move(questions_);
+}
+
+}  // namespace
+
+Questions questions(StudyWorld const& world, WorldData const& data, int repetition, int folds) {
+  return QuestionWriter(world, data, repetition).write(folds);
+}
+
+Batch rows_of(Batch const& batch, Index first, Index count) {
+  Batch part = batch;
+  part.time = batch.time.segment(first, count);
+  part.temperature_rise = batch.temperature_rise.middleRows(first, count);
+  part.error = batch.error.segment(first, count);
+  return part;
+}
+
+}  // namespace thermotwin::twin

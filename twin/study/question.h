@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "models/batch.h"
+#include "twin/study/study_data.h"
+
+namespace thermotwin::twin {
+
+/// What a prediction is good for: it was trained on, it was not, or it was left out of 'train' by cross-validation.
+enum class Role { self, cross, validation };
+
+/// A stretch of a run that a model is asked to predict.
+struct Asked {
+  Role role = Role::self;
+  models::Batch batch;                ///< the whole run: lags may reach back before the stretch
+  Eigen::VectorXd truth;              ///< of the whole run: true errors, measured ones where these are not known
+  Eigen::Index first = 0, count = 0;  ///< rows of the stretch
+};
+
+/// A training set, and what its models are asked.
+struct Question {
+  std::string name;                     ///< of the training set, for people
+  std::vector<models::Batch> training;  ///< the world's sensors that move in it
+  std::vector<Eigen::Index> columns;    ///< these sensors, as columns of the world's
+  std::vector<Asked> asked;
+};
+
+/// The questions of one repetition of a world: one, or one per run of 'train' (fit = "each"); then those of the
+/// cross-validation: `folds` stretches of a single run, or groups of whole runs. A sensor that stands still in a
+/// training set is left out of it; `remarks` say so.
+struct Questions {
+  std::vector<Question> fits, validations;
+  std::vector<std::string> remarks;
+};
+[[nodiscard]] Questions questions(StudyWorld const& world, WorldData const& data, int repetition, int folds);
+
+/// Rows of a batch, as a batch.
+[[nodiscard]] models::Batch rows_of(models::Batch const& batch, Eigen::Index first, Eigen::Index count);
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,280 @@
+#include "twin/study/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+#include "twin/study/choice.h"
+#include "twin/study/judgement.h"
+#include "twin/study/parallel.h"
+#include "twin/study/verdict.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Columns = std::vector<Eigen::Index>;
+
+/// One repetition of one world: its questions, and what selections and models made of them.
+struct Repetition {
+  std::size_t world;
+  int number;  ///< within its world
+  Questions questions;
+  std::vector<Question const*> all;                       ///< fits, then validations
+  std::vector<std::vector<Choice>> choices;               ///< per question, per selection
+  std::vector<std::vector<std::map<Columns, Fit>>> fits;  ///< per question, per model
+};
+
+class StudyRunner {
+ public:
+  StudyRunner(Study const& study, StudyOptions const& options) : study_(study.description), options_(options) {
+    worlds_ = study_data(study, progress("runs"), options.stop);
+    for (auto const& name : study_.selections) selections_.push_back(named_selection(name));
+    for (auto const& name : study_.models) models_.push_back(&models::model_method(name));
+  }
+  StudyReport run();
+
+ private:
+  [[nodiscard]] std::function<void(double)> progress(std::string what) const;
+  void ask();
+  void choose_all();
+  void fit_all();
+  void judge_selections(StudyReport& report);
+  void judge_combinations(StudyReport& report);
+  void put_improvements(StudyReport& report) const;
+  void put_means(StudyReport& report) const;
+  [[nodiscard]] std::string answers_of(Repetition const& repetition, std::size_t selection, std::size_t model,
+                                       std::vector<Answer>& fits, std::vector<Answer>& validations) const;
+  [[nodiscard]] Combination combination(std::size_t world, std::size_t selection, std::size_t model) const;
+  [[nodiscard]] SelectionFigures selection_figures(std::size_t world, std::size_t selection) const;
+  [[nodiscard]] std::uint64_t seed_of(Repetition const& repetition) const {
+    return 1 + std::uint64_t(repetition.number);
+  }
+
+  StudyDescription const& study_;
+  StudyOptions const& options_;
+  std::vector<WorldData> worlds_;
+  std::vector<NamedSelection> selections_;
+  std::vector<models::ModelMethod const*> models_;
+  std::vector<Repetition> repetitions_;
+  std::vector<SelectionTruth> truths_;
+};
+
+std::function<void(double)> StudyRunner::progress(std::string what) const {
+  if (!options_.progress) return {};
+  return [this, what = std::move(what)](double share) { options_.progress(what, share); };
+}
+
+void StudyRunner::ask() {
+  for (std::size_t w = 0; w < worlds_.size(); ++w)
+    for (int r = 0; r < worlds_[w].repetitions(); ++r) {
+      try {
+        repetitions_.push_back({w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}});
+      } catch (thermal::InputError const& error) {
+        throw thermal::InputError(fmt::format("world '{}': {}", study_.worlds[w].name, error.what()));
+      }
+    }
+  for (auto& repetition : repetitions_) {
+    for (auto const* list : {&repetition.questions.fits, &repetition.questions.validations})
+      for (auto const& question : *list) repetition.all.push_back(&question);
+    repetition.choices.assign(repetition.all.size(), std::vector<Choice>(selections_.size()));
+    repetition.fits.assign(repetition.all.size(), std::vector<std::map<Columns, Fit>>(models_.size()));
+  }
+}
+
+void StudyRunner::choose_all() {
+  struct Task {
+    Repetition* repetition;
+    std::size_t question, selection;
+  };
+  std::vector<Task> tasks;
+  for (auto& repetition : repetitions_)
+    for (std::size_t q = 0; q < repetition.all.size(); ++q)
+      for (std::size_t s = 0; s < selections_.size(); ++s) tasks.push_back({&repetition, q, s});
+  in_parallel(tasks.size(), progress("selections"), options_.stop, [&](std::size_t i) {
+    auto const& [repetition, q, s] = tasks[i];
+    repetition->choices[q][s] =
+        choose(selections_[s], *repetition->all[q], worlds_[repetition->world], seed_of(*repetition));
+  });
+}
+
+void StudyRunner::fit_all() {
+  struct Task {
+    Repetition* repetition;
+    std::size_t question, model;
+    Columns const* columns;
+    Fit* fit;
+  };
+  std::vector<Task> tasks;
+  for (auto& repetition : repetitions_)
+    for (std::size_t q = 0; q < repetition.all.size(); ++q)
+      for (auto const& choice : repetition.choices[q]) {
+        if (!choice.refused.empty()) continue;
+        for (std::size_t m = 0; m < models_.size(); ++m) {
+          auto const [place, fresh] = repetition.fits[q][m].try_emplace(choice.columns);
+          if (fresh) tasks.push_back({&repetition, q, m, &place->first, &place->second});
+        }
+      }
+  in_parallel(tasks.size(), progress("models"), options_.stop, [&](std::size_t i) {
+    auto const& task = tasks[i];
+    *task.fit =
+        fit_model(*models_[task.model], *task.repetition->all[task.question], *task.columns, seed_of(*task.repetition));
+  });
+}
+
+/// The models of all questions; or why there are none.
+std::string StudyRunner::answers_of(Repetition const& repetition, std::size_t selection, std::size_t model,
+                                    std::vector<Answer>& fits, std::vector<Answer>& validations) const {
+  for (std::size_t q = 0; q < repetition.all.size(); ++q) {
+    auto const& choice = repetition.choices[q][selection];
+    auto const prefix = repetition.all.size() > 1 ? repetition.all[q]->name + ": " : std::string();
+    if (!choice.refused.empty()) return prefix + choice.refused;
+    auto const& fit = repetition.fits[q][model].at(choice.columns);
+    if (!fit.refused.empty()) return prefix + fit.refused;
+    (q < repetition.questions.fits.size() ? fits : validations).push_back({repetition.all[q], &fit.model});
+  }
+  return {};
+}
+
+Combination StudyRunner::combination(std::size_t world, std::size_t selection, std::size_t model) const {
+  Combination row{study_.worlds[world].name, study_.selections[selection], study_.models[model], {}, {}, {}, {}};
+  for (auto const& repetition : repetitions_) {
+    if (repetition.world != world) continue;
+    std::vector<Answer> fits, validations;
+    row.refused = answers_of(repetition, selection, model, fits, validations);
+    if (!row.refused.empty()) break;
+    try {
+      auto figures = judged(fits, validations, study_.worlds[world].train.size());
+      if (!study_.worlds[world].instants.empty() && fits.size() == 1)
+        figures.merge(judged_instants(study_.worlds[world], worlds_[world], repetition.number, *fits.front().model));
+      for (auto const& [name, value] : figures) row.figures[name].push_back(value);
+    } catch (std::invalid_argument const& error) {
+      row.refused = error.what();
+      break;
+    }
+    if (repetition.number > 0) continue;
+    row.sensors = fits.front().model->inputs;
+    row.remark = fits.front().model->remark;
+  }
+  if (!row.refused.empty()) row.figures.clear();
+  return row;
+}
+
+void StudyRunner::judge_combinations(StudyReport& report) {
+  std::size_t const per_world = selections_.size() * models_.size();
+  report.rows.resize(worlds_.size() * per_world);
+  in_parallel(report.rows.size(), progress("judgement"), options_.stop, [&](std::size_t i) {
+    report.rows[i] = combination(i / per_world, i % per_world / models_.size(), i % models_.size());
+  });
+}
+
+SelectionFigures StudyRunner::selection_figures(std::size_t world, std::size_t selection) const {
+  SelectionFigures result{study_.worlds[world].name, study_.selections[selection], {}, {}};
+  for (auto const& repetition : repetitions_) {
+    if (repetition.world != world) continue;
+    std::map<std::string, std::vector<double>> values;
+    std::vector<Choice const*> choices;
+    for (std::size_t q = 0; q < repetition.questions.fits.size(); ++q) {
+      auto const& choice = repetition.choices[q][selection];
+      if (!choice.refused.empty()) {
+        result.remark = "refused: " + choice.refused;
+        continue;
+      }
+      if (result.remark.empty()) result.remark = choice.selection.remark;
+      choices.push_back(&choice);
+      values["count"].push_back(double(choice.columns.size()));
+      auto const quality = selections_[selection].name == "all" ? std::nullopt : truths_[world].quality(choice);
+      if (!quality) continue;
+      values["regret"].push_back(quality->regret);
+      values["informative"].push_back(quality->score.informative);
+      values["found"].push_back(quality->score.found);
+      values["rank_correlation"].push_back(quality->score.rank_correlation);
+    }
+    for (auto const& [name, of_questions] : values) result.figures[name].push_back(interval(of_questions).mean);
+    if (auto const share = switch_share(choices)) result.figures["switches"].push_back(*share);
+  }
+  return result;
+}
+
+void StudyRunner::judge_selections(StudyReport& report) {
+  for (auto const& world : worlds_) truths_.emplace_back(world);
+  std::vector<std::set<int>> counts(worlds_.size());
+  for (auto const& repetition : repetitions_)
+    for (std::size_t q = 0; q < repetition.questions.fits.size(); ++q)
+      for (std::size_t s = 0; s < selections_.size(); ++s)
+        if (selections_[s].name != "all" && repetition.choices[q][s].refused.empty())
+          counts[repetition.world].insert(int(repetition.choices[q][s].columns.size()));
+  in_parallel(worlds_.size(), progress("best sets"), options_.stop, [&](std::size_t w) {
+    for (int const count : counts[w]) truths_[w].prepare(count);
+  });
+  for (std::size_t w = 0; w < worlds_.size(); ++w)
+    for (std::size_t s = 0; s < selections_.size(); ++s) report.selections.push_back(selection_figures(w, s));
+}
+
+void StudyRunner::put_improvements(StudyReport& report) const {
+  auto const figure = "cross." + study_.metric;
+  for (auto& row : report.rows) {
+    auto const reference = std::find_if(report.rows.begin(), report.rows.end(), [&](auto const& other) {
+      return other.world == row.world && other.name() == study_.reference;
+    });
+    auto const before = values_of(reference->figures, figure), after = values_of(row.figures, figure);
+    for (std::size_t r = 0; r < std::min(before.size(), after.size()); ++r)
+      row.figures["improvement"].push_back(100.0 * (1.0 - after[r] / before[r]));
+  }
+}
+
+/// Repetition by repetition, over worlds of the same unit, where all have as many repetitions.
+void StudyRunner::put_means(StudyReport& report) const {
+  bool const alike = std::all_of(worlds_.begin(), worlds_.end(), [&](auto const& world) {
+    return world.unit == worlds_.front().unit && world.repetitions() == worlds_.front().repetitions();
+  });
+  if (worlds_.size() < 2 || !alike) return;
+  std::size_t const per_world = report.rows.size() / worlds_.size();
+  for (std::size_t i = 0; i < per_world; ++i) {
+    Combination mean{"mean of worlds", report.rows[i].selection, report.rows[i].model, {}, {}, {}, {}};
+    for (auto const* figure : {"self.rmse", "cross.rmse", "validation.rmse"}) {
+      std::vector<double> sum(std::size_t(worlds_.front().repetitions()), 0.0);
+      bool everywhere = true;
+      for (std::size_t w = 0; w < worlds_.size(); ++w) {
+        auto const& row = report.rows[w * per_world + i];
+        auto const values = values_of(row.figures, figure);
+        everywhere = everywhere && values.size() == sum.size();
+        if (!row.refused.empty()) mean.refused = row.world + ": " + row.refused;
+        for (std::size_t r = 0; everywhere && r < sum.size(); ++r) sum[r] += values[r] / double(worlds_.size());
+      }
+      if (everywhere) mean.figures[figure] = sum;
+    }
+    report.means.push_back(std::move(mean));
+  }
+}
+
+StudyReport StudyRunner::run() {
+  StudyReport report;
+  report.description = study_;
+  ask();
+  choose_all();
+  fit_all();
+  judge_selections(report);
+  judge_combinations(report);
+  put_improvements(report);
+  put_means(report);
+  for (std::size_t w = 0; w < worlds_.size(); ++w) {
+    report.units.push_back(worlds_[w].unit);
+    report.repetitions.push_back(worlds_[w].repetitions());
+    for (auto const& remark : worlds_[w].remarks) report.remarks.push_back(study_.worlds[w].name + ": " + remark);
+  }
+  std::set<std::string> told;
+  for (auto const& repetition : repetitions_)
+    for (auto const& remark : repetition.questions.remarks)
+      if (auto text = study_.worlds[repetition.world].name + ": " + remark; told.insert(text).second)
+        report.remarks.push_back(std::move(text));
+  put_verdict(report);
+  return report;
+}
+
+}  // namespace
+
+StudyReport run_study(Study const& study, StudyOptions const& options) { return StudyRunner(study, options).run(); }
+
+}  // namespace thermotwin::twin

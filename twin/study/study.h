@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "twin/study/figure.h"
+#include "twin/study/study_file.h"
+
+namespace thermotwin::twin {
+
+/// A row of the table.
+struct Combination {
+  std::string world, selection, model;
+  Figures figures;                   ///< judgement.h, and "improvement" [%] over the reference
+  std::vector<std::string> sensors;  ///< chosen in the first repetition for the first training set
+  std::string refused;               ///< why there are no figures
+  std::string remark;                ///< what the fit of the first repetition found out
+
+  [[nodiscard]] std::string name() const { return combination_name(selection, model); }
+};
+
+/// What a selection is worth, whatever the model.
+struct SelectionFigures {
+  std::string world, selection;
+  Figures figures;  ///< regret, informative, found, rank_correlation, switches, count
+  std::string remark;
+};
+
+/// A claim, and what the figures say of it: the ratio of the two figures, or the figure.
+struct ClaimVerdict {
+  StudyClaim claim;
+  enum class Answer { holds, fails, undecided, refused } answer = Answer::refused;
+  std::string words;
+};
+
+/// Everything a study found.
+struct StudyReport {
+  StudyDescription description;
+  std::vector<std::string> units;  ///< of the errors, per world
+  std::vector<int> repetitions;    ///< per world
+  std::vector<Combination> rows;   ///< world by world, selection by selection
+  std::vector<Combination> means;  ///< over the worlds, where there are several: cross.rmse and validation.rmse only
+  std::vector<SelectionFigures> selections;
+  std::vector<ClaimVerdict> claims;
+  std::vector<std::string> verdict;  ///< sentences
+  std::vector<std::string> remarks;  ///< of each world: sensors left out
+};
+
+struct StudyOptions {
+  std::function<void(std::string const&, double)> progress;  ///< what is being done, and the share done
+  std::atomic<bool> const* stop = nullptr;
+};
+
+/// Every data set once, every selection once per training set, every model once per set of sensors and training set;
+/// all of it in parallel, the same bytes whatever the threads.
+[[nodiscard]] StudyReport run_study(Study const& study, StudyOptions const& options = {});
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/batch.h"
+#include "models/feed_axis.h"
+#include "twin/study/study_file.h"
+
+namespace thermotwin::twin {
+
+/// One run of a world as models see it.
+struct StudyRun {
+  models::Batch seen;                      ///< as the instruments showed it
+  std::optional<models::Batch> truth;      ///< without noise, of a simulated run
+  std::optional<models::AxisRecord> axis;  ///< where the error is a slope: seen temperatures, true errors if known
+};
+
+/// The runs of a world, once for each time that instruments are drawn: once in all where all runs were measured.
+///
+/// Temperatures count from the first instant of each run. Errors are what their instrument shows. A sensor that a run
+/// lacks, or of which it lacks readings, is left out of the whole world, and `remarks` say so.
+struct WorldData {
+  std::vector<std::vector<StudyRun>> train, test;  ///< per repetition, per run, as the file lists them
+  std::vector<std::string> sensors;                ///< candidates
+  std::string unit = "um";                         ///< of the error
+  Eigen::MatrixXd mode_shapes;                     ///< of the sensors, for "thermal_modes"; empty: `no_modes` says why
+  std::string no_modes;
+  std::vector<std::string> remarks;
+
+  [[nodiscard]] int repetitions() const { return static_cast<int>(train.size()); }
+  [[nodiscard]] bool simulated() const { return train.front().front().truth.has_value(); }
+};
+
+/// Simulates or reads every run of the study, each data set once, however many worlds use it. Repetition r of the d-th
+/// of D different runs has the seed 1 + d + D r: independent noise everywhere, the same in every world.
+///
+/// InputError that names the world and the run: an unknown machine, experiment, sensor or displacement; an error
+/// without a value at some instant; no sensor left.
+[[nodiscard]] std::vector<WorldData> study_data(Study const& study, std::function<void(double)> const& progress,
+                                                std::atomic<bool> const* stop);
+
+}  // namespace thermotwin::twin

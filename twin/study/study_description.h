@@ -1,0 +1,103 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "thermal/units.h"
+#include "twin/file/schema.h"
+
+namespace thermotwin::twin {
+
+/// `[[world.instant]]`: an instant of a laser measurement at which the error over the axis is judged.
+struct StudyInstant {
+  std::string experiment;
+  double time = std::numeric_limits<double>::quiet_NaN();  ///< [s]
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("experiment", &StudyInstant::experiment, "one of the world's");
+    f("time", &StudyInstant::time, thermal::dimension::time, "of the laser's pass", Range{0.0});
+  }
+};
+
+/// `[[world]]`: a machine, what it was put through, and the error that is to be predicted.
+struct StudyWorld {
+  std::string name, machine, added;
+  std::vector<std::string> changes, train, test;
+  std::optional<double> split;
+  std::string error;
+  std::vector<std::string> sensors;
+  std::optional<double> sampling;
+  std::string fit = "together";
+  double from = 0.0, to = std::numeric_limits<double>::infinity();
+  std::vector<StudyInstant> instants;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    namespace dimension = thermal::dimension;
+    f.name("name", &StudyWorld::name, "as the table shall call it");
+    f.name("machine", &StudyWorld::machine, "name of a machine, or its file");
+    f("set", &StudyWorld::changes, "parameters of the machine to change, as run --set: \"bearing.front.torque=2\"");
+    f("add", &StudyWorld::added, "tables to add to the machine, as they would stand in its file");
+    f("train", &StudyWorld::train, "experiments or measured runs (.h5, .csv, .toml) that models are fitted to");
+    f("test", &StudyWorld::test, "the ones that no model has seen");
+    f("split", &StudyWorld::split, dimension::time, "train before it, test after it, on the one run in 'train'",
+      Range{0.0});
+    f.name("error", &StudyWorld::error,
+           "displacement channel, or \"slope x\" for the slope of axis x's position error in the laser's passes");
+    f("sensors", &StudyWorld::sensors, "candidates; default: all of the machine");
+    f("sampling", &StudyWorld::sampling, dimension::time,
+      "interval of the readings; measured ones are averaged over it; default: the experiment's, 1 min", Range{0.0});
+    f.choice("fit", &StudyWorld::fit, {"together", "each"},
+             "one model on all of 'train', or one on each, which then predicts the others");
+    f("from", &StudyWorld::from, dimension::length, "judged positions of a laser: first", Range{0.0});
+    f("to", &StudyWorld::to, dimension::length, "last", Range{0.0});
+    f("instant", &StudyWorld::instants, "instants at which the error over the axis is judged");
+  }
+};
+
+/// `[[claim]]`: what a paper says, put so that figures decide.
+struct StudyClaim {
+  std::string says, combination, than, figure = "cross.rmse", world;
+  std::optional<double> at_most, improvement;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    namespace dimension = thermal::dimension;
+    f.name("says", &StudyClaim::says, "the claim in words");
+    f.name("combination", &StudyClaim::combination, "\"selection + model\"");
+    f("than", &StudyClaim::than, "the other combination; 'combination' shall have less of 'figure'");
+    f("figure", &StudyClaim::figure, "column of the table");
+    f("world", &StudyClaim::world, "where; default: the first");
+    f("at_most", &StudyClaim::at_most, dimension::dimensionless, "in the figure's unit, in place of 'than'");
+    f("improvement", &StudyClaim::improvement, dimension::dimensionless,
+      "by how many percent less; default: less at all");
+  }
+};
+
+/// A study file: worlds × selections × models.
+struct StudyDescription {
+  std::string title, metric = "rmse", reference;
+  std::vector<StudyWorld> worlds;
+  std::vector<std::string> selections, models;
+  int seeds = 5, folds = 0;
+  std::vector<StudyClaim> claims;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f("title", &StudyDescription::title, "one line for people");
+    f("world", &StudyDescription::worlds, "machines, runs and errors");
+    f("selections", &StudyDescription::selections,
+      "\"all\", or methods of selection, with a number of sensors or without: \"grey_relational 2\"");
+    f("models", &StudyDescription::models, "methods of modelling");
+    f("seeds", &StudyDescription::seeds, "how many times instruments and starts are drawn anew", Range{5, 1000});
+    f("folds", &StudyDescription::folds, "of the blocked cross-validation within 'train'; 0: none", Range{0, 20});
+    f.choice("metric", &StudyDescription::metric, {"rmse", "mae", "max"}, "that improvements are of");
+    f("reference", &StudyDescription::reference, "combination that improvements are over; default: the first");
+    f("claim", &StudyDescription::claims, "what figures shall decide");
+  }
+};
+
+}  // namespace thermotwin::twin

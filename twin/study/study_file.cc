@@ -1,0 +1,167 @@
+#include "twin/study/study_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <set>
+#include <stdexcept>
+
+#include "models/error_model.h"
+#include "models/selection.h"
+#include "thermal/nearest_name.h"
+#include "twin/file/value.h"
+
+namespace thermotwin::twin {
+namespace {
+
+/// Where the item of a list stands, or the list, or the document.
+Location place_of_item(Value const& table, std::string const& key, std::size_t item) {
+  Value const* value = table.find(key);
+  if (!value) return table.where;
+  if (!value->is_list()) return value->where;
+  auto const& list = std::get<Value::List>(value->content);
+  return item < list.size() ? list[item].where : value->where;
+}
+
+/// Each item of a list through `check`, once; a complaint gets the item's place.
+template <class Check>
+void check_items(Value const& table, std::string const& key, std::vector<std::string> const& items, Check check) {
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    auto const where = place_of_item(table, key, i);
+    try {
+      check(items[i]);
+    } catch (std::invalid_argument const& error) {
+      throw FileError(where, error.what());
+    } catch (thermal::InputError const& error) {
+      throw FileError(where, error.what());
+    }
+    if (!seen.insert(items[i]).second) throw FileError(where, fmt::format("'{}' is given twice", items[i]));
+  }
+  if (items.empty()) throw FileError(place_of_item(table, key, 0), fmt::format("'{}' names none", key));
+}
+
+Location place_of_key(Value const& table, std::string const& key) {
+  Value const* value = table.find(key);
+  return value ? value->where : table.where;
+}
+
+void check_world(Value const& table, StudyWorld const& world) {
+  check_items(table, "train", world.train, [](auto const&) {});
+  if (world.split && (world.train.size() != 1 || !world.test.empty()))
+    throw FileError(place_of_key(table, "split"),
+                    fmt::format("'split' cuts one run; here are {} in 'train' and {} in 'test'", world.train.size(),
+                                world.test.size()));
+  if (world.fit == "each" && (world.train.size() < 3 || world.test.size() == 1))
+    throw FileError(place_of_key(table, "fit"),
+                    fmt::format("'fit' is each: at least three runs to train on, and none or two to test on, are due; "
+                                "here are {} and {}",
+                                world.train.size(), world.test.size()));
+  if (world.fit == "together" && world.test.empty() && !world.split)
+    throw FileError(table.where,
+                    fmt::format("the world '{}' has nothing to test on; give 'test' or 'split'", world.name));
+  for (auto const& name : world.test)
+    if (std::find(world.train.begin(), world.train.end(), name) != world.train.end())
+      throw FileError(place_of_key(table, "test"), fmt::format("'{}' is in 'train', too", name));
+  std::vector<std::string> runs = world.train;
+  runs.insert(runs.end(), world.test.begin(), world.test.end());
+  for (std::size_t i = 0; i < world.instants.size(); ++i)
+    if (std::find(runs.begin(), runs.end(), world.instants[i].experiment) == runs.end())
+      throw FileError(place_of_item(table, "instant", i),
+                      fmt::format("no run '{}' in this world; {}", world.instants[i].experiment,
+                                  thermal::did_you_mean(world.instants[i].experiment, runs)));
+}
+
+void check_combination(Value const& table, std::string const& key, std::string const& name,
+                       std::vector<std::string> const& known) {
+  if (!name.empty() && std::find(known.begin(), known.end(), name) == known.end())
+    throw FileError(place_of_key(table, key),
+                    fmt::format("the study has no combination '{}'; {}", name, thermal::did_you_mean(name, known)));
+}
+
+void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::string> const& combinations,
+                 std::vector<std::string> const& worlds) {
+  check_combination(table, "combination", claim.combination, combinations);
+  check_combination(table, "than", claim.than, combinations);
+  if (claim.than.empty() == !claim.at_most)
+    throw FileError(table.where, "a claim is either less 'than' another combination or 'at_most' a number");
+  if (claim.improvement && claim.than.empty())
+    throw FileError(place_of_key(table, "improvement"), "an 'improvement' is over another combination; give 'than'");
+  if (!claim.world.empty() && std::find(worlds.begin(), worlds.end(), claim.world) == worlds.end())
+    throw FileError(place_of_key(table, "world"),
+                    fmt::format("no world '{}'; {}", claim.world, thermal::did_you_mean(claim.world, worlds)));
+}
+
+Value::List const& tables(Value const& document, std::string const& key) {
+  static Value::List const none;
+  Value const* value = document.find(key);
+  return value ? std::get<Value::List>(value->content) : none;
+}
+
+void check_study(Value const& document, StudyDescription const& study) {
+  check_items(document, "selections", study.selections, [](auto const& text) { (void)named_selection(text); });
+  check_items(document, "models", study.models, [](auto const& name) { (void)models::model_method(name); });
+  if (study.worlds.empty()) throw FileError(document.where, "the study has no [[world]]");
+  std::vector<std::string> names, combinations;
+  for (std::size_t w = 0; w < study.worlds.size(); ++w) {
+    auto const& world = study.worlds[w];
+    auto const& table = tables(document, "world")[w];
+    if (std::find(names.begin(), names.end(), world.name) != names.end())
+      throw FileError(table.where, fmt::format("a world '{}' is there already", world.name));
+    names.push_back(world.name);
+    check_world(table, world);
+  }
+  for (auto const& selection : study.selections)
+    for (auto const& model : study.models) combinations.push_back(combination_name(selection, model));
+  check_combination(document, "reference", study.reference, combinations);
+  for (std::size_t c = 0; c < study.claims.size(); ++c)
+    check_claim(tables(document, "claim")[c], study.claims[c], combinations, names);
+  if (study.folds == 1) throw FileError(place_of_key(document, "folds"), "'folds' is 1; 0 or at least 2 are due");
+}
+
+}  // namespace
+
+NamedSelection named_selection(std::string const& text) {
+  auto const space = text.find(' ');
+  NamedSelection selection{text.substr(0, space), {}};
+  if (selection.name != "all") (void)models::selection_method(selection.name);
+  if (space == std::string::npos) return selection;
+  int count = 0;
+  auto const [end, error] = std::from_chars(text.data() + space + 1, text.data() + text.size(), count);
+  if (error != std::errc() || end != text.data() + text.size() || count < 1)
+    throw thermal::InputError(fmt::format("'{}': after the method's name, a number of sensors from 1 on is due", text));
+  if (selection.name == "all") throw thermal::InputError(fmt::format("'{}': all sensors have no number", text));
+  selection.count = count;
+  return selection;
+}
+
+Study read_study(std::filesystem::path const& file) {
+  Value const document = read_toml(file);
+  Study study;
+  read_fields(document, study.description);
+  study.directory = file.has_parent_path() ? file.parent_path() : ".";
+  check_study(document, study.description);
+  if (study.description.reference.empty())
+    study.description.reference =
+        combination_name(study.description.selections.front(), study.description.models.front());
+  return study;
+}
+
+std::filesystem::path study_file(std::string const& name_or_path) {
+  std::filesystem::path const given = name_or_path;
+  if (given.extension() == ".toml" || std::filesystem::exists(given)) return given;
+  std::filesystem::path const folder = std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "scenarios" / "studies";
+  auto const shipped = folder / (name_or_path + ".toml");
+  if (std::filesystem::exists(shipped)) return shipped;
+  std::vector<std::string> names;
+  for (auto const& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  throw thermal::InputError(
+      fmt::format("there is no study '{}'; {}", name_or_path, thermal::did_you_mean(name_or_path, names)));
+}
+
+std::string combination_name(std::string const& selection, std::string const& model) {
+  return selection + " + " + model;
+}
+
+}  // namespace thermotwin::twin

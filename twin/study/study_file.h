@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "twin/study/study_description.h"
+
+namespace thermotwin::twin {
+
+/// "grey_relational 2": a method of selection, and how many sensors it shall choose.
+struct NamedSelection {
+  std::string name;          ///< of models::selection_methods(), or "all"
+  std::optional<int> count;  ///< none: the method's own rule
+};
+
+/// InputError for an unknown method, with the nearest; for a count that is no number from 1 on; for "all" with one.
+[[nodiscard]] NamedSelection named_selection(std::string const& text);
+
+/// A study file as its author wrote it.
+struct Study {
+  StudyDescription description;
+  std::filesystem::path directory;  ///< of the file: names of files in it start here
+};
+
+/// FileError with line and column: unknown keys, methods and combinations; no world, selection or model; names given
+/// twice; a world without anything to test on.
+[[nodiscard]] Study read_study(std::filesystem::path const& file);
+
+/// A study file, or the name of one in scenarios/studies; InputError with the nearest name.
+[[nodiscard]] std::filesystem::path study_file(std::string const& name_or_path);
+
+/// "selection + model", as tables and claims write it.
+[[nodiscard]] std::string combination_name(std::string const& selection, std::string const& model);
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,237 @@
+#include "twin/study/study_page.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace thermotwin::twin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A column of the terminal's table.
+struct Column {
+  std::string_view title, figure;
+  int width, decimals;
+  bool with_interval;
+};
+
+constexpr auto columns = std::to_array<Column>({
+    {"self RMSE", "self.rmse", 9, 2, false},
+    {"cross RMSE", "cross.rmse", 15, 2, true},
+    {"MAE", "cross.mae", 7, 2, false},
+    {"max", "cross.max", 7, 2, false},
+    {"R2", "cross.r_squared", 6, 3, false},
+    {"MAPE %", "cross.mape", 6, 1, false},
+    {"better %", "improvement", 8, 1, false},
+    {"valid.", "validation.rmse", 7, 2, false},
+    {"S", "S", 6, 2, false},
+    {"Mn", "Mn", 14, 2, true},
+    {"Sd", "Sd", 14, 2, true},
+    {"verif. Mn", "verification.Mn", 9, 2, false},
+    {"Sd", "verification.Sd", 6, 2, false},
+});
+
+constexpr auto selection_columns = std::to_array<Column>({
+    {"sensors", "count", 8, 1, false},
+    {"regret", "regret", 14, 2, true},
+    {"informative", "informative", 11, 1, false},
+    {"found", "found", 6, 1, false},
+    {"rank corr.", "rank_correlation", 14, 2, true},
+    {"switches", "switches", 8, 2, false},
+});
+
+/// Padded by what is seen, not by bytes: "±" is two.
+std::string right(std::string const& text, int width) {
+  auto const seen = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
+  return std::string(std::size_t(std::max<std::ptrdiff_t>(0, width - seen)), ' ') + text;
+}
+
+std::string cell(Figures const& figures, Column const& column) {
+  auto of = interval(values_of(figures, std::string(column.figure)));
+  if (!column.with_interval) of.values = std::min(of.values, 1);
+  return "  " + right(text_of(of, column.decimals), column.width);
+}
+
+template <class Columns, class Rows>
+std::vector<Column> used(Columns const& all, Rows const& rows) {
+  std::vector<Column> result;
+  for (auto const& column : all)
+    if (std::any_of(rows.begin(), rows.end(),
+                    [&](auto const* row) { return row->figures.contains(std::string(column.figure)); }))
+      result.push_back(column);
+  return result;
+}
+
+std::string head(std::string_view first, std::size_t width, std::vector<Column> const& shown) {
+  std::string line = fmt::format("  {:<{}}", first, width);
+  for (auto const& column : shown) line += fmt::format("  {:>{}}", column.title, column.width);
+  return line + "\n";
+}
+
+template <class Row>
+std::vector<Row const*> of_world(std::vector<Row> const& rows, std::string const& world) {
+  std::vector<Row const*> result;
+  for (auto const& row : rows)
+    if (row.world == world) result.push_back(&row);
+  return result;
+}
+
+std::string selection_table(StudyReport const& report, std::string const& world) {
+  auto const rows = of_world(report.selections, world);
+  auto const shown = used(selection_columns, rows);
+  std::size_t width = 9;
+  for (auto const* row : rows) width = std::max(width, row->selection.size());
+  std::string text = head("selection", width, shown);
+  for (auto const* row : rows) {
+    text += fmt::format("  {:<{}}", row->selection, width);
+    for (auto const& column : shown) text += cell(row->figures, column);
+    text += (row->remark.empty() ? "" : "  " + row->remark) + "\n";
+  }
+  return text;
+}
+
+double rank_of(Combination const& row) {
+  double const mean = interval(values_of(row.figures, "cross.rmse")).mean;
+  return std::isfinite(mean) ? mean : INFINITY;
+}
+
+std::string combination_table(std::vector<Combination const*> rows) {
+  std::stable_sort(rows.begin(), rows.end(), [](auto const* a, auto const* b) { return rank_of(*a) < rank_of(*b); });
+  auto const shown = used(columns, rows);
+  std::size_t width = 9;
+  for (auto const* row : rows) width = std::max(width, row->name().size());
+  std::string text = head("selection + model", width, shown);
+  for (auto const* row : rows) {
+    text += fmt::format("  {:<{}}", row->name(), width);
+    if (!row->refused.empty()) {
+      text += "  refused: " + row->refused + "\n";
+      continue;
+    }
+    for (auto const& column : shown) text += cell(row->figures, column);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string_view name_of(ClaimVerdict::Answer answer) {
+  switch (answer) {
+    case ClaimVerdict::Answer::holds:
+      return "holds";
+    case ClaimVerdict::Answer::fails:
+      return "does not hold";
+    case ClaimVerdict::Answer::undecided:
+      return "undecided";
+    case ClaimVerdict::Answer::refused:
+      break;
+  }
+  return "cannot be judged";
+}
+
+/// A field of a CSV file.
+std::string quoted(std::string const& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (char const c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : ""; }
+
+Json json_of(Figures const& figures) {
+  Json json = Json::object();
+  for (auto const& [name, values] : figures) {
+    auto const of = interval(values);
+    json[name] = {{"mean", of.mean}, {"half_width_95", of.half}, {"values", values}};
+  }
+  return json;
+}
+
+Json json_of(Combination const& row) {
+  return {{"world", row.world},
+          {"selection", row.selection},
+          {"model", row.model},
+          {"sensors", row.sensors},
+          {"refused", row.refused.empty() ? Json() : Json(row.refused)},
+          {"remark", row.remark},
+          {"figures", json_of(row.figures)}};
+}
+
+}  // namespace
+
+std::string study_text(StudyReport const& report) {
+  std::string text = report.description.title + "\n";
+  for (std::size_t w = 0; w < report.units.size(); ++w) {
+    auto const& world = report.description.worlds[w];
+    text += fmt::format("\n{}: {} of {} [{}], {} run{} to train on{}, {} to test on, {}\n\n", world.name, world.error,
+                        world.machine, report.units[w], world.train.size(), world.train.size() == 1 ? "" : "s",
+                        world.fit == "each" ? ", one model each" : "", world.split ? 1 : world.test.size(),
+                        report.repetitions[w] == 1 ? "measured once" : fmt::format("{} seeds", report.repetitions[w]));
+    text += selection_table(report, world.name) + "\n" + combination_table(of_world(report.rows, world.name));
+  }
+  if (!report.means.empty())
+    text += "\nmean of worlds\n\n" + combination_table(of_world(report.means, "mean of worlds"));
+  text += fmt::format("\nintervals: 95 % over the seeds; better: {} of cross-prediction against {}\n",
+                      report.description.metric, report.description.reference);
+  for (auto const& remark : report.remarks) text += remark + "\n";
+  text += "\nverdict\n";
+  for (auto const& sentence : report.verdict) text += "  " + sentence + "\n";
+  for (auto const& claim : report.claims)
+    text += fmt::format("  \"{}\" {}: {}\n", claim.claim.says, name_of(claim.answer), claim.words);
+  return text;
+}
+
+std::string study_csv(StudyReport const& report) {
+  std::set<std::string> names;
+  std::vector<Combination> rows = report.rows;
+  rows.insert(rows.end(), report.means.begin(), report.means.end());
+  for (auto& row : rows)
+    for (auto const& selection : report.selections)
+      if (selection.world == row.world && selection.selection == row.selection)
+        for (auto const& [name, values] : selection.figures) row.figures["selection." + name] = values;
+  for (auto const& row : rows)
+    for (auto const& [name, values] : row.figures) names.insert(name);
+  std::string text = "world,selection,model,refused,sensors";
+  for (auto const& name : names) text += fmt::format(",{0},{0} +-", name);
+  text += "\n";
+  for (auto const& row : rows) {
+    text += fmt::format("{},{},{},{},{}", quoted(row.world), quoted(row.selection), row.model, quoted(row.refused),
+                        fmt::join(row.sensors, " "));
+    for (auto const& name : names) {
+      auto const of = interval(values_of(row.figures, name));
+      text += fmt::format(",{},{}", number(of.mean), of.values > 1 ? number(of.half) : "");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string study_json(StudyReport const& report) {
+  Json json = {{"title", report.description.title}, {"verdict", report.verdict}};
+  json["claims"] = Json::array();
+  for (auto const& claim : report.claims)
+    json["claims"].push_back({{"says", claim.claim.says}, {"answer", name_of(claim.answer)}, {"words", claim.words}});
+  json["remarks"] = report.remarks;
+  json["worlds"] = Json::array();
+  for (std::size_t w = 0; w < report.units.size(); ++w)
+    json["worlds"].push_back({{"name", report.description.worlds[w].name},
+                              {"machine", report.description.worlds[w].machine},
+                              {"error", report.description.worlds[w].error},
+                              {"unit", report.units[w]},
+                              {"repetitions", report.repetitions[w]}});
+  json["selections"] = Json::array();
+  for (auto const& row : report.selections)
+    json["selections"].push_back({{"world", row.world},
+                                  {"selection", row.selection},
+                                  {"remark", row.remark},
+                                  {"figures", json_of(row.figures)}});
+  json["combinations"] = Json::array();
+  for (auto const* rows : {&report.rows, &report.means})
+    for (auto const& row : *rows) json["combinations"].push_back(json_of(row));
+  return json.dump(2) + "\n";
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,216 @@
+#include "twin/study/study_runs.h"
+
+#include <cmath>
+#include <exception>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+#include "thermal/nearest_name.h"
+#include "twin/diagnosis/measured_run.h"
+#include "twin/experiment_file.h"
+#include "twin/file/document.h"
+#include "twin/file/value.h"
+#include "twin/run.h"
+#include "twin/study/parallel.h"
+#include "twin/thermal_modes.h"
+
+namespace thermotwin::twin {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double tolerance = 1e-6;
+
+/// A run as a world names it.
+struct Source {
+  fs::path file;
+  bool measured = false;
+};
+
+fs::path measured_folder() { return fs::path(THERMOTWIN_SOURCE_DIR) / "scenarios" / "measured"; }
+
+Source source_of(std::string const& name, fs::path const& directory) {
+  fs::path const given = name;
+  if (given.extension() == ".toml" || given.extension() == ".h5" || given.extension() == ".csv") {
+    auto const file = given.is_absolute() ? given : directory / given;
+    if (!fs::exists(file)) throw thermal::InputError(fmt::format("'{}' is not there", file.string()));
+    return {file, given.extension() != ".toml" || !read_toml(file).find("duration")};
+  }
+  if (auto const shipped = measured_folder() / (name + ".toml"); fs::exists(shipped)) return {shipped, true};
+  return {experiment_file(name), false};
+}
+
+Value changed_machine(StudyWorld const& world, fs::path const& directory) {
+  fs::path const given = world.machine;
+  bool const beside = given.extension() == ".toml" && fs::exists(directory / given);
+  Value document = read_toml(beside ? directory / given : machine_file(world.machine));
+  for (auto const& change : world.changes) {
+    auto const equals = change.find('=');
+    if (equals == std::string::npos)
+      throw thermal::InputError(fmt::format("'{}': write a change as path=value", change));
+    set_parameter(document, change.substr(0, equals), change.substr(equals + 1));
+  }
+  Value const added = parse_toml(world.added, "add");
+  for (auto const& [kind, where, tables] : std::get<Value::Table>(added.content)) {
+    if (!tables.is_list())
+      throw FileError(where, fmt::format("'{}' is no [[{}]]; only tables can be added", kind, kind));
+    for (auto const& table : std::get<Value::List>(tables.content)) append_table(document, kind, table);
+  }
+  return document;
+}
+
+/// What a world asks for: the machine and the runs, by file.
+struct Order {
+  StudyWorld const* world;
+  Machine machine;
+  std::vector<Source> sources;
+};
+
+/// A complaint about a world says which.
+template <class Action>
+auto about(StudyWorld const& world, Action action) {
+  try {
+    return action();
+  } catch (FileError const&) {
+    throw;
+  } catch (thermal::InputError const& error) {
+    throw thermal::InputError(fmt::format("world '{}': {}", world.name, error.what()));
+  }
+}
+
+Order order_of(StudyWorld const& world, fs::path const& directory) {
+  return about(world, [&] {
+    Order order{&world, Machine::build(changed_machine(world, directory)), {}};
+    for (auto const* list : {&world.train, &world.test})
+      for (auto const& name : *list) order.sources.push_back(source_of(name, directory));
+    return order;
+  });
+}
+
+/// One data set to be made, for all worlds that share it.
+struct Job {
+  Order const* order;
+  Source source;
+  int seed = 0;  ///< of the instruments; 0: measured
+  output::Dataset data;
+};
+
+std::string key_of(Order const& order, Source const& source, int seed) {
+  return fmt::format("{}|{}|{}|{}|{}|{}", order.world->machine, order.world->added,
+                     fmt::join(order.world->changes, ","), source.file.string(),
+                     source.measured ? 0.0 : order.world->sampling.value_or(0.0), seed);
+}
+
+scenarios::Experiment experiment_of(Order const& order, Source const& source) {
+  auto experiment = read_experiment(read_toml(source.file), source.file);
+  if (order.world->sampling) experiment.sampling = *order.world->sampling;
+  return experiment;
+}
+
+output::Dataset simulated(Job const& job, std::atomic<bool> const* stop) {
+  auto experiment = experiment_of(*job.order, job.source);
+  experiment.seed = job.seed;
+  RunOptions options;
+  options.integration.relative_tolerance = options.integration.absolute_tolerance = tolerance;
+  options.stop = stop;
+  return run(job.order->machine, experiment, options).dataset;
+}
+
+output::Dataset measured(Job const& job) {
+  auto const run = read_measured_run(job.source.file, job.order->machine);
+  output::Dataset data;
+  data.time_s = run.time;
+  for (auto const& channel : run.channels)
+    if (channel.displacement)
+      data.displacements.push_back({channel.name, "um", "", 1e6 * channel.values});
+    else
+      data.readings.push_back({channel.name, "degC", "", channel.values.array() - 273.15});
+  return data;
+}
+
+/// Rows of the machine's sensors; empty, and why, without a simulated run to linearise at.
+void find_modes(Order const& order, WorldRuns& runs) {
+  runs.no_modes = "no simulated run to linearise the machine at";
+  for (auto const& source : order.sources) {
+    if (source.measured) continue;
+    try {
+      auto const state = mean_state(order.machine, experiment_of(order, source));
+      int const count = std::min(order.machine.network().nodes(), int(order.machine.sensors.size()));
+      runs.mode_shapes = thermal_modes(order.machine, state, count).sensors;
+    } catch (thermal::InputError const& error) {
+      runs.no_modes = error.what();
+    }
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)> const& progress,
+                                  std::atomic<bool> const* stop) {
+  std::vector<Order> orders;
+  std::map<std::string, int> ordinal;  // of each different run
+  for (auto const& world : study.description.worlds) orders.push_back(order_of(world, study.directory));
+  for (auto const& order : orders)
+    for (auto const& source : order.sources) ordinal.emplace(source.file.string(), int(ordinal.size()));
+
+  std::vector<Job> jobs;
+  std::map<std::string, std::size_t> made;
+  std::vector<std::vector<std::vector<std::size_t>>> used;  // world, repetition, run → job
+  for (auto const& order : orders) {
+    bool const simulated = std::any_of(order.sources.begin(), order.sources.end(), [](auto& s) { return !s.measured; });
+    auto& repetitions = used.emplace_back(std::size_t(simulated ? study.description.seeds : 1));
+    for (std::size_t r = 0; r < repetitions.size(); ++r)
+      for (auto const& source : order.sources) {
+        int const seed = source.measured ? 0 : 1 + ordinal.at(source.file.string()) + int(ordinal.size() * r);
+        auto const [place, fresh] = made.emplace(key_of(order, source, seed), jobs.size());
+        if (fresh) jobs.push_back({&order, source, seed, {}});
+        repetitions[r].push_back(place->second);
+      }
+  }
+  in_parallel(jobs.size(), progress, stop, [&](std::size_t j) {
+    about(*jobs[j].order->world, [&] {
+      jobs[j].data = jobs[j].source.measured ? measured(jobs[j]) : simulated(jobs[j], stop);
+      return 0;
+    });
+  });
+
+  std::vector<WorldRuns> worlds;
+  for (std::size_t w = 0; w < orders.size(); ++w) {
+    WorldRuns runs{orders[w].machine, {}, {}, {}};
+    find_modes(orders[w], runs);
+    for (auto const& repetition : used[w]) {
+      auto& sets = runs.runs.emplace_back();
+      for (auto const j : repetition)
+        sets.push_back(jobs[j].source.measured && orders[w].world->sampling
+                           ? averaged(jobs[j].data, *orders[w].world->sampling)
+                           : jobs[j].data);
+    }
+    worlds.push_back(std::move(runs));
+  }
+  return worlds;
+}
+
+output::Dataset averaged(output::Dataset const& data, double period) {
+  auto const stretch = [&](double time) { return Eigen::Index(std::floor(time / period + 1e-9)); };
+  Eigen::Index const first = stretch(data.time_s[0]), rows = stretch(data.time_s[data.time_s.size() - 1]) - first + 1;
+  output::Dataset result;
+  result.title = data.title;
+  result.time_s = period * Eigen::VectorXd::LinSpaced(rows, double(first), double(first + rows - 1));
+  auto const mean = [&](output::Channel channel) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows), count = sum;
+    for (Eigen::Index i = 0; i < data.time_s.size(); ++i) {
+      if (!std::isfinite(channel.values[i])) continue;
+      sum[stretch(data.time_s[i]) - first] += channel.values[i];
+      count[stretch(data.time_s[i]) - first] += 1.0;
+    }
+    channel.values = (count.array() > 0.0).select(sum.array() / count.array(), std::nan(""));
+    return channel;
+  };
+  for (auto const& channel : data.readings) result.readings.push_back(mean(channel));
+  for (auto const& channel : data.displacements) result.displacements.push_back(mean(channel));
+  return result;
+}
+
+}  // namespace thermotwin::twin
