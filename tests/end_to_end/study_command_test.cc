@@ -1,0 +1,70 @@
+#include <array>
+#include <cstdio>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include "tests/output/temporary_directory.h"
+
+/// `thermotwin study` as its users meet it.
+namespace thermotwin {
+namespace {
+
+using testing::HasSubstr;
+using tests::TemporaryDirectory;
+
+std::string answer(std::string const& command, int expected_code = 0) {
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  std::string text;
+  std::array<char, 4096> buffer{};
+  while (std::size_t const n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
+  int const status = pclose(pipe);
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, expected_code) << command << "\n" << text;
+  return text;
+}
+
+std::string const study = R"(
+title = "Two batches"
+selections = ["all", "fuzzy_c_means 2", "thermal_modes 2"]
+models = ["linear", "genetic_back_propagation"]
+[[world]]
+name = "v450"
+machine = "v450"
+error = "E_Z"
+sampling = "6 min"
+train = ["batch_004_K01"]
+test = ["batch_004_K05"]
+)";
+
+TEST(StudyCommand, GivesTheSameBytesWithOneThreadAndTwo) {
+  TemporaryDirectory const directory;
+  tests::put(directory / "study.toml", study);
+  std::string const program = std::string(THERMOTWIN_PROGRAM) + " study " + (directory / "study.toml").string();
+  auto const text = answer("OMP_NUM_THREADS=1 " + program + " -o " + (directory / "one").string());
+  answer("OMP_NUM_THREADS=2 " + program + " -o " + (directory / "two").string());
+  EXPECT_THAT(text, HasSubstr("v450: least RMSE where no model had been: "));
+  EXPECT_THAT(text, HasSubstr("all + genetic_back_propagation"));
+  for (char const* file : {"table.csv", "study.json"}) {
+    EXPECT_FALSE(tests::contents(directory / "one" / file).empty());
+    EXPECT_EQ(tests::contents(directory / "one" / file), tests::contents(directory / "two" / file)) << file;
+  }
+}
+
+TEST(StudyCommand, OverwritesNothing) {
+  TemporaryDirectory const directory;
+  tests::put(directory / "study.toml", study);
+  auto const complaint = answer(std::string(THERMOTWIN_PROGRAM) + " study " + (directory / "study.toml").string() +
+                                    " -o " + directory.path().string(),
+                                2);
+  EXPECT_THAT(complaint, HasSubstr("is not empty; a study does not overwrite"));
+  EXPECT_EQ(directory.files(), std::vector<std::string>{"study.toml"});
+}
+
+TEST(StudyCommand, KnowsTheShippedStudiesByName) {
+  TemporaryDirectory const directory;
+  EXPECT_THAT(answer(std::string(THERMOTWIN_PROGRAM) + " study paper_04 -o " + (directory / "out").string(), 2),
+              HasSubstr("there is no study 'paper_04'; did you mean 'paper_004'?"));
+}
+
+}  // namespace
+}  // namespace thermotwin

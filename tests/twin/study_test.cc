@@ -1,0 +1,304 @@
+#include "twin/study/study.h"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/output/temporary_directory.h"
+#include "twin/experiment_file.h"
+#include "twin/run.h"
+#include "twin/study/choice.h"
+#include "twin/study/study_page.h"
+#include "twin/study/study_runs.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using testing::HasSubstr;
+using tests::TemporaryDirectory;
+
+std::string const experiment = R"(
+machine = "v450"
+duration = "{}"
+sampling = "3 min"
+[ambient]
+mean = "20 degC"
+[spindle]
+blocks = [{{duration = "50 min", speed = "{}"}}]
+)";
+
+std::string const head = R"(
+title = "Small"
+seeds = 5
+selections = ["all", "forward 2"]
+models = ["linear", "ridge"]
+)";
+
+std::string const world = R"(
+[[world]]
+name = "v450"
+machine = "v450"
+error = "E_Z"
+sensors = ["T1", "T8", "T9"]
+train = ["fast.toml"]
+test = ["slow.toml"]
+)";
+
+/// A folder with two short experiments and a study file of this text.
+class SmallStudy {
+ public:
+  explicit SmallStudy(std::string const& text = head + world) {
+    tests::put(folder_ / "fast.toml", fmt::format(fmt::runtime(experiment), "90 min", "6000 rpm"));
+    tests::put(folder_ / "slow.toml", fmt::format(fmt::runtime(experiment), "120 min", "3000 rpm"));
+    tests::put(file(), text);
+  }
+  [[nodiscard]] std::filesystem::path file() const { return folder_ / "small.toml"; }
+  [[nodiscard]] std::filesystem::path experiment_path(std::string const& name) const { return folder_ / name; }
+  [[nodiscard]] StudyReport report() const { return run_study(read_study(file())); }
+  /// What reading and running it complains of.
+  [[nodiscard]] std::string complaint() const {
+    try {
+      (void)report();
+    } catch (std::exception const& error) {
+      return error.what();
+    }
+    return "no complaint";
+  }
+
+ private:
+  TemporaryDirectory folder_;
+};
+
+Combination const& row(StudyReport const& report, std::string const& name) {
+  for (auto const& row : report.rows)
+    if (row.name() == name) return row;
+  throw std::runtime_error("no row " + name);
+}
+
+/// Rises of T1, T8, T9 with a column of ones, seen or true, and the error.
+struct Regression {
+  Eigen::MatrixXd inputs;
+  Eigen::VectorXd seen, truth;
+
+  Regression(std::filesystem::path const& file, int seed) {
+    auto programme = read_experiment(read_toml(file), file);
+    programme.seed = seed;
+    auto const data = run(Machine::read(machine_file("v450")), programme, {}).dataset;
+    inputs = Eigen::MatrixXd::Ones(data.time_s.size(), 4);
+    int column = 1;
+    for (auto const& channel : data.readings)
+      if (channel.name == "T1" || channel.name == "T8" || channel.name == "T9")
+        inputs.col(column++) = channel.values.array() - channel.values[0];
+    for (auto const& channel : data.displacements)
+      if (channel.name == "E_Z") seen = channel.values;
+    for (auto const& channel : data.truth_displacements)
+      if (channel.name == "E_Z") truth = channel.values;
+  }
+};
+
+TEST(Study, FiguresAreThoseOfLeastSquaresByHand) {
+  SmallStudy const study;
+  auto const report = study.report();
+  auto const& figures = row(report, "all + linear").figures;
+  for (int r = 0; r < 5; ++r) {
+    Regression const train(study.experiment_path("fast.toml"), 1 + 2 * r);
+    Regression const test(study.experiment_path("slow.toml"), 2 + 2 * r);
+    Eigen::VectorXd const b = train.inputs.colPivHouseholderQr().solve(train.seen);
+    Eigen::VectorXd const self = train.truth - train.inputs * b, cross = test.truth - test.inputs * b;
+    auto const value = [&](char const* name) { return figures.at(name)[std::size_t(r)]; };
+    EXPECT_NEAR(value("self.rmse"), std::sqrt(self.squaredNorm() / double(self.size())), 1e-8);
+    EXPECT_NEAR(value("cross.rmse"), std::sqrt(cross.squaredNorm() / double(cross.size())), 1e-8);
+    EXPECT_NEAR(value("cross.mae"), cross.cwiseAbs().mean(), 1e-8);
+    EXPECT_NEAR(value("cross.max"), cross.cwiseAbs().maxCoeff(), 1e-8);
+    double const variation = (test.truth.array() - test.truth.mean()).square().sum();
+    EXPECT_NEAR(value("cross.r_squared"), 1.0 - cross.squaredNorm() / variation, 1e-8);
+    Eigen::VectorXd const residual = train.seen - train.inputs * b;
+    EXPECT_NEAR(value("S"), std::sqrt(residual.squaredNorm() / double(residual.size() - 4)), 1e-8);
+    EXPECT_NEAR(value("improvement"), 0.0, 1e-12);  // it is the reference
+  }
+}
+
+TEST(Study, ImprovementIsOverTheReferenceInTheNamedMetric) {
+  SmallStudy const study("metric = \"mae\"\nreference = \"forward 2 + ridge\"\n" + head + world);
+  auto const report = study.report();
+  auto const& figures = row(report, "all + linear").figures;
+  auto const& reference = row(report, "forward 2 + ridge").figures;
+  for (std::size_t r = 0; r < 5; ++r)
+    EXPECT_NEAR(figures.at("improvement")[r], 100.0 * (1.0 - figures.at("cross.mae")[r] / reference.at("cross.mae")[r]),
+                1e-9);
+  EXPECT_EQ(row(report, "forward 2 + ridge").sensors.size(), 2U);
+}
+
+TEST(Study, MeasuresSelectionsAgainstTheBestSet) {
+  auto const report = SmallStudy("folds = 3\n" + head + world).report();
+  auto const& forward = report.selections.at(1).figures;
+  for (std::size_t r = 0; r < 5; ++r) {
+    EXPECT_GE(forward.at("regret")[r], 0.0);
+    EXPECT_EQ(forward.at("informative")[r], 2.0);
+    EXPECT_EQ(forward.at("regret")[r] == 0.0, forward.at("found")[r] == 2.0);
+  }
+  EXPECT_FALSE(report.selections.at(0).figures.contains("regret"));  // all sensors are no choice
+  EXPECT_EQ(row(report, "all + ridge").figures.at("validation.rmse").size(), 5U);
+}
+
+TEST(Study, MayCutOneRunInTwo) {
+  auto text = head + world;
+  text.replace(text.find("test = [\"slow.toml\"]"), 20, "split = \"60 min\"");
+  auto const report = SmallStudy(text).report();
+  auto const& figures = row(report, "all + linear").figures;
+  EXPECT_GT(interval(figures.at("cross.rmse")).mean, interval(figures.at("self.rmse")).mean);
+}
+
+TEST(Study, TreatsEachRunAsABatchOfItsOwn) {
+  std::string const batches = R"(
+[[world]]
+name = "batches"
+machine = "v450"
+error = "E_Z"
+fit = "each"
+train = ["batch_004_K01", "batch_004_K05", "batch_004_K09"]
+test = ["batch_004_V1", "batch_004_V2"]
+)";
+  auto const report = SmallStudy(head + batches).report();
+  auto const& figures = row(report, "forward 2 + linear").figures;
+  for (char const* name : {"S", "Mn", "Sd", "verification.Mn", "verification.Sd"})
+    EXPECT_EQ(figures.at(name).size(), 5U) << name;
+  EXPECT_LT(figures.at("S")[0], figures.at("Mn")[0]);
+  EXPECT_LE(figures.at("Mn.least")[0], figures.at("Mn.most")[0]);
+  EXPECT_EQ(report.selections.at(0).figures.at("switches")[0], 0.0);  // all sensors, always
+}
+
+TEST(Study, JudgesAFeedAxisByTheSlopeOfItsError) {
+  std::string const axis = R"(
+[[world]]
+name = "axis"
+machine = "vmc850"
+error = "slope z"
+sensors = ["S5", "S6", "S7", "S9"]
+train = ["feed_8000", "feed_16000"]
+test = ["feed_12000"]
+to = "550 mm"
+instant = [{ experiment = "feed_12000", time = "150 min" }]
+)";
+  auto const report = SmallStudy(head + axis).report();
+  EXPECT_EQ(report.units.at(0), "um/m");
+  auto const& figures = row(report, "all + linear").figures;
+  for (double const rmse : figures.at("feed_12000 at 150 min.rmse")) EXPECT_LT(rmse, 5.0);
+  EXPECT_LE(figures.at("feed_12000 at 150 min.mae")[0], figures.at("feed_12000 at 150 min.max")[0]);
+}
+
+TEST(Study, ClaimsAreDecidedByIntervals) {
+  std::string const claims = R"(
+[[claim]]
+says = "two sensors fit no better than three"
+combination = "all + linear"
+than = "forward 2 + linear"
+figure = "S"
+[[claim]]
+says = "nobody errs by more than a metre"
+combination = "all + linear"
+at_most = 1e6
+[[claim]]
+says = "nobody errs"
+combination = "all + linear"
+at_most = 0
+[[claim]]
+says = "there is such a figure"
+combination = "all + linear"
+figure = "verification.Mn"
+at_most = 1
+)";
+  auto const report = SmallStudy(head + world + claims).report();
+  EXPECT_EQ(report.claims.at(1).answer, ClaimVerdict::Answer::holds);
+  EXPECT_EQ(report.claims.at(2).answer, ClaimVerdict::Answer::fails);
+  EXPECT_EQ(report.claims.at(3).answer, ClaimVerdict::Answer::refused);
+  EXPECT_THAT(study_text(report), HasSubstr("\"nobody errs\" does not hold: cross.rmse of all + linear: "));
+}
+
+TEST(Study, RefusedCombinationsStandInTheTable) {
+  auto text = head + world;
+  text.replace(text.find("\"linear\", \"ridge\""), 17, "\"linear\", \"distributed_lag\"");
+  text.replace(text.find("sensors = [\"T1\", \"T8\", \"T9\"]\n"), 29, "");
+  auto const report = SmallStudy(text).report();  // 31 readings, 29 of them after the lags
+  auto const& refused = row(report, "all + distributed_lag");
+  EXPECT_EQ(refused.refused, "29 samples are too few for 30 regressors: at least 32");
+  EXPECT_TRUE(refused.figures.empty());
+  EXPECT_FALSE(row(report, "forward 2 + distributed_lag").figures.empty());
+  EXPECT_THAT(study_text(report), HasSubstr("refused: "));
+  EXPECT_THAT(study_csv(report), HasSubstr(",distributed_lag,"));
+}
+
+TEST(Study, SaysWhichSensorsItLeavesOut) {
+  auto text = head + world;
+  text += R"(add = '''
+[[temperature_sensor]]
+name = "still"
+at = "ambient"
+kind = "ideal"
+[[temperature_sensor]]
+name = "broken"
+at = "motor"
+dead_from = "30 min"
+'''
+)";
+  text.replace(text.find("\"T9\""), 4, "\"T9\", \"still\", \"broken\"");
+  auto const report = SmallStudy(text).report();
+  EXPECT_THAT(report.remarks, testing::Contains("v450: still stands still in fast.toml, and is left out there"));
+  EXPECT_THAT(report.remarks,
+              testing::Contains(HasSubstr("v450: broken is left out: 21 of 31 readings are missing in fast.toml")));
+  EXPECT_EQ(row(report, "all + linear").sensors, (std::vector<std::string>{"T1", "T8", "T9"}));
+}
+
+TEST(Study, MistakesAreNamedWhereTheyStand) {
+  auto const with = [](std::string text, std::string const& what, std::string const& instead) {
+    text.replace(text.find(what), what.size(), instead);
+    return SmallStudy(text).complaint();
+  };
+  std::string const all = head + world;
+  EXPECT_THAT(with(all, "forward 2", "foward 2"), HasSubstr("small.toml:4:22: no selection method 'foward'; did you"));
+  EXPECT_THAT(with(all, "forward 2", "forward two"), HasSubstr("a number of sensors from 1 on is due"));
+  EXPECT_THAT(with(all, "forward 2", "all 2"), HasSubstr("all sensors have no number"));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"rigde\""), HasSubstr("small.toml:5:21: no model 'rigde'; known: linear, "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"linear\""), HasSubstr("small.toml:5:21: 'linear' is given twice"));
+  EXPECT_THAT(with(all, "seeds = 5", "seeds = 3"), HasSubstr("'seeds' is 3; allowed is 5 to 1000"));
+  EXPECT_THAT(with(all, "E_Z", "E_W"), HasSubstr("world 'v450': fast.toml has no displacement 'E_W'; did you mean"));
+  EXPECT_THAT(with(all, "\"T9\"", "\"T19\""), HasSubstr("the machine has no sensor 'T19'; did you mean"));
+  EXPECT_THAT(with(all, "error =", "eror ="), HasSubstr("small.toml:10:1: unknown key 'eror'; did you mean 'error'"));
+  EXPECT_THAT(with(all, "slow.toml", "missing.toml"), HasSubstr("missing.toml' is not there"));
+  EXPECT_THAT(with(all, "slow.toml", "fast.toml"), HasSubstr("'fast.toml' is in 'train', too"));
+  EXPECT_THAT(with(all, "test = [\"slow.toml\"]", ""), HasSubstr("has nothing to test on; give 'test' or 'split'"));
+  EXPECT_THAT(with("reference = \"all + liner\"\n" + all, "Small", "Small"),
+              HasSubstr("small.toml:1:13: the study has no combination 'all + liner'; did you mean 'all + linear'?"));
+  EXPECT_THAT(with(all, "error = \"E_Z\"", "error = \"slope z\""), HasSubstr("no laser measurement of axis 'z'"));
+}
+
+TEST(StudyAverages, AreOverStretchesAndSkipWhatIsMissing) {
+  output::Dataset data;
+  data.time_s = Eigen::VectorXd::LinSpaced(7, 0.0, 90.0);  // every 15 s
+  data.readings.push_back({"T", "degC", "", (Eigen::VectorXd(7) << 1, 2, 3, 4, 5, NAN, 7).finished()});
+  auto const mean = averaged(data, 30.0);
+  EXPECT_EQ(mean.time_s, (Eigen::VectorXd(4) << 0, 30, 60, 90).finished());
+  EXPECT_EQ(mean.readings[0].values, (Eigen::VectorXd(4) << 1.5, 3.5, 5, 7).finished());
+}
+
+TEST(StudyIntervals, AreStudentsOnes) {
+  auto const of = interval({1, 2, 3, 4, 5});
+  EXPECT_EQ(of.mean, 3.0);
+  EXPECT_NEAR(of.half, 2.7764451 * std::sqrt(2.5 / 5.0), 1e-6);
+  EXPECT_EQ(interval({2, NAN}).mean, 2.0);
+  EXPECT_EQ(text_of(interval({2})), "2.00");
+  EXPECT_EQ(text_of(interval({})), "-");
+}
+
+TEST(StudySwitches, CountChangesFromOneSetToTheNext) {
+  std::vector<Choice> choices(4);
+  choices[0].columns = choices[1].columns = {0, 2};
+  choices[2].columns = {1, 2};
+  choices[3].columns = {0, 2};
+  EXPECT_NEAR(*switch_share({&choices[0], &choices[1], &choices[2], &choices[3]}), 2.0 / 3.0, 1e-12);
+  EXPECT_FALSE(switch_share({&choices[0]}));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
