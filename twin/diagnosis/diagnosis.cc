@@ -273,12 +273,12 @@ Diagnosis Diagnostician::operator()() {
   say("scanning for heat that the machine does not know");
   diagnosis_.scan = scan_for_free_heat(*estimation_, fit_);
   Estimation const plain = *estimation_;
-  for (int round = 1; round <= options_.most_effects && add_effect(round) && !is_unknown(); ++round) continue;
+  for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
+  if (!diagnosis_.explanations.empty()) diagnosis_.left = scan_for_free_heat(*estimation_, fit_);
   diagnosis_.faulty_sensor = faulty_sensor();
   diagnosis_.verdict = verdict();
-  if (diagnosis_.verdict == Diagnosis::Verdict::none_known) {   // nothing is added to the machine
-    Eigen::Index const known = diagnosis_.calibrated.x.size();  // about the nearest explanation, but without it
-    diagnosis_.unknown_heat = scan_for_free_heat(*estimation_, without(fit_, known))[0];
+  if (diagnosis_.verdict == Diagnosis::Verdict::none_known) {  // nothing is added to the machine
+    diagnosis_.unknown_heat = diagnosis_.scan[0];
     estimation_ = plain;
     fit_ = diagnosis_.calibrated;
   }
@@ -292,8 +292,8 @@ Diagnosis Diagnostician::operator()() {
   return diagnosis_;
 }
 
-/// Heat of free course explains more than the best effect at its best site, or it took two effects on one body: the
-/// catalogue does not have what acts there.
+/// The best effect leaves heat of free course on its own body, or it took two effects on one body: the catalogue does
+/// not have what acts there.
 bool Diagnostician::is_unknown() const {
   auto const& found = diagnosis_.explanations;
   if (found.empty()) return false;
@@ -302,7 +302,8 @@ bool Diagnostician::is_unknown() const {
       first.hypothesis.effect->changes.find("film") == std::string::npos &&
       first.hypothesis.effect->changes.find("boundary") == std::string::npos)
     return false;
-  if (diagnosis_.scan[0].gain > first.strength) return true;
+  for (auto const& left : diagnosis_.left)
+    if (left.gain > options_.heat_left && left.site.body == first.hypothesis.body) return true;
   for (std::size_t i = 1; i < found.size(); ++i)
     if (found[i].alternatives[0].hypothesis.body == first.hypothesis.body) return true;
   return false;
@@ -320,22 +321,24 @@ void Diagnostician::take_joint_estimates() {
   }
 }
 
-/// Bodies and regimes that receive the heat of the effects found: those above a fifth of the largest.
+/// Bodies and regimes that receive the heat that is missing: those above a fifth of the largest.
 void Diagnostician::find_where() {
+  std::map<std::pair<std::string, std::string>, double> heat;
+  auto const add = [&](std::string const& body, LinearisedRun::MeanHeat const& mean) {
+    auto& while_moving = heat[{body, "moving"}];
+    auto& while_standing = heat[{body, "standing"}];
+    while_moving = std::max(while_moving, std::abs(mean.moving));
+    while_standing = std::max(while_standing, std::abs(mean.standing));
+  };
+  if (auto const& unknown = diagnosis_.unknown_heat)
+    for (std::size_t r = 0; r < runs_.size(); ++r) add(unknown->site.body, mean_heat(*unknown, r, runs_[r]));
   Machine const machine = estimation_->machine_at(fit_.x);
   auto const& parts = machine.network().parts();
-  std::map<std::pair<std::string, std::string>, double> heat;
   for (std::size_t e = 0; e < estimation_->effects().size(); ++e) {
     auto const& effect = estimation_->effects()[e];
     auto const it = std::find(parts.begin(), parts.end(), fmt::format("{}.diagnosed_{}", effect.effect->name, e + 1));
     if (it == parts.end()) continue;
-    for (auto const& run : runs_) {
-      auto const [moving, standing] = LinearisedRun(machine, run).mean_heat(int(it - parts.begin()));
-      auto& while_moving = heat[{effect.body, "moving"}];
-      auto& while_standing = heat[{effect.body, "standing"}];
-      while_moving = std::max(while_moving, std::abs(moving));
-      while_standing = std::max(while_standing, std::abs(standing));
-    }
+    for (auto const& run : runs_) add(effect.body, LinearisedRun(machine, run).mean_heat(int(it - parts.begin())));
   }
   double largest = 0.0;
   for (auto const& [place, watts] : heat) largest = std::max(largest, watts);

@@ -31,10 +31,13 @@ struct DiagnosisOptions {
   int most_effects = 4;
   /// 2 ln of the evidence that an effect must have; see docs/diagnosis.md for how often chance alone reaches it.
   double threshold = 20.0;
-  /// What a further effect must have, and its share of the strongest: what is left of an effect whose shape is not quite
-  /// right looks like others.
+  /// What a further effect must have, and its share of the strongest: what is left of an effect whose shape is not
+  /// quite right looks like others.
   double further_threshold = 40.0;
   double least_share = 0.04;
+  /// 2 ln of the evidence for heat of free course on the body of the effect found: beyond it, that is not what is
+  /// missing.
+  double heat_left = 20.0;
   double indistinct = 9.0;  ///< alternatives within this of the best are told as well
   std::function<void(std::string const&)> progress;
 };
@@ -56,6 +59,7 @@ struct Diagnosis {
   std::vector<Remedy> proposals;         ///< of `either`: experiments that would tell the first one apart, best first
   std::string faulty_sensor;             ///< a sensor that shows nothing, or jumps about; empty: none
   std::vector<FreeHeat> scan;            ///< before any effect was added, best first
+  std::vector<FreeHeat> left;            ///< with the effects, best first
   std::vector<Hypothesis> hypotheses;    ///< those that were tried
   Fit calibrated;                        ///< without any effect
   Fit amended;                           ///< with those found, the best alternative of each

@@ -14,10 +14,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string amplitude_text(Finding const& finding) {
-  auto const dimension = finding.hypothesis.dimension();
-  return fmt::format("{} = {} ± {}", finding.hypothesis.trial->amplitude,
-                     thermal::format_quantity(finding.amplitude, dimension),
-                     thermal::format_quantity(two_sided_95 * finding.standard_error, dimension));
+  std::string const unit = readable_unit(finding.amplitude, finding.hypothesis.dimension());
+  return fmt::format("{} = {} {}", finding.hypothesis.trial->amplitude, written_value(finding.amplitude, unit, 3),
+                     written_interval(finding.standard_error, unit));
 }
 
 Json json_of(Finding const& finding, std::size_t group) {
@@ -146,6 +145,9 @@ std::string report_json(DiagnosisReport const& report) {
   json["unaccounted_heat"] = Json::array();
   for (std::size_t i = 0; i < std::min<std::size_t>(3, diagnosis.scan.size()); ++i)
     json["unaccounted_heat"].push_back(json_of(diagnosis.scan[i]));
+  json["heat_left"] = Json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, diagnosis.left.size()); ++i)
+    json["heat_left"].push_back(json_of(diagnosis.left[i]));
   if (auto const* proposal = proposal_of(diagnosis)) {
     json["experiment"] = proposal->file.string();
     json["experiment_distance"] = proposal->distance;

@@ -7,19 +7,43 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double first_deviation = 100.0;  // σ_0 [W]
+constexpr double first_deviations[] = {3.0, 30.0, 300.0};  // σ_0 [W]
+constexpr double jump_time = 60.0;                         // in which the heat may jump with an input [s]
+constexpr double jump_worth = 4 * 3600.0;                  // as much as it may change otherwise in so long [s]
 constexpr double intensities[] = {0.01, 0.1, 0.5, 2.0};
 
+/// At regular times, and two for every jump of the inputs, before and after it: what is switched on jumps as well.
 Eigen::VectorXd knots_of(BinnedRun const& run) {
   double const from = run.steps.front().begin, to = run.steps.back().end;
   double const spacing = std::max(1800.0, (to - from) / 24.0);
-  auto const count = Eigen::Index(std::ceil((to - from) / spacing)) + 1;
-  return Eigen::VectorXd::LinSpaced(count, from, to);
+  std::vector<double> knots = {from};
+  auto const fill_until = [&](double end) {
+    auto const parts = int(std::ceil((end - knots.back()) / spacing - 0.5));
+    double const begin = knots.back();
+    for (int p = 1; p < parts; ++p) knots.push_back(begin + (end - begin) * p / parts);
+  };
+  auto const& course = *run.run->course;
+  for (double jump = course.next_jump(from); jump < to - 0.5 * spacing; jump = course.next_jump(jump)) {
+    if (jump - knots.back() < 0.5 * spacing) continue;
+    fill_until(jump);
+    knots.insert(knots.end(), {jump, jump + jump_time});
+  }
+  fill_until(to);
+  knots.push_back(to);
+  return Eigen::Map<Eigen::VectorXd>(knots.data(), Eigen::Index(knots.size()));
 }
 
 double hat(Eigen::VectorXd const& knots, Eigen::Index k, double t) {
-  double const spacing = knots[1] - knots[0];
-  return std::max(0.0, 1.0 - std::abs(t - knots[k]) / spacing);
+  if (k > 0 && t < knots[k]) return std::max(0.0, (t - knots[k - 1]) / (knots[k] - knots[k - 1]));
+  if (k + 1 < knots.size() && t > knots[k]) return std::max(0.0, (knots[k + 1] - t) / (knots[k + 1] - knots[k]));
+  return 1.0;
+}
+
+/// Mean over time of straight lines between knots.
+double mean(Eigen::VectorXd const& knots, Eigen::VectorXd const& values) {
+  auto const n = knots.size() - 1;
+  Eigen::VectorXd const steps = knots.tail(n) - knots.head(n);
+  return 0.5 * steps.dot(values.head(n) + values.tail(n)) / steps.sum();
 }
 
 /// Whitened response to the heat at every knot of every site: sites one after another.
@@ -48,7 +72,7 @@ Eigen::MatrixXd columns_of(Estimation const& estimation, std::size_t r, Linearis
 }
 
 /// Precision of the random walk through all runs, each with its own start.
-Eigen::MatrixXd walk_precision(std::vector<Eigen::VectorXd> const& knots, double intensity) {
+Eigen::MatrixXd walk_precision(std::vector<Eigen::VectorXd> const& knots, double first_deviation, double intensity) {
   Eigen::Index size = 0;
   for (auto const& k : knots) size += k.size();
   Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(size, size);
@@ -56,7 +80,8 @@ Eigen::MatrixXd walk_precision(std::vector<Eigen::VectorXd> const& knots, double
   for (auto const& k : knots) {
     precision(at, at) += 1.0 / (first_deviation * first_deviation);
     for (Eigen::Index i = 0; i + 1 < k.size(); ++i) {
-      double const p = 1.0 / (intensity * intensity * (k[i + 1] - k[i]));
+      double const step = k[i + 1] - k[i];
+      double const p = 1.0 / (intensity * intensity * (step > jump_time ? step : jump_worth));
       precision(at + i, at + i) += p;
       precision(at + i + 1, at + i + 1) += p;
       precision(at + i, at + i + 1) -= p;
@@ -76,22 +101,23 @@ FreeHeat estimate(HeatSite const& site, std::vector<Eigen::VectorXd> const& knot
   FreeHeat best{site, 0.0, -INFINITY, knots, {}, {}, {}};
   Eigen::VectorXd heat;
   Eigen::VectorXd variance;
-  for (double const intensity : intensities) {
-    Eigen::MatrixXd const prior = walk_precision(knots, intensity);
-    Eigen::LLT<Eigen::MatrixXd> const posterior(information + prior), before(prior);
-    Eigen::VectorXd const q = posterior.solve(towards);
-    double const gain = q.dot(towards) - log_determinant(posterior) + log_determinant(before);
-    if (gain <= best.gain) continue;
-    best.gain = gain;
-    best.intensity = intensity;
-    heat = q;
-    variance = posterior.solve(Eigen::MatrixXd::Identity(prior.rows(), prior.rows())).diagonal();
-  }
+  for (double const first_deviation : first_deviations)
+    for (double const intensity : intensities) {
+      Eigen::MatrixXd const prior = walk_precision(knots, first_deviation, intensity);
+      Eigen::LLT<Eigen::MatrixXd> const posterior(information + prior), before(prior);
+      Eigen::VectorXd const q = posterior.solve(towards);
+      double const gain = q.dot(towards) - log_determinant(posterior) + log_determinant(before);
+      if (gain <= best.gain) continue;
+      best.gain = gain;
+      best.intensity = intensity;
+      heat = q;
+      variance = posterior.solve(Eigen::MatrixXd::Identity(prior.rows(), prior.rows())).diagonal();
+    }
   Eigen::Index at = 0;
   for (auto const& k : knots) {
     best.heat.emplace_back(heat.segment(at, k.size()));
     best.standard_error.emplace_back(variance.segment(at, k.size()).cwiseSqrt());
-    best.mean.push_back(heat.segment(at, k.size()).mean());
+    best.mean.push_back(mean(k, heat.segment(at, k.size())));
     at += k.size();
   }
   return best;
@@ -143,6 +169,19 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
   }
   std::stable_sort(scan.begin(), scan.end(), [](auto const& a, auto const& b) { return a.gain > b.gain; });
   return scan;
+}
+
+LinearisedRun::MeanHeat mean_heat(FreeHeat const& heat, std::size_t r, BinnedRun const& run) {
+  auto const &t = heat.knots[r], &q = heat.heat[r];
+  double moving = 0.0, standing = 0.0;
+  LinearisedRun::MeanHeat mean;
+  for (Eigen::Index k = 0; k + 1 < t.size(); ++k) {
+    double const step = t[k + 1] - t[k];
+    bool const moves = is_moving(*run.run->course, 0.5 * (t[k] + t[k + 1]));
+    (moves ? mean.moving : mean.standing) += 0.5 * step * (q[k] + q[k + 1]);
+    (moves ? moving : standing) += step;
+  }
+  return {moving > 0.0 ? mean.moving / moving : 0.0, standing > 0.0 ? mean.standing / standing : 0.0};
 }
 
 }  // namespace thermotwin::twin

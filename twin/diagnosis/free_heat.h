@@ -19,9 +19,9 @@ struct HeatSite {
 /// Heat of unknown course into one site (physics.md 8.3): straight lines between knots, a random walk from knot to
 /// knot,
 ///
-///   q_0 ~ N(0, σ_0²),  q_{k+1} − q_k ~ N(0, S² Δt),
+///   q_0 ~ N(0, σ_0²),  q_{k+1} − q_k ~ N(0, S² Δt),  Δt of a jump of the inputs: 4 h,
 ///
-/// on top of everything that the fit could still change by its own unknowns.
+/// on top of everything that the fit could still change by its own unknowns. σ_0 and S by evidence.
 struct FreeHeat {
   HeatSite site;
   double intensity = 0.0;              ///< S [W/√s] that fits best
@@ -34,5 +34,8 @@ struct FreeHeat {
 
 /// Every site as the place of such heat, best first, from one linearisation about a fit.
 [[nodiscard]] std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const& fit);
+
+/// While the machine moves and while it stands, in one run.
+[[nodiscard]] LinearisedRun::MeanHeat mean_heat(FreeHeat const& heat, std::size_t run, BinnedRun const& data);
 
 }  // namespace thermotwin::twin

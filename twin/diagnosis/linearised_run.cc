@@ -278,21 +278,25 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
 LinearisedRun::MeanHeat LinearisedRun::mean_heat(int part) const {
   thermal::Evaluation evaluation(machine_->network());
   std::vector<double> watts(machine_->network().parts().size());
-  auto const& names = data_->run->course->channels();
-  std::vector<double> values(names.size());
   MeanHeat mean;
   double moving = 0.0, standing = 0.0;
   for (std::size_t s = 0; s < begins_.size(); ++s) {
     double const length = data_->steps[s].end - data_->steps[s].begin;
-    data_->run->course->evaluate(begins_[s].time, values);
-    bool moves = false;
-    for (std::size_t i = 0; i < names.size(); ++i)
-      moves = moves || (names[i].name.ends_with(".running") && values[i] > 0.5);
+    bool const moves = is_moving(*data_->run->course, begins_[s].time);
     evaluation.heat_of_parts(begins_[s].state.data(), begins_[s].input.data(), watts);
     (moves ? mean.moving : mean.standing) += length * watts[std::size_t(part)];
     (moves ? moving : standing) += length;
   }
   return {moving > 0.0 ? mean.moving / moving : 0.0, standing > 0.0 ? mean.standing / standing : 0.0};
+}
+
+bool is_moving(thermal::Course const& course, double time) {
+  auto const& channels = course.channels();
+  std::vector<double> values(channels.size());
+  course.evaluate(time, values);
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (channels[i].name.ends_with(".running") && values[i] > 0.5) return true;
+  return false;
 }
 
 }  // namespace thermotwin::twin

@@ -67,4 +67,7 @@ class LinearisedRun {
   mutable std::vector<double> scratch_;
 };
 
+/// Whether the spindle or an axis moves at that time.
+[[nodiscard]] bool is_moving(thermal::Course const& course, double time);
+
 }  // namespace thermotwin::twin

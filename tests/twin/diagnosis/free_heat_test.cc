@@ -63,6 +63,34 @@ TEST(FreeHeat, OfAStepIsFoundWhereAndWhenItEnters) {
   EXPECT_NEAR(before / count_before, 0.0, 6.0);
 }
 
+/// What an input switches on is there at once, not half an hour later.
+TEST(FreeHeat, JumpsWithAnInput) {
+  auto const found = scan(tests::with_table(v450(), R"(
+    [[heat]]
+    name = "hidden"
+    at = "column_rear"
+    power = "60 W"
+    while_on = "hidden.on")"),
+                          3);
+  auto const& best = found.front();
+  Eigen::Index before = 0;
+  while (before + 2 < best.knots[0].size() && best.knots[0][before] < 4000.0 - 60.0) ++before;
+  EXPECT_NEAR(best.knots[0][before], 4000.0, 60.0);  // recorded once a minute
+  EXPECT_NEAR(best.knots[0][before + 1] - best.knots[0][before], 60.0, 1e-9);
+  EXPECT_GT(best.heat[0][before + 1] - best.heat[0][before], 30.0);
+}
+
+/// Straight lines between knots, told apart by whether the spindle turns: 80 min, 50 min, then 50 min of rest, 1 h.
+TEST(FreeHeat, HasAMeanForEachRegime) {
+  auto const run = tests::measured(v450(), tests::two_speeds());
+  FreeHeat heat;
+  heat.knots = {Eigen::Vector4d(0.0, 7800.0, 10800.0, 14400.0)};
+  heat.heat = {Eigen::Vector4d(10.0, 10.0, 30.0, 0.0)};
+  auto const [moving, standing] = mean_heat(heat, 0, bin(run, 300.0));
+  EXPECT_NEAR(standing, 20.0, 1e-9);
+  EXPECT_NEAR(moving, (7800.0 * 10.0 + 3600.0 * 15.0) / 11400.0, 1e-9);
+}
+
 TEST(FreeHeat, ThatIsNotThereGainsNothing) {
   for (unsigned const seed : {1U, 2U})
     for (auto const& site : scan(v450(), seed)) {

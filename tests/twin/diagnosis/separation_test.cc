@@ -18,7 +18,7 @@ struct Bench {
     estimation.emplace(expected_estimation(tests::v450(), data));
     fit = estimation->fit(estimation->prior_mean(), 0);
     auto const all = hypotheses(tests::v450(), Machine::build(tests::v450()));
-    for (auto const* label : {"heat at head_front", "heat at head_rear", "draught at head_front"})
+    for (auto const* label : {"heat at head_front", "heat at head_rear", "copper_loss at motor"})
       for (auto const& hypothesis : all)
         if (hypothesis.label() == label) {
           chosen.push_back(hypothesis);
