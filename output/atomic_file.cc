@@ -94,4 +94,10 @@ void make_directory(fs::path const& directory) {
   if (error) throw OutputError(fmt::format("cannot make directory '{}': {}", directory.string(), error.message()));
 }
 
+void require_empty(fs::path const& directory) {
+  if (fs::exists(directory) && (!fs::is_directory(directory) || !fs::is_empty(directory)))
+    throw OutputError(
+        fmt::format("'{}' is not empty; what is there is not overwritten, name another folder", directory.string()));
+}
+
 }  // namespace thermotwin::output

@@ -15,4 +15,7 @@ void write_atomically(std::filesystem::path const& path, std::string_view conten
 /// Makes the directory and its parents; OutputError when that cannot be.
 void make_directory(std::filesystem::path const& directory);
 
+/// OutputError when the directory holds something already: what a command fills must be new, or empty.
+void require_empty(std::filesystem::path const& directory);
+
 }  // namespace thermotwin::output

@@ -7,15 +7,16 @@
 #include <fmt/format.h>
 #include <iostream>
 
+#include "output/atomic_file.h"
 #include "output/csv.h"
 #include "output/dataset_file.h"
 #include "output/error.h"
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "twin/challenge/challenge.h"
-#include "twin/command_line_volumetric.h"
 #include "twin/command_line_place.h"
 #include "twin/command_line_study.h"
+#include "twin/command_line_volumetric.h"
 #include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnose_files.h"
@@ -269,6 +270,15 @@ void print_plan(DiagnoseFiles const& files, std::vector<std::string> const& expe
   fmt::print("{}", json ? plan_json(made) : plan_text(made));
 }
 
+void write_folder(std::filesystem::path const& folder, DiagnoseFiles const& files, DiagnosisReport const& report) {
+  output::make_directory(folder);
+  output::write_atomically(folder / "diagnosis.json", report_json(report));
+  ReportFiles page{files.data, files.machine, folder / "report.html"};
+  page.data.insert(page.data.end(), files.held_out.begin(), files.held_out.end());
+  page.data.push_back(folder / "diagnosis.json");
+  static_cast<void>(write_report(page));
+}
+
 void add_diagnose_command(CLI::App& app) {
   auto* command =
       app.add_subcommand("diagnose", "find where machine and measurement disagree, and name what is missing");
@@ -280,6 +290,8 @@ void add_diagnose_command(CLI::App& app) {
   command->add_option("--hold-out", files->held_out, "runs that take no part in the fit");
   command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
   command->add_option("--without", files->without, "effects that are not to be tried");
+  auto folder = std::make_shared<std::string>();
+  command->add_option("--report", *folder, "folder for a page to look at (report.html) and diagnosis.json");
   command->add_flag("--json", *json, "print everything as JSON");
   auto planned = std::make_shared<std::vector<std::string>>();
   auto* plans =
@@ -287,12 +299,14 @@ void add_diagnose_command(CLI::App& app) {
                           "before any data: what these experiments (files or names) would show of each effect, "
                           "which could be taken for each other, and what would tell them apart");
   plans->excludes(data);
-  command->callback([files, json, machine, planned, data] {
+  command->callback([files, json, machine, planned, data, folder] {
     files->machine = machine_file(*machine);
     if (!*json) files->progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
     if (!planned->empty()) return print_plan(*files, *planned, *json);
     if (data->empty()) throw thermal::InputError("diagnose needs measured runs, or --plan with experiments");
+    if (!folder->empty()) output::require_empty(*folder);
     auto const report = diagnose_files(*files);
+    if (!folder->empty()) write_folder(*folder, *files, report);
     fmt::print("{}", *json ? report_json(report) : report_text(report));
   });
 }

@@ -21,11 +21,6 @@ struct StudyCommand {
   void operator()(std::atomic<bool> const& stop) const;
 };
 
-void require_empty(std::filesystem::path const& folder) {
-  if (std::filesystem::exists(folder) && (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder)))
-    throw thermal::InputError(fmt::format("'{}' is not empty; a study does not overwrite", folder.string()));
-}
-
 /// A bar per stage.
 class Stages {
  public:
@@ -47,7 +42,7 @@ void StudyCommand::operator()(std::atomic<bool> const& stop) const {
   auto const file = study_file(study);
   auto const read = read_study(file);
   std::filesystem::path const target = folder;
-  require_empty(target);
+  output::require_empty(target);
   auto stages = std::make_shared<Stages>();
   StudyOptions options{{}, &stop};
   if (!json) options.progress = [stages](std::string const& what, double share) { (*stages)(what, share); };

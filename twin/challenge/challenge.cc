@@ -22,11 +22,6 @@ using Json = nlohmann::ordered_json;
 constexpr double tolerance = 3e-6;  // not that of the twin
 std::array<std::string, 3> const run_names = {"run1", "run2", "unseen"};
 
-void require_empty(std::filesystem::path const& folder) {
-  if (std::filesystem::exists(folder) && (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder)))
-    throw thermal::InputError(fmt::format("'{}' is not empty; a challenge does not overwrite", folder.string()));
-}
-
 output::Dataset simulate(Machine const& machine, scenarios::Experiment const& experiment) {
   RunOptions options;
   options.integration.relative_tolerance = options.integration.absolute_tolerance = tolerance;
@@ -127,7 +122,7 @@ std::string write_further_run(ChallengeOptions const& options) {
 
 std::string write_challenge(ChallengeOptions const& options) {
   if (options.further_run) return write_further_run(options);
-  require_empty(options.folder);
+  output::require_empty(options.folder);
   auto const file = machine_file(options.machine);
   Value const nominal = read_toml(file);
   Machine const nominal_machine = Machine::build(nominal);
