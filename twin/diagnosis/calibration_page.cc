@@ -48,7 +48,7 @@ Json json_of(ChannelGap const& gap) {
   double const scale = gap.displacement ? 1e6 : 1.0;
   return {{"run", gap.run},
           {"channel", gap.channel},
-          {"unit", gap.displacement ? "um" : "K"},
+          {"unit", gap.unit},
           {"before", scale * gap.before},
           {"after", scale * gap.after}};
 }
@@ -103,7 +103,7 @@ std::string gap_table(Calibration const& calibration) {
   for (auto const& gap : calibration.gaps) {
     double const scale = gap.displacement ? 1e6 : 1.0;
     text += fmt::format("{:<20} {:<12} {:>10.3f} {:>10.3f} {}\n", gap.run, gap.channel, scale * gap.before,
-                        scale * gap.after, gap.displacement ? "um" : "K");
+                        scale * gap.after, gap.unit);
   }
   auto const sum = whole(calibration.gaps);
   text += fmt::format("all channels, in units of 0.1 K and 1 um: {:.2f} before, {:.2f} after\n", sum.before, sum.after);

@@ -59,7 +59,7 @@ Json json_of(std::vector<ChannelGap> const& gaps) {
     double const unit = gap.displacement ? 1e6 : 1.0;
     list.push_back({{"run", gap.run},
                     {"channel", gap.channel},
-                    {"unit", gap.displacement ? "um" : "K"},
+                    {"unit", gap.unit},
                     {"before", unit * gap.before},
                     {"after", unit * gap.after}});
   }
@@ -71,7 +71,7 @@ std::string table_of(std::vector<ChannelGap> const& gaps) {
   for (auto const& gap : gaps) {
     double const unit = gap.displacement ? 1e6 : 1.0;
     text += fmt::format("  {:<20} {:<10} {:>10.3f} {:>10.3f} {}\n", gap.run, gap.channel, unit * gap.before,
-                        unit * gap.after, gap.displacement ? "µm" : "K");
+                        unit * gap.after, gap.unit);
   }
   return text;
 }

@@ -1,5 +1,6 @@
 #include "twin/diagnosis/gap.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "twin/diagnosis/linearised_run.h"
@@ -18,6 +19,13 @@ double spread(Eigen::VectorXd const& values) {
   return count > 0.0 ? std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count))) : NAN;
 }
 
+std::string unit_of(MeasuredChannel const& channel, Machine const& machine) {
+  if (!channel.displacement) return "K";
+  bool const rotation = std::any_of(machine.displacements.begin(), machine.displacements.end(),
+                                    [&](auto const& d) { return d.rotation && d.name == channel.name; });
+  return rotation ? "urad" : "um";
+}
+
 }  // namespace
 
 std::vector<ChannelGap> gaps(Machine const& before, Machine const& after, std::vector<BinnedRun> const& runs) {
@@ -27,8 +35,8 @@ std::vector<ChannelGap> gaps(Machine const& before, Machine const& after, std::v
     Eigen::MatrixXd const is = run.values - LinearisedRun(after, run).prediction();
     for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
       auto const& channel = run.run->channels[c];
-      result.push_back({run.run->name, channel.name, channel.displacement, spread(was.col(Eigen::Index(c))),
-                        spread(is.col(Eigen::Index(c)))});
+      result.push_back({run.run->name, channel.name, channel.displacement, unit_of(channel, before),
+                        spread(was.col(Eigen::Index(c))), spread(is.col(Eigen::Index(c)))});
     }
   }
   return result;

@@ -12,7 +12,8 @@ namespace thermotwin::twin {
 struct ChannelGap {
   std::string run, channel;
   bool displacement = false;
-  double before = 0.0, after = 0.0;  ///< RMS [K, m] of the machine as it was and as it is amended
+  std::string unit = "K";            ///< in which people read it: K, um, urad
+  double before = 0.0, after = 0.0;  ///< RMS [K, m, rad] of the machine as it was and as it is amended
 };
 
 /// Both machines along the same runs, channel by channel. One constant per channel and run is taken off: an
