@@ -159,9 +159,10 @@ TEST_F(PlantedTree, DownwardIncludeIsAllowed) {
 }
 
 TEST_F(PlantedTree, EveryLibraryOutsideItsSeamIsFound) {
-  plant("twin/campaign.cc",
-        "#include <cvodes/cvodes.h>\n#include <klu.h>\n#include <libsvm/svm.h>\n#include <hdf5.h>\n#include <vtkNew.h>\n"
-        "#include <toml++/toml.h>\n#include <CLI/CLI.hpp>");
+  plant(
+      "twin/campaign.cc",
+      "#include <cvodes/cvodes.h>\n#include <klu.h>\n#include <libsvm/svm.h>\n#include <hdf5.h>\n#include <vtkNew.h>\n"
+      "#include <toml++/toml.h>\n#include <CLI/CLI.hpp>");
   EXPECT_THAT(leaking_seams(root_), testing::SizeIs(7));
 }
 

@@ -56,7 +56,7 @@ TEST(StudyCommand, OverwritesNothing) {
   auto const complaint = answer(std::string(THERMOTWIN_PROGRAM) + " study " + (directory / "study.toml").string() +
                                     " -o " + directory.path().string(),
                                 2);
-  EXPECT_THAT(complaint, HasSubstr("is not empty; a study does not overwrite"));
+  EXPECT_THAT(complaint, HasSubstr("is not empty; what is there is not overwritten"));
   EXPECT_EQ(directory.files(), std::vector<std::string>{"study.toml"});
 }
 
