@@ -88,7 +88,7 @@ Decay symmetric_decay(MatrixXd const& A, int count) {
 
 Decay general_decay(MatrixXd const& A, int count) {
   Eigen::EigenSolver<MatrixXd> const solver(A);
-  Eigen::VectorXcd const lambda = solver.eigenvalues();
+  auto const& lambda = solver.eigenvalues();
   Eigen::MatrixXcd const shapes = solver.eigenvectors();
   std::vector<Index> order(std::size_t(A.rows()));
   std::iota(order.begin(), order.end(), 0);

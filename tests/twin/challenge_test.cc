@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "output/dataset_file.h"
+#include "output/error.h"
 #include "scenarios/course.h"
 #include "thermal/block.h"
 #include "thermal/error.h"
@@ -232,7 +233,7 @@ TEST_F(ChallengeFolder, TakesOneMoreRunOfTheSameWorld) {
 TEST_F(ChallengeFolder, RefusesToOverwrite) {
   std::filesystem::create_directories(root_ / "full");
   std::ofstream(root_ / "full" / "mine.txt") << "mine";
-  EXPECT_THROW(static_cast<void>(write("full", 1, CaseKind::none)), thermal::InputError);
+  EXPECT_THROW(static_cast<void>(write("full", 1, CaseKind::none)), output::OutputError);
   EXPECT_EQ(text_of(root_ / "full" / "mine.txt"), "mine");
 }
 

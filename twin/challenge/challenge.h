@@ -28,7 +28,7 @@ struct ChallengeOptions {
 /// | unseen.h5 | those of the run that is held out |
 /// | sealed.json | kind, effects, sites, amplitudes, heat per body and run, displacement moved, parameters drawn |
 ///
-/// The same options write the same bytes. InputError if the folder is there and not empty. A further run is written
+/// The same options write the same bytes. OutputError if the folder is there and not empty. A further run is written
 /// beside the others as <name of the experiment's file>.h5; InputError if that is there. Returns one line for people,
 /// which does not tell what is hidden.
 std::string write_challenge(ChallengeOptions const& options);

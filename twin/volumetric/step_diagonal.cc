@@ -71,8 +71,10 @@ Eigen::Matrix3Xd diagonal_stops(int k, Workspace const& workspace, int steps) {
   Eigen::Matrix3Xd stops(3, 3 * steps + 1);
   for (int axis = 0; axis < 3; ++axis) {
     double const first = signs[axis] > 0 ? workspace.from[axis] : workspace.to[axis];
-    for (int i = 0; i <= 3 * steps; ++i)
-      stops(axis, i) = first + signs[axis] * workspace.travel()[axis] * ((i + 2 - axis) / 3) / steps;
+    for (int i = 0; i <= 3 * steps; ++i) {
+      int const done = (i + 2 - axis) / 3;
+      stops(axis, i) = first + signs[axis] * workspace.travel()[axis] * done / steps;
+    }
   }
   return stops;
 }
