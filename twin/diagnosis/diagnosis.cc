@@ -98,6 +98,7 @@ class Diagnostician {
   [[nodiscard]] Eigen::MatrixXd whitened_signatures() const;
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
   void listen_to_noise();
+  void drop_superfluous(Estimation const& plain);
   void take_joint_estimates();
   void find_where();
   void propose();
@@ -263,6 +264,25 @@ bool Diagnostician::add_effect(int round) {
   return true;
 }
 
+/// Backward check (physics.md 8.6): an effect that those found after it have made superfluous goes, the weakest first.
+void Diagnostician::drop_superfluous(Estimation const& plain) {
+  auto const first = diagnosis_.calibrated.x.size();
+  while (estimation_->effects().size() > 1) {
+    Eigen::VectorXd const square = fit_.x.tail(fit_.x.size() - first)
+                                       .cwiseAbs2()
+                                       .cwiseQuotient(fit_.covariance.diagonal().tail(fit_.x.size() - first));
+    Eigen::Index weakest = 0;
+    if (square.minCoeff(&weakest) >= options_.threshold) return;
+    auto effects = estimation_->effects();
+    effects.erase(effects.begin() + weakest);
+    diagnosis_.explanations.erase(diagnosis_.explanations.begin() + weakest);
+    Eigen::VectorXd start(fit_.x.size() - 1);
+    start << fit_.x.head(first + weakest), fit_.x.tail(fit_.x.size() - first - weakest - 1);
+    estimation_ = plain.with(estimation_->noise()).with(effects);
+    fit_ = estimation_->fit(start, 10);
+  }
+}
+
 Diagnosis Diagnostician::operator()() {
   say("calibrating");
   calibrate();
@@ -274,6 +294,7 @@ Diagnosis Diagnostician::operator()() {
   diagnosis_.scan = scan_for_free_heat(*estimation_, fit_);
   Estimation const plain = *estimation_;
   for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
+  drop_superfluous(plain);
   if (!diagnosis_.explanations.empty()) diagnosis_.left = scan_for_free_heat(*estimation_, fit_);
   diagnosis_.faulty_sensor = faulty_sensor();
   diagnosis_.verdict = verdict();
