@@ -317,7 +317,7 @@ Diagnosis Diagnostician::operator()() {
 /// not have what acts there.
 bool Diagnostician::is_unknown() const {
   auto const& found = diagnosis_.explanations;
-  if (found.empty()) return false;
+  if (found.empty()) return !diagnosis_.scan.empty() && diagnosis_.scan[0].gain > options_.heat_left;
   auto const& first = found[0].alternatives[0];
   if (first.hypothesis.effect->changes.find("source") == std::string::npos &&
       first.hypothesis.effect->changes.find("film") == std::string::npos &&
