@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "thermal/nearest_name.h"
+#include "twin/file/shipped_file.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -51,16 +52,7 @@ scenarios::Experiment read_experiment(Value const& document, std::filesystem::pa
 }
 
 std::filesystem::path experiment_file(std::string const& name_or_path) {
-  std::filesystem::path const given = name_or_path;
-  if (given.extension() == ".toml" || std::filesystem::exists(given)) return given;
-  std::filesystem::path const folder = std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "scenarios" / "catalogue";
-  auto const shipped = folder / (name_or_path + ".toml");
-  if (std::filesystem::exists(shipped)) return shipped;
-  std::vector<std::string> names;
-  for (auto const& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  throw thermal::InputError(
-      fmt::format("there is no experiment '{}'; {}", name_or_path, thermal::did_you_mean(name_or_path, names)));
+  return shipped_file("experiment", "scenarios/catalogue", name_or_path);
 }
 
 }  // namespace thermotwin::twin

@@ -8,6 +8,7 @@
 #include "twin/bodies.h"
 #include "twin/carried_bodies.h"
 #include "twin/channel_flow.h"
+#include "twin/file/shipped_file.h"
 #include "twin/file/tables.h"
 #include "twin/volumetric/volumetric_machine.h"
 
@@ -331,17 +332,7 @@ Machine Machine::build(Value const& document) {
 Machine Machine::read(std::filesystem::path const& path) { return build(read_toml(path)); }
 
 std::filesystem::path machine_file(std::string const& name_or_path) {
-  std::filesystem::path const given = name_or_path;
-  if (given.extension() == ".toml" || std::filesystem::exists(given)) return given;
-  std::filesystem::path const folder = std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "twin" / "machines";
-  auto const shipped = folder / (name_or_path + ".toml");
-  if (std::filesystem::exists(shipped)) return shipped;
-  std::vector<std::string> names;
-  for (auto const& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  throw InputError(
-      fmt::format("there is no machine '{}'; {}", name_or_path, thermal::did_you_mean(name_or_path, names)));
+  return shipped_file("machine", "twin/machines", name_or_path);
 }
 
 std::vector<TableRecord> describe_machine() {

@@ -1,12 +1,10 @@
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
 #include <sstream>
-#include <sys/wait.h>
 
+#include "tests/end_to_end/program.h"
 #include "tests/output/temporary_directory.h"
 
 /// What the program says to wrong input: the message, exit code 2, and that nothing was written or lost.
@@ -15,20 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Answer {
-  int code = 0;
-  std::string text;
-};
+using tests::Answer;
 
 Answer program(std::string const& arguments) {
-  std::string const command = std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  Answer answer;
-  std::array<char, 4096> buffer{};
-  while (std::size_t const n = fread(buffer.data(), 1, buffer.size(), pipe)) answer.text.append(buffer.data(), n);
-  int const status = pclose(pipe);
-  answer.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return answer;
+  return tests::run_command(std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1");
 }
 
 std::string read_text(fs::path const& path) {
@@ -222,11 +210,8 @@ TEST(BadInput, FullDiskLeavesTheOldFile) {
   write_text(dataset, "what the user had");
   std::string const command = "sh -c 'ulimit -f 64; trap \"\" XFSZ; " + std::string(THERMOTWIN_PROGRAM) +
                               " run -q golden_b_2000 -m v450 -o " + dataset.string() + "' 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> buffer{};
-  std::string text;
-  while (std::size_t const n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
-  EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 2) << text;
+  auto const [code, text] = tests::run_command(command);
+  EXPECT_EQ(code, 2) << text;
   EXPECT_NE(text.find("cannot write"), std::string::npos) << text;
   EXPECT_TRUE(read_text(dataset) == "what the user had");
 }

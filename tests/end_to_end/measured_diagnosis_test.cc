@@ -1,13 +1,11 @@
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
+#include "tests/end_to_end/program.h"
 #include "tests/output/temporary_directory.h"
 #include "twin/diagnosis/linearised_run.h"
 #include "twin/diagnosis/measured_run.h"
@@ -35,12 +33,8 @@ class MeasuredDiagnosis : public testing::Test {
 
 Json diagnose(std::string const& arguments) {
   std::string const command = std::string(THERMOTWIN_PROGRAM) + " diagnose " + arguments + " --json 2>/dev/null";
-  FILE* pipe = popen(command.c_str(), "r");
-  std::string text;
-  std::array<char, 4096> buffer{};
-  while (std::size_t const n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
-  int const status = pclose(pipe);
-  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0) << command;
+  auto const [code, text] = tests::run_command(command);
+  EXPECT_EQ(code, 0) << command;
   return Json::parse(text, nullptr, false);
 }
 

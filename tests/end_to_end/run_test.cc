@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "output/dataset_file.h"
+#include "tests/end_to_end/program.h"
 #include "tests/output/temporary_directory.h"
 
 /// The program as its users meet it.
@@ -17,17 +18,8 @@ namespace thermotwin {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::answer;
 using tests::TemporaryDirectory;
-
-std::string answer(std::string const& command, int expected_code = 0) {
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  std::string text;
-  std::array<char, 4096> buffer{};
-  while (std::size_t const n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
-  int const status = pclose(pipe);
-  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, expected_code) << command << "\n" << text;
-  return text;
-}
 
 std::string const program = THERMOTWIN_PROGRAM;
 

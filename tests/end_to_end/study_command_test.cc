@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include "tests/end_to_end/program.h"
 #include "tests/output/temporary_directory.h"
 
 /// `thermotwin study` as its users meet it.
@@ -11,17 +12,8 @@ namespace thermotwin {
 namespace {
 
 using testing::HasSubstr;
+using tests::answer;
 using tests::TemporaryDirectory;
-
-std::string answer(std::string const& command, int expected_code = 0) {
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  std::string text;
-  std::array<char, 4096> buffer{};
-  while (std::size_t const n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
-  int const status = pclose(pipe);
-  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, expected_code) << command << "\n" << text;
-  return text;
-}
 
 std::string const study = R"(
 title = "Two batches"

@@ -9,8 +9,8 @@
 
 #include "thermal/error.h"
 #include "twin/diagnosis/amended_file.h"
-#include "twin/diagnosis/diagnosis.h"
 #include "twin/diagnosis/estimate_text.h"
+#include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/run_files.h"
 
 namespace thermotwin::twin {
@@ -20,14 +20,6 @@ constexpr double still_uncertain = 0.5;  // of the prior's deviation
 constexpr double tied = 0.95;            // correlation
 constexpr double large_share = 0.3;      // of a unit vector
 constexpr int iterations = 12;
-
-Estimation estimation_of(Value const& machine, std::vector<BinnedRun> const& runs) {
-  Machine const built = Machine::build(machine);
-  auto const channels = channels_of(runs);
-  std::vector<ChannelNoise> noise;
-  for (auto const& channel : channels) noise.push_back(expected_noise(built, channel, runs));
-  return {machine, runs, channels, noise};
-}
 
 void add_estimates(Calibration& calibration, Estimation const& estimation, Fit const& fit) {
   auto const& unknowns = estimation.unknowns();
@@ -115,7 +107,7 @@ double CalibratedNumber::estimate() const { return number.value(logarithm); }
 double CalibratedNumber::standard_error() const { return std::abs(number.slope(logarithm)) * deviation; }
 
 Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) {
-  Estimation const estimation = estimation_of(machine, runs);
+  Estimation const estimation = expected_estimation(machine, runs);
   if (estimation.numbers().empty())
     throw thermal::InputError(
         "the machine has no number that calibration could change: no conductance, film, friction, loss, mass or step "

@@ -8,6 +8,8 @@
 
 #include "thermal/error.h"
 #include "twin/diagnosis/excitation.h"
+#include "twin/diagnosis/expected_noise.h"
+#include "twin/diagnosis/faulty_sensor.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -103,7 +105,6 @@ class Diagnostician {
   void find_where();
   void propose();
   [[nodiscard]] bool is_unknown() const;
-  [[nodiscard]] std::string faulty_sensor() const;
   [[nodiscard]] Diagnosis::Verdict verdict() const;
 
   DiagnosisOptions const& options_;
@@ -296,7 +297,7 @@ Diagnosis Diagnostician::operator()() {
   for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
   drop_superfluous(plain);
   if (!diagnosis_.explanations.empty()) diagnosis_.left = scan_for_free_heat(*estimation_, fit_);
-  diagnosis_.faulty_sensor = faulty_sensor();
+  diagnosis_.faulty_sensor = faulty_sensor(runs_);
   diagnosis_.verdict = verdict();
   if (diagnosis_.verdict == Diagnosis::Verdict::none_known) {  // nothing is added to the machine
     diagnosis_.unknown_heat = diagnosis_.scan[0];
@@ -377,39 +378,9 @@ void Diagnostician::propose() {
       rivals.hypotheses.push_back(finding.hypothesis);
       rivals.amplitudes.push_back(finding.amplitude / finding.hypothesis.trial->largest);
     }
-    diagnosis_.proposals = remedies(document_, runs_, rivals);
+    diagnosis_.proposals = remedies(document_, runs_, {rivals})[0];
     return;
   }
-}
-
-/// Changes from one sample to the next that no body makes: half a kelvin at least, ten times the channel's usual, and
-/// alone, where a body's would go on.
-int jumps(Eigen::VectorXd const& values) {
-  std::vector<double> changes;
-  for (Eigen::Index i = 1; i < values.size(); ++i)
-    if (double const change = std::abs(values[i] - values[i - 1]); !std::isnan(change)) changes.push_back(change);
-  if (changes.size() < 3) return 0;
-  auto sorted = changes;
-  auto const high = sorted.begin() + std::ptrdiff_t(9 * sorted.size() / 10);
-  std::nth_element(sorted.begin(), high, sorted.end());
-  double const unusual = std::max(0.5, 10.0 / 3.0 * *high);
-  int count = 0;
-  for (std::size_t i = 1; i + 1 < changes.size(); ++i)
-    if (changes[i] > unusual && std::max(changes[i - 1], changes[i + 1]) < 0.4 * changes[i]) ++count;
-  return count;
-}
-
-/// The one sensor that shows nothing in a run, or whose readings jump about as no temperature does.
-std::string Diagnostician::faulty_sensor() const {
-  std::vector<std::string> found;
-  for (auto const& run : runs_)
-    for (auto const& channel : run.run->channels) {
-      if (channel.displacement) continue;
-      bool const dead = channel.values.array().isNaN().all();
-      if (!dead && jumps(channel.values) < 2) continue;
-      if (std::find(found.begin(), found.end(), channel.name) == found.end()) found.push_back(channel.name);
-    }
-  return found.size() == 1 ? found[0] : "";
 }
 
 Diagnosis::Verdict Diagnostician::verdict() const {
@@ -443,48 +414,6 @@ std::string name_of(Diagnosis::Verdict verdict) {
       return "none_known";
   }
   return "";
-}
-
-ChannelNoise expected_noise(Machine const& machine, std::string const& channel, std::vector<BinnedRun> const& runs) {
-  double low = INFINITY, high = -INFINITY;
-  bool displacement = false;
-  for (auto const& run : runs)
-    for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
-      if (run.run->channels[c].name != channel) continue;
-      displacement = run.run->channels[c].displacement;
-      for (double const v : run.values.col(Eigen::Index(c)))
-        if (!std::isnan(v)) {
-          low = std::min(low, v);
-          high = std::max(high, v);
-        }
-    }
-  ChannelNoise noise;
-  noise.slow = 0.02 * std::max(0.0, high - low);
-  if (displacement) {
-    noise.white = 0.2e-6;
-    noise.rounding = 0.05e-6;
-    noise.fast = 0.3e-6;
-    return noise;
-  }
-  noise.white = 0.03;
-  noise.fast = 0.1;
-  for (auto const& sensor : machine.sensors) {
-    if (sensor.description.name != channel) continue;
-    auto const& kind = sensor.description.kind;
-    double const step =
-        sensor.description.resolution.value_or(kind == "ds18b20" ? std::pow(2.0, 8 - sensor.description.bits) : 0.01);
-    noise.rounding = step / std::sqrt(12.0);
-    noise.white = sensor.description.noise.value_or(noise.white);
-  }
-  return noise;
-}
-
-Estimation expected_estimation(Value const& document, std::vector<BinnedRun> const& runs) {
-  Machine const machine = Machine::build(document);
-  auto const channels = channels_of(runs);
-  std::vector<ChannelNoise> noise;
-  for (auto const& channel : channels) noise.push_back(expected_noise(machine, channel, runs));
-  return {document, runs, channels, noise};
 }
 
 Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options) {

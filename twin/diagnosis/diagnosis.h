@@ -74,12 +74,4 @@ struct Diagnosis {
 [[nodiscard]] Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs,
                                  DiagnosisOptions const& options);
 
-/// The noise that is expected of a channel before the data have spoken: its instrument's, a model error of 0.1 K over
-/// ten minutes and of 2 % of what the channel goes through over hours (physics.md 8.6).
-[[nodiscard]] ChannelNoise expected_noise(Machine const& machine, std::string const& channel,
-                                          std::vector<BinnedRun> const& runs);
-
-/// The question to these runs with that noise.
-[[nodiscard]] Estimation expected_estimation(Value const& machine, std::vector<BinnedRun> const& runs);
-
 }  // namespace thermotwin::twin

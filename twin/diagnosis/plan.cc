@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <map>
 
-#include "twin/diagnosis/diagnosis.h"
+#include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/run_files.h"
 #include "twin/diagnosis/score.h"
 #include "twin/diagnosis/separation.h"
@@ -89,15 +89,15 @@ Plan plan(Value const& document, std::vector<Schedule> const& schedules, PlanOpt
   std::vector<Eigen::Index> chosen;
   plan.effects = clearest(all, products, whole, chosen);
   plan.ambiguities = ambiguities(plan.effects, products, chosen);
-  for (std::size_t a = 0; a < std::min(options.with_remedies, plan.ambiguities.size()); ++a) {
-    auto& ambiguity = plan.ambiguities[a];
-    say(fmt::format("what would tell {} and {} apart", plan.effects[ambiguity.effect].hypothesis.effect->name,
-                    plan.effects[ambiguity.rival].hypothesis.effect->name));
-    ambiguity.remedies =
-        remedies(document, runs,
-                 {{plan.effects[ambiguity.effect].hypothesis, plan.effects[ambiguity.rival].hypothesis},
-                  {usual_amplitude, usual_amplitude}});
-  }
+  std::vector<Rivals> rivals;
+  for (std::size_t a = 0; a < std::min(options.with_remedies, plan.ambiguities.size()); ++a)
+    rivals.push_back(
+        {{plan.effects[plan.ambiguities[a].effect].hypothesis, plan.effects[plan.ambiguities[a].rival].hypothesis},
+         {usual_amplitude, usual_amplitude}});
+  if (rivals.empty()) return plan;
+  say(fmt::format("what would tell the worst {} apart", rivals.size()));
+  auto found = remedies(document, runs, rivals);
+  for (std::size_t a = 0; a < found.size(); ++a) plan.ambiguities[a].remedies = std::move(found[a]);
   return plan;
 }
 

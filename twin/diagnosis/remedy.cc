@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "twin/diagnosis/diagnosis.h"
+#include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/run_files.h"
 #include "twin/diagnosis/schedule.h"
 #include "twin/diagnosis/score.h"
@@ -25,17 +25,20 @@ Value with_added_sensors(Value document, Machine const& machine) {
   return document;
 }
 
-double least_distance(Eigen::MatrixXd const& products, Rivals const& rivals) {
+/// `first`: column of the first rival in `products`.
+double least_distance(Eigen::MatrixXd const& products, Eigen::Index first, Rivals const& rivals) {
   double least = INFINITY;
-  for (std::size_t i = 0; i < rivals.hypotheses.size(); ++i)
-    for (std::size_t j = 0; j < rivals.hypotheses.size(); ++j)
-      if (i != j) least = std::min(least, apart(products, Eigen::Index(i), Eigen::Index(j), rivals.amplitudes[i]));
+  auto const count = Eigen::Index(rivals.hypotheses.size());
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index j = 0; j < count; ++j)
+      if (i != j) least = std::min(least, apart(products, first + i, first + j, rivals.amplitudes[std::size_t(i)]));
   return least;
 }
 
 }  // namespace
 
-std::vector<Remedy> remedies(Value const& document, std::vector<BinnedRun> const& runs, Rivals const& rivals) {
+std::vector<std::vector<Remedy>> remedies(Value const& document, std::vector<BinnedRun> const& runs,
+                                          std::vector<Rivals> const& rivals) {
   Machine const machine = Machine::build(document);
   Value const extended = with_added_sensors(document, machine);
   Machine const observed = Machine::build(extended);
@@ -44,14 +47,17 @@ std::vector<Remedy> remedies(Value const& document, std::vector<BinnedRun> const
   for (auto const& schedule : schedules) further.push_back(simulated_run(observed, schedule));
   std::vector<BinnedRun> all = runs;
   for (auto& run : binned(further)) all.push_back(std::move(run));
+  std::vector<Hypothesis> hypotheses;
+  for (auto const& group : rivals)
+    hypotheses.insert(hypotheses.end(), group.hypotheses.begin(), group.hypotheses.end());
   Estimation const estimation = expected_estimation(extended, all);
   Fit const fit = estimation.fit(estimation.prior_mean(), 0);
-  Eigen::MatrixXd columns = signatures(estimation, fit, rivals.hypotheses);
+  Eigen::MatrixXd columns = signatures(estimation, fit, hypotheses);
   estimation.whiten(columns);
   Separation const separation(estimation, fit, columns);
 
   auto const& channels = estimation.channels();
-  std::vector<Remedy> found;
+  std::vector<std::vector<Remedy>> found(rivals.size());
   for (std::size_t s = 0; s < schedules.size(); ++s)
     for (std::size_t c = 0; c <= channels.size(); ++c) {
       bool const sensor = c < channels.size();
@@ -60,11 +66,17 @@ std::vector<Remedy> remedies(Value const& document, std::vector<BinnedRun> const
       for (std::size_t r = 0; r < runs.size(); ++r) use.runs[r] = true;
       use.runs[runs.size() + s] = true;
       for (std::size_t k = 0; k < channels.size(); ++k) use.channels[k] = k == c || !channels[k].starts_with(added);
-      found.push_back({schedules[s].name(), schedules[s].file, schedules[s].hours(),
-                       sensor ? channels[c].substr(added.size()) : "",
-                       least_distance(separation.products(use), rivals)});
+      Eigen::MatrixXd const products = separation.products(use);
+      Eigen::Index first = 0;
+      for (std::size_t g = 0; g < rivals.size(); ++g) {
+        found[g].push_back({schedules[s].name(), schedules[s].file, schedules[s].hours(),
+                            sensor ? channels[c].substr(added.size()) : "",
+                            least_distance(products, first, rivals[g])});
+        first += Eigen::Index(rivals[g].hypotheses.size());
+      }
     }
-  std::stable_sort(found.begin(), found.end(), [](auto const& a, auto const& b) { return a.distance > b.distance; });
+  for (auto& list : found)
+    std::stable_sort(list.begin(), list.end(), [](auto const& a, auto const& b) { return a.distance > b.distance; });
   return found;
 }
 

@@ -26,10 +26,11 @@ struct Rivals {
 };
 
 /// What tells rivals apart that the runs so far do not: every separating schedule of the catalogue, and one more sensor
-/// on every body in it (physics.md 8.10, the linear version of T-optimality). Best first.
+/// on every body in it (physics.md 8.10, the linear version of T-optimality). A list for each, best first; all from one
+/// linearisation.
 ///
 /// `document`: the machine without the rivals; `runs`: what was measured.
-[[nodiscard]] std::vector<Remedy> remedies(Value const& document, std::vector<BinnedRun> const& runs,
-                                           Rivals const& rivals);
+[[nodiscard]] std::vector<std::vector<Remedy>> remedies(Value const& document, std::vector<BinnedRun> const& runs,
+                                                        std::vector<Rivals> const& rivals);
 
 }  // namespace thermotwin::twin

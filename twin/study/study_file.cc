@@ -9,6 +9,7 @@
 #include "models/error_model.h"
 #include "models/selection.h"
 #include "thermal/nearest_name.h"
+#include "twin/file/shipped_file.h"
 #include "twin/file/value.h"
 
 namespace thermotwin::twin {
@@ -148,16 +149,7 @@ Study read_study(std::filesystem::path const& file) {
 }
 
 std::filesystem::path study_file(std::string const& name_or_path) {
-  std::filesystem::path const given = name_or_path;
-  if (given.extension() == ".toml" || std::filesystem::exists(given)) return given;
-  std::filesystem::path const folder = std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "scenarios" / "studies";
-  auto const shipped = folder / (name_or_path + ".toml");
-  if (std::filesystem::exists(shipped)) return shipped;
-  std::vector<std::string> names;
-  for (auto const& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  throw thermal::InputError(
-      fmt::format("there is no study '{}'; {}", name_or_path, thermal::did_you_mean(name_or_path, names)));
+  return shipped_file("study", "scenarios/studies", name_or_path);
 }
 
 std::string combination_name(std::string const& selection, std::string const& model) {

@@ -40,7 +40,7 @@ TEST(Remedies, NameAScheduleThatSeparates) {
     blocks = [{duration = "3 h", speed = "4000 rpm"}])"));
   std::vector<BinnedRun> const data = {bin(run, 600.0)};
   Rivals const rivals{{hypothesis("heat at motor"), hypothesis("copper_loss at motor")}, {0.3, 0.3}};
-  auto const found = remedies(tests::v450(), data, rivals);
+  auto const found = remedies(tests::v450(), data, {rivals})[0];
   ASSERT_FALSE(found.empty());
   EXPECT_TRUE(
       std::is_sorted(found.begin(), found.end(), [](auto const& a, auto const& b) { return a.distance > b.distance; }));

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
-#include "twin/diagnosis/diagnosis.h"
+#include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/score.h"
 
 namespace thermotwin::twin {

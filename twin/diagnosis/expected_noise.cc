@@ -1,0 +1,50 @@
+#include "twin/diagnosis/expected_noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thermotwin::twin {
+
+ChannelNoise expected_noise(Machine const& machine, std::string const& channel, std::vector<BinnedRun> const& runs) {
+  double low = INFINITY, high = -INFINITY;
+  bool displacement = false;
+  for (auto const& run : runs)
+    for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
+      if (run.run->channels[c].name != channel) continue;
+      displacement = run.run->channels[c].displacement;
+      for (double const v : run.values.col(Eigen::Index(c)))
+        if (!std::isnan(v)) {
+          low = std::min(low, v);
+          high = std::max(high, v);
+        }
+    }
+  ChannelNoise noise;
+  noise.slow = 0.02 * std::max(0.0, high - low);
+  if (displacement) {
+    noise.white = 0.2e-6;
+    noise.rounding = 0.05e-6;
+    noise.fast = 0.3e-6;
+    return noise;
+  }
+  noise.white = 0.03;
+  noise.fast = 0.1;
+  for (auto const& sensor : machine.sensors) {
+    if (sensor.description.name != channel) continue;
+    auto const& kind = sensor.description.kind;
+    double const step =
+        sensor.description.resolution.value_or(kind == "ds18b20" ? std::pow(2.0, 8 - sensor.description.bits) : 0.01);
+    noise.rounding = step / std::sqrt(12.0);
+    noise.white = sensor.description.noise.value_or(noise.white);
+  }
+  return noise;
+}
+
+Estimation expected_estimation(Value const& document, std::vector<BinnedRun> const& runs) {
+  Machine const machine = Machine::build(document);
+  auto const channels = channels_of(runs);
+  std::vector<ChannelNoise> noise;
+  for (auto const& channel : channels) noise.push_back(expected_noise(machine, channel, runs));
+  return {document, runs, channels, noise};
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,27 @@
+#include "twin/file/shipped_file.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <vector>
+
+#include "thermal/error.h"
+#include "thermal/nearest_name.h"
+
+namespace thermotwin::twin {
+
+std::filesystem::path shipped_file(std::string const& kind, std::filesystem::path const& folder,
+                                   std::string const& name_or_path) {
+  std::filesystem::path const given = name_or_path;
+  if (given.extension() == ".toml" || std::filesystem::exists(given)) return given;
+  auto const shipped_folder = std::filesystem::path(THERMOTWIN_SOURCE_DIR) / folder;
+  auto const shipped = shipped_folder / (name_or_path + ".toml");
+  if (std::filesystem::exists(shipped)) return shipped;
+  std::vector<std::string> names;
+  for (auto const& entry : std::filesystem::directory_iterator(shipped_folder))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  throw thermal::InputError(
+      fmt::format("there is no {} '{}'; {}", kind, name_or_path, thermal::did_you_mean(name_or_path, names)));
+}
+
+}  // namespace thermotwin::twin
