@@ -55,10 +55,30 @@ struct IntegrationSummary {
   [[nodiscard]] double energy_imbalance() const;
 };
 
-/// Integrates C dy/dt = heat with CVODES (BDF, Newton, analytic Jacobian): stops at every jump of the course, finds
-/// the switching of relays as roots, and carries the energy balance in the state, where it closes to round-off. Calls
-/// `observe` at every output time (increasing; the first is the start). SUNDIALS: Hindmarsh et al., ACM TOMS 31 (2005)
-/// 363.
+/// Where a run stands: all that it carries over an instant at which the integrator starts anew, so that a run that is
+/// cut there and taken up later, by another process, goes on bit for bit as if it had not been.
+struct IntegrationState {
+  double time = 0.0;                ///< [s]
+  std::vector<double> state;        ///< enthalpy temperatures of the nodes [K], then the energies in the solver's unit
+  std::vector<double> start;        ///< enthalpy temperatures at the start of the run [K]
+  std::vector<double> relays;       ///< 1 or 0
+  std::vector<double> next_switch;  ///< earliest time at which each relay may switch on again [s]
+  IntegrationSummary summary;       ///< of the run so far
+};
+
+/// Before anything happened.
+[[nodiscard]] IntegrationState start_of_run(Network const& network, std::span<double const> temperatures, double time);
+
+/// One stretch of a run: from `state` through the output times (increasing; the first may be the state's own) with a
+/// new integrator, which leaves behind the state at the last of them. Forward sensitivities start anew, too: they are
+/// for runs of one stretch.
+void integrate(Network const& network, Course const& course, IntegrationState& state,
+               std::span<double const> output_times, IntegrationOptions const& options, Observer const& observe);
+
+/// A whole run. Integrates C dy/dt = heat with CVODES (BDF, Newton, analytic Jacobian): stops at every jump of the
+/// course, finds the switching of relays as roots, and carries the energy balance in the state, where it closes to
+/// round-off. Calls `observe` at every output time (increasing; the first is the start). SUNDIALS: Hindmarsh et al.,
+/// ACM TOMS 31 (2005) 363.
 ///
 /// Throws InputError when the course lacks a channel that the network needs; IntegrationError, which names the worst
 /// nodes and the inputs at that time, when the integrator gives up. What `observe` throws comes out unchanged.

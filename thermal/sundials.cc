@@ -119,17 +119,16 @@ class Run {
     SUNContext context = nullptr;
     SUNContext_Create(nullptr, &context);
     context_.reset(context);
-    next_switch_.assign(network.relays().size(), -infinity);
   }
 
-  IntegrationSummary operator()(std::span<double const> initial, std::span<double const> times,
-                                Observer const& observe);
+  void operator()(IntegrationState& state, std::span<double const> times, Observer const& observe);
 
  private:
-  void set_up(std::span<double const> initial, double t0);
+  void set_up(IntegrationState const& from);
   void attach_linear_solver();
   void set_tolerances();
-  void set_up_sensitivities(std::span<double const> initial);
+  void set_up_sensitivities(IntegrationState const& from);
+  void leave(IntegrationState& state);
   void restart(double t);
   void set_initial_step(double t);
   void advance(double target);
@@ -269,18 +268,19 @@ void Run::set_tolerances() {
   CVodeSVtolerances(cvode_.get(), 1e-14, tolerance_.get());
 }
 
-void Run::set_up(std::span<double const> initial, double t0) {
-  int const n = network_.nodes();
-  t_ = t0;
-  point_.enter_piece(t0);
-  y_.reset(N_VNew_Serial(n + NewtonSystem::energies, context_.get()));
-  N_VConst(0.0, y_.get());
-  for (int i = 0; i < n; ++i) data(y_.get())[i] = network_.state_of_temperature(i, initial[std::size_t(i)]);
-  initial_.assign(data(y_.get()), data(y_.get()) + n);
+void Run::set_up(IntegrationState const& from) {
+  t_ = from.time;
+  point_.enter_piece(t_);
+  y_.reset(N_VNew_Serial(sunindextype(from.state.size()), context_.get()));
+  std::copy(from.state.begin(), from.state.end(), data(y_.get()));
+  initial_ = from.start;
+  for (std::size_t r = 0; r < from.relays.size(); ++r) point_.relay_state(network_.relays()[r]) = from.relays[r];
+  next_switch_ = from.next_switch;
+  summary_ = from.summary;
   cvode_.reset(CVodeCreate(CV_BDF, context_.get()));
   void* cvode = cvode_.get();
   CVodeSetErrHandlerFn(cvode, collect_message, this);
-  CVodeInit(cvode, rate, t0, y_.get());
+  CVodeInit(cvode, rate, t_, y_.get());
   CVodeSetUserData(cvode, this);
   set_tolerances();
   CVodeSetMaxNumSteps(cvode, 10'000'000);
@@ -288,10 +288,10 @@ void Run::set_up(std::span<double const> initial, double t0) {
   if (options_.maximum_step > 0.0) CVodeSetMaxStep(cvode, options_.maximum_step);
   attach_linear_solver();
   if (!network_.relays().empty()) CVodeRootInit(cvode, int(network_.relays().size()), roots);
-  set_up_sensitivities(initial);
+  set_up_sensitivities(from);
 }
 
-void Run::set_up_sensitivities(std::span<double const> initial) {
+void Run::set_up_sensitivities(IntegrationState const& from) {
   auto const& parameters = options_.parameters;
   if (parameters.empty()) return;
   int const n = network_.nodes();
@@ -300,7 +300,7 @@ void Run::set_up_sensitivities(std::span<double const> initial) {
     N_VConst(0.0, s.get());
     for (int i = 0; i < n; ++i) {
       auto const k = std::size_t(i);
-      double const rise = initial[k] - 293.15;
+      double const rise = network_.temperature_of_state(i, from.state[k]) - 293.15;
       double const dT = parameter.initial_temperature.empty() ? 0.0 : parameter.initial_temperature[k];
       data(s.get())[i] =
           dT * (1.0 + network_.capacity_slope()[k] * rise) + 0.5 * rise * rise * parameter.capacity_slope[k];
@@ -454,26 +454,30 @@ void Run::fail(int flag) {
   throw IntegrationError(text);
 }
 
-IntegrationSummary Run::operator()(std::span<double const> initial, std::span<double const> times,
-                                   Observer const& observe) {
-  auto const begin = std::chrono::steady_clock::now();
-  if (int(initial.size()) != network_.nodes())
-    throw InputError(fmt::format("{} initial temperatures for {} nodes", initial.size(), network_.nodes()));
-  if (times.empty()) throw InputError("there is no output time");
-  set_up(initial, times.front());
-  settle_relays(t_);
-  set_initial_step(t_);
-  emit(t_, observe);
-  for (double time : times.subspan(1)) {
-    advance(time);
-    emit(time, observe);
-  }
+/// Where the run stands, with what it did so far.
+void Run::leave(IntegrationState& state) {
   collect_counters();
   summary_.solver = solver_kind_;
   summary_.energy = energy();
   summary_.stored = stored();
-  summary_.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return summary_;
+  state.time = t_;
+  state.state.assign(data(y_.get()), data(y_.get()) + state.state.size());
+  for (std::size_t r = 0; r < state.relays.size(); ++r) state.relays[r] = point_.relay_state(network_.relays()[r]);
+  state.next_switch = next_switch_;
+  state.summary = summary_;
+}
+
+void Run::operator()(IntegrationState& state, std::span<double const> times, Observer const& observe) {
+  auto const begin = std::chrono::steady_clock::now();
+  set_up(state);
+  settle_relays(t_);
+  set_initial_step(t_);
+  for (double time : times) {
+    advance(time);
+    emit(time, observe);
+  }
+  summary_.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  leave(state);
 }
 
 }  // namespace
@@ -500,10 +504,33 @@ double IntegrationSummary::energy_imbalance() const {
   return moved > 0.0 ? gap / moved : gap;
 }
 
+IntegrationState start_of_run(Network const& network, std::span<double const> temperatures, double time) {
+  if (int(temperatures.size()) != network.nodes())
+    throw InputError(fmt::format("{} initial temperatures for {} nodes", temperatures.size(), network.nodes()));
+  IntegrationState state;
+  state.time = time;
+  for (int i = 0; i < network.nodes(); ++i)
+    state.start.push_back(network.state_of_temperature(i, temperatures[std::size_t(i)]));
+  state.state = state.start;
+  state.state.resize(state.start.size() + NewtonSystem::energies, 0.0);
+  state.relays.assign(network.relays().size(), 0.0);
+  state.next_switch.assign(network.relays().size(), -infinity);
+  return state;
+}
+
+void integrate(Network const& network, Course const& course, IntegrationState& state,
+               std::span<double const> output_times, IntegrationOptions const& options, Observer const& observe) {
+  if (output_times.empty()) throw InputError("there is no output time");
+  Run(network, course, options)(state, output_times, observe);
+}
+
 IntegrationSummary integrate(Network const& network, Course const& course, std::span<double const> initial_temperatures,
                              std::span<double const> output_times, IntegrationOptions const& options,
                              Observer const& observe) {
-  return Run(network, course, options)(initial_temperatures, output_times, observe);
+  if (output_times.empty()) throw InputError("there is no output time");
+  auto state = start_of_run(network, initial_temperatures, output_times.front());
+  integrate(network, course, state, output_times, options, observe);
+  return state.summary;
 }
 
 }  // namespace thermotwin::thermal
