@@ -28,6 +28,7 @@
 #include "twin/progress.h"
 #include "twin/report/report_files.h"
 #include "twin/run.h"
+#include "twin/setting.h"
 #include "twin/summary.h"
 #include "twin/version.h"
 
@@ -63,37 +64,14 @@ void RunCommand::add_to(CLI::App& app) {
   command->callback([this] { (*this)(); });
 }
 
-/// Applies "path=value"; paths that begin with `experiment.` go to the experiment, the others to the machine.
-void apply(std::string const& setting, Value& machine, Value& experiment) {
-  auto const equals = setting.find('=');
-  if (equals == std::string::npos)
-    throw thermal::InputError(
-        fmt::format("--set {}: write it as path=value, for example bearing.front.grease_factor=0.8", setting));
-  std::string path = setting.substr(0, equals), value = setting.substr(equals + 1);
-  if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
-  constexpr std::string_view prefix = "experiment.";
-  if (path.starts_with(prefix))
-    set_parameter(experiment, path.substr(prefix.size()), value);
-  else
-    set_parameter(machine, path, value);
-}
-
-std::filesystem::path machine_path(scenarios::Experiment const& experiment,
-                                   std::filesystem::path const& experiment_path) {
-  if (experiment.machine.empty())
-    throw FileError({experiment_path.string(), 0, 0}, "the experiment names no machine; give one with --machine");
-  if (experiment.machine.ends_with(".toml")) return experiment.directory / experiment.machine;
-  return machine_file(experiment.machine);
-}
-
 void RunCommand::operator()() const {
   auto const experiment_path = experiment_file(experiment);
   Value experiment_document = read_toml(experiment_path);
   Value machine_document{{}, Value::Table{}};
   auto const preliminary = read_experiment(experiment_document, experiment_path);
-  auto const path = machine.empty() ? machine_path(preliminary, experiment_path) : machine_file(machine);
+  auto const path = machine.empty() ? machine_of(preliminary, experiment_path) : machine_file(machine);
   machine_document = read_toml(path);
-  for (auto const& setting : settings) apply(setting, machine_document, experiment_document);
+  for (auto const& text : settings) apply(setting(text), machine_document, experiment_document);
   auto const programme = read_experiment(experiment_document, experiment_path);
   Machine const built = Machine::build(machine_document);
 
@@ -136,7 +114,7 @@ void check_file(std::string const& name) {
   Value const document = read_toml(path);
   if (document.find("duration")) {
     auto const experiment = read_experiment(document, path);
-    auto const machine = Machine::read(machine_path(experiment, path));
+    auto const machine = Machine::read(machine_of(experiment, path));
     try {
       scenarios::ExperimentCourse const course(experiment, machine.limits);
     } catch (thermal::InputError const& error) {

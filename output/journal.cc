@@ -1,0 +1,43 @@
+#include "output/journal.h"
+
+#include <array>
+#include <boost/crc.hpp>
+#include <cstdint>
+#include <cstring>
+
+namespace thermotwin::output {
+namespace {
+
+using Head = std::array<std::uint64_t, 2>;
+
+std::uint64_t checksum(std::string_view bytes) {
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
+}
+
+}  // namespace
+
+Journal::Journal(std::filesystem::path const& path) : file_(path, LockedFile::Busy::refuse) {
+  std::string const bytes = file_.contents();
+  std::size_t good = 0;
+  while (bytes.size() - good >= sizeof(Head)) {
+    Head head;
+    std::memcpy(head.data(), bytes.data() + good, sizeof head);
+    if (head[0] > bytes.size() - good - sizeof head) break;
+    std::string record = bytes.substr(good + sizeof head, head[0]);
+    if (checksum(record) != head[1]) break;
+    good += sizeof head + record.size();
+    records_.push_back(std::move(record));
+  }
+  if (good < bytes.size()) file_.shorten(good);
+}
+
+void Journal::append(std::string_view record) {
+  Head const head{record.size(), checksum(record)};
+  std::string bytes(sizeof head, '\0');
+  std::memcpy(bytes.data(), head.data(), sizeof head);
+  file_.append(bytes.append(record));
+}
+
+}  // namespace thermotwin::output

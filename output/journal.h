@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "output/locked_file.h"
+
+namespace thermotwin::output {
+
+/// A file of records that only grows. Whatever was appended before the process was killed is read back whole; a record
+/// that was cut short, and all behind it, is dropped when the file is opened again.
+///
+/// Per record: its length and its CRC-32, eight bytes each, then the bytes. (Little endian.)
+class Journal {
+ public:
+  /// Opens the file or makes it, for this process alone; OutputError while another one has it.
+  explicit Journal(std::filesystem::path const& path);
+
+  /// What was in the file when it was opened; empty when taken a second time.
+  [[nodiscard]] std::vector<std::string> take_records() { return std::move(records_); }
+
+  void append(std::string_view record);
+  void remove() const { file_.remove(); }
+
+ private:
+  LockedFile file_;
+  std::vector<std::string> records_;
+};
+
+}  // namespace thermotwin::output
