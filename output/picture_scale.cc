@@ -18,8 +18,7 @@ double round_down(double x) {
   return decade;
 }
 
-Ticks round_ticks(double low, double high) {
-  constexpr double smallest_span = 0.4;  // [K]: a machine at rest is one colour, not noise
+Ticks round_ticks(double low, double high, double smallest_span) {
   double const middle = 0.5 * (low + high);
   double const half = 0.5 * std::max(high - low, smallest_span);
   double const step = round_down(2 * half / 4);

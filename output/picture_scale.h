@@ -12,7 +12,8 @@ struct Ticks {
   int count;
   int decimals;  ///< that the numbers need
 };
-[[nodiscard]] Ticks round_ticks(double low, double high);
+/// A span below the smallest is shown as one of that size: what differs by less is one colour, not noise [K].
+[[nodiscard]] Ticks round_ticks(double low, double high, double smallest_span = 0.4);
 
 /// 1, 2 or 5 times a power of ten, the largest that is not above x > 0.
 [[nodiscard]] double round_down(double x);

@@ -26,6 +26,9 @@ __asm__(".section .rodata\n"
 // clang-format on
 extern "C" char const thermotwin_page_begin[], thermotwin_page_end[];
 
+/// What the page forbids itself (page.html), to which a served one adds where it comes from.
+constexpr std::string_view policy = "default-src 'none'";
+
 /// Data go where the mark is.
 std::pair<std::string_view, std::string_view> shell() {
   constexpr std::string_view mark = "<!--data-->";
@@ -103,15 +106,25 @@ void ReportPage::add_section(std::string_view kind, Json const& section) {
   sections_.push_back(whole.dump());
 }
 
+std::string ReportPage::document() const {
+  return fmt::format(R"({{"title":{},"version":{},"bytes":{},"revision":{},"sections":[{}]}})", Json(title_).dump(),
+                     Json(version_).dump(), numbers_.size(), revision_, fmt::join(sections_, ","));
+}
+
+std::string ReportPage::packed_numbers() const { return base64(deflated(numbers_)); }
+
 std::string ReportPage::html() const {
   auto const [before, after] = shell();
-  std::string const document =
-      fmt::format(R"({{"title":{},"version":{},"bytes":{},"sections":[{}]}})", Json(title_).dump(),
-                  Json(version_).dump(), numbers_.size(), fmt::join(sections_, ","));
+  std::string head(before);
+  if (revision_ > 0) head.insert(head.find(policy) + policy.size(), "; connect-src 'self'");
   return fmt::format(
       "{}<script type=\"application/json\" id=\"document\">{}</script>\n"
       "<script type=\"text/plain\" id=\"numbers\">{}</script>\n{}",
-      before, for_script(document), base64(deflated(numbers_)), after);
+      head, for_script(document()), packed_numbers(), after);
+}
+
+std::string ReportPage::news() const {
+  return fmt::format(R"({{"document":{},"numbers":"{}"}})", document(), packed_numbers());
 }
 
 }  // namespace thermotwin::output

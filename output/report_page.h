@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -33,14 +34,24 @@ class ReportPage {
   /// The kind names the drawer.
   void add_section(std::string_view kind, Json const& section);
 
+  /// For a page that a program serves and renews: from this revision on it asks `document?after=REVISION` for news, and
+  /// may connect to where it comes from, to nothing else. 0: it stands for itself.
+  void set_revision(std::uint64_t revision) { revision_ = revision; }
+
   [[nodiscard]] std::string html() const;
 
+  /// What a page in a browser asks for to draw itself anew: {"document": …, "numbers": base64}.
+  [[nodiscard]] std::string news() const;
+
  private:
+  [[nodiscard]] std::string document() const;
+  [[nodiscard]] std::string packed_numbers() const;
   Json place(std::string_view type, void const* data, std::size_t bytes, std::vector<Eigen::Index> shape);
 
   std::string title_, version_;
   std::string numbers_;
   std::vector<std::string> sections_;
+  std::uint64_t revision_ = 0;
 };
 
 }  // namespace thermotwin::output

@@ -14,8 +14,13 @@
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "twin/challenge/challenge.h"
+#include "twin/checkpoint.h"
+#include "twin/command_line_campaign.h"
+#include "twin/command_line_compensate.h"
+#include "twin/command_line_figure.h"
 #include "twin/command_line_place.h"
 #include "twin/command_line_study.h"
+#include "twin/command_line_view.h"
 #include "twin/command_line_volumetric.h"
 #include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/comparison.h"
@@ -26,6 +31,8 @@
 #include "twin/experiment_file.h"
 #include "twin/needed_solution.h"
 #include "twin/progress.h"
+#include "twin/progress_file.h"
+#include "twin/replay.h"
 #include "twin/report/report_files.h"
 #include "twin/run.h"
 #include "twin/setting.h"
@@ -38,13 +45,16 @@ namespace {
 std::atomic<bool> stop_requested = false;
 
 struct RunCommand {
-  std::string experiment, machine, dataset, fields, picture, field_interval = "15 min";
+  std::string experiment, machine, dataset, fields, picture, field_interval = "15 min", checkpoint;
   std::vector<std::string> settings;
   double tolerance = 1e-6;
-  bool nodes = false, json = false, quiet = false;
+  bool nodes = false, json = false, quiet = false, resume = false;
 
   void add_to(CLI::App& app);
   void operator()() const;
+
+ private:
+  void set_checkpoint(RunOptions& options) const;
 };
 
 void RunCommand::add_to(CLI::App& app) {
@@ -58,10 +68,23 @@ void RunCommand::add_to(CLI::App& app) {
   command->add_option("--set", settings,
                       "change a parameter: bearing.front.grease_factor=0.8, experiment.duration=\"2 h\"");
   command->add_option("--tolerance", tolerance, "relative tolerance of the integration")->capture_default_str();
+  command->add_option("--checkpoint", checkpoint,
+                      "simulated time after which a killed run can be taken up: \"2 h\"; needs --output");
+  command->add_flag("--resume", resume, "go on from the checkpoint beside the output");
   command->add_flag("--nodes", nodes, "keep every node's temperature in the data set");
   command->add_flag("--json", json, "print the summary as JSON");
   command->add_flag("--quiet,-q", quiet, "print nothing but errors");
   command->callback([this] { (*this)(); });
+}
+
+void RunCommand::set_checkpoint(RunOptions& options) const {
+  if (checkpoint.empty() && !resume) return;
+  if (dataset.empty()) throw thermal::InputError("--checkpoint and --resume stand beside the output; give --output");
+  options.checkpoint = dataset + ".checkpoint";
+  options.resume = resume;
+  options.checkpoint_interval = checkpoint.empty() ? checkpoint_interval(*options.checkpoint)
+                                                   : thermal::parse_value(checkpoint, thermal::dimension::time);
+  if (options.checkpoint_interval <= 0.0) throw thermal::InputError("--checkpoint is a time above 0");
 }
 
 void RunCommand::operator()() const {
@@ -83,9 +106,8 @@ void RunCommand::operator()() const {
   if (!picture.empty()) options.picture = picture;
   options.field_interval = thermal::parse_value(field_interval, thermal::dimension::time);
   options.node_temperatures = nodes;
-  options.provenance = {{"machine.file", text_of_file(path)},
-                        {"experiment.file", text_of_file(experiment_path)},
-                        {"settings", fmt::format("{}", fmt::join(settings, "\n"))}};
+  options.provenance = origin(path, experiment_path, fmt::format("{}", fmt::join(settings, "\n")), programme);
+  set_checkpoint(options);
   options.stop = &stop_requested;
   std::optional<Progress> progress;
   if (!quiet) {
@@ -241,6 +263,22 @@ void add_compare_command(CLI::App& app) {
   });
 }
 
+void add_replay_command(CLI::App& app) {
+  auto* command = app.add_subcommand("replay", "make a run anew from its own output, and compare byte for byte");
+  auto file = std::make_shared<std::string>(), kept = std::make_shared<std::string>();
+  command->add_option("dataset", *file, "data set of a run (HDF5)")->required();
+  command->add_option("--output,-o", *kept, "keep the new data set");
+  command->callback([file, kept] {
+    refuse_to_overwrite(*kept, *file, {});
+    std::optional<Progress> progress(*file);
+    auto const made = replay(
+        *file, *kept, [&](double share) { progress->show(share); }, &stop_requested);
+    progress.reset();
+    if (!made.same_bytes) throw std::runtime_error(made.text);
+    fmt::print("{}", made.text);
+  });
+}
+
 void print_plan(DiagnoseFiles const& files, std::vector<std::string> const& experiments, bool json) {
   std::vector<Schedule> schedules;
   for (auto const& name : experiments) schedules.push_back(read_schedule(experiment_file(name)));
@@ -282,18 +320,29 @@ void add_diagnose_command(CLI::App& app) {
     if (!*json) files->progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
     if (!planned->empty()) return print_plan(*files, *planned, *json);
     if (data->empty()) throw thermal::InputError("diagnose needs measured runs, or --plan with experiments");
-    if (!folder->empty()) output::require_empty(*folder);
+    std::optional<ProgressFile> onlookers;
+    if (!folder->empty()) {
+      output::require_empty(*folder);
+      onlookers.emplace(*folder, fmt::format("Diagnosis of {}", files->machine.stem().string()));
+      files->progress = [&onlookers, told = files->progress](std::string const& what) {
+        onlookers->show(what);
+        if (told) told(what);
+      };
+    }
     auto const report = diagnose_files(*files);
+    onlookers.reset();
     if (!folder->empty()) write_folder(*folder, *files, report);
     fmt::print("{}", *json ? report_json(report) : report_text(report));
   });
 }
 
 void add_report_command(CLI::App& app) {
-  auto* command = app.add_subcommand("report", "one page to look at: machine, courses, residuals, diagnosis");
+  auto* command = app.add_subcommand(
+      "report", "one page to look at: machine, courses, residuals, diagnosis, study, placement, volume");
   auto files = std::make_shared<ReportFiles>();
   auto machine = std::make_shared<std::string>();
-  command->add_option("data", files->data, "data sets .h5, .csv, measurement files .toml, diagnoses .json")->required();
+  command->add_option("data", files->data, "data sets .h5, .csv, measurement files .toml, answers of commands .json")
+      ->required();
   command->add_option("--output,-o", files->output, "page to write (HTML)")->required();
   command->add_option("--machine,-m", *machine, "machine to draw, file or name; default: the one in a data set");
   command->callback([files, machine] {
@@ -320,11 +369,16 @@ int command_line(int argc, char** argv) {
   add_calibrate_command(app);
   add_diagnose_command(app);
   add_compare_command(app);
+  add_replay_command(app);
+  add_campaign_command(app, stop_requested);
   add_challenge_command(app);
   add_volumetric_command(app);
   add_place_command(app, stop_requested);
   add_study_command(app, stop_requested);
+  add_compensation_commands(app, stop_requested);
   add_report_command(app);
+  add_figure_command(app);
+  add_view_command(app, stop_requested);
   std::signal(SIGINT, [](int) { stop_requested = true; });
   std::signal(SIGTERM, [](int) { stop_requested = true; });
   try {

@@ -12,12 +12,13 @@
 #include "twin/machine.h"
 #include "twin/placement/sensor_placement.h"
 #include "twin/progress.h"
+#include "twin/report/report_files.h"
 
 namespace thermotwin::twin {
 namespace {
 
 struct PlaceCommand {
-  std::string machine, candidates, noise = "0.1 K", output, fields, picture;
+  std::string machine, candidates, noise = "0.1 K", output, fields, picture, folder;
   std::vector<std::string> experiments, unseen, proposed;
   PlacementOptions options;
   bool json = false;
@@ -27,6 +28,7 @@ struct PlaceCommand {
 
  private:
   void write_map(PlacementReport const& report, Machine const& built) const;
+  void write_page(PlacementReport const& report) const;
 };
 
 CLI::App* PlaceCommand::add_to(CLI::App& app, std::atomic<bool> const& stop) {
@@ -50,6 +52,7 @@ CLI::App* PlaceCommand::add_to(CLI::App& app, std::atomic<bool> const& stop) {
   command->add_option("--output,-o", output, "file to write: the recommended sensors as tables of a machine file");
   command->add_option("--fields", fields, "folder for the map of how informative places are (VTK)");
   command->add_option("--picture", picture, "PNG of that map; needs a display, or xvfb-run");
+  command->add_option("--report", folder, "folder for a page to look at (report.html) and placement.json");
   command->add_flag("--json", json, "print everything as JSON");
   options.design.stop = &stop;
   return command;
@@ -116,7 +119,8 @@ void PlaceCommand::operator()() {
   options.proposed = split(proposed);
   options.design.experiments = read_all(experiments);
   options.unseen = read_all(unseen);
-  options.map = !fields.empty() || !picture.empty();
+  options.map = !fields.empty() || !picture.empty() || !folder.empty();
+  if (!folder.empty()) output::require_empty(folder);
   if (!candidates.empty()) options.rules = read_candidate_rules(candidates);
   std::optional<Progress> progress;
   if (!json) {
@@ -128,6 +132,14 @@ void PlaceCommand::operator()() {
   fmt::print("{}", json ? placement_json(report) : placement_text(report));
   if (!output.empty()) output::write_atomically(output, sensor_tables(report));
   if (report.map) write_map(report, built);
+  if (!folder.empty()) write_page(report);
+}
+
+void PlaceCommand::write_page(PlacementReport const& report) const {
+  std::filesystem::path const target = folder;
+  output::make_directory(target);
+  output::write_atomically(target / "placement.json", placement_json(report));
+  static_cast<void>(write_report({{target / "placement.json"}, machine_file(machine), target / "report.html"}));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "output/atomic_file.h"
 #include "thermal/error.h"
 #include "twin/progress.h"
+#include "twin/progress_file.h"
 #include "twin/study/study.h"
 #include "twin/study/study_page.h"
 
@@ -43,13 +44,17 @@ void StudyCommand::operator()(std::atomic<bool> const& stop) const {
   auto const read = read_study(file);
   std::filesystem::path const target = folder;
   output::require_empty(target);
+  std::optional<ProgressFile> onlookers(std::in_place, target, fmt::format("Study {}", file.stem().string()));
   auto stages = std::make_shared<Stages>();
   StudyOptions options{{}, &stop};
-  if (!json) options.progress = [stages](std::string const& what, double share) { (*stages)(what, share); };
+  options.progress = [&, stages](std::string const& what, double share) {
+    onlookers->show(what, share);
+    if (!json) (*stages)(what, share);
+  };
   auto const report = run_study(read, options);
-  stages.reset();
   options.progress = {};
-  output::make_directory(target);
+  stages.reset();
+  onlookers.reset();
   output::write_atomically(target / "table.csv", study_csv(report));
   output::write_atomically(target / "study.json", study_json(report));
   fmt::print("{}", json ? study_json(report) : study_text(report));

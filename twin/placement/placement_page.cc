@@ -89,6 +89,8 @@ Json to_json(SetFigures const& set, int dead) {
   return json;
 }
 
+Json list_of(Eigen::VectorXd const& values) { return std::vector<double>(values.begin(), values.end()); }
+
 }  // namespace
 
 std::string placement_text(PlacementReport const& report) {
@@ -143,6 +145,8 @@ std::string placement_json(PlacementReport const& report) {
   if (report.more) json["one_more"] = to_json(*report.more, report.dead);
   if (report.proposed) json["proposed"] = to_json(*report.proposed, report.dead);
   if (report.distinction) json["distinction"] = to_json(*report.distinction);
+  if (report.map)
+    json["map"] = {{"alone_um", list_of(report.map->alone_um)}, {"beside_um", list_of(report.map->beside_um)}};
   return json.dump(2) + "\n";
 }
 

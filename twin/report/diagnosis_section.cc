@@ -7,21 +7,12 @@
 
 #include "thermal/error.h"
 #include "thermal/units.h"
-#include "twin/diagnosis/run_files.h"
 #include "twin/effect.h"
 
 namespace thermotwin::twin {
 namespace {
 
 using output::Json;
-
-Json read_diagnosis(std::filesystem::path const& path) {
-  Json const json = Json::parse(text_of_file(path), nullptr, false);
-  if (!json.is_object() || !json.contains("verdict") || !json.contains("effects") || !json.contains("gaps"))
-    throw thermal::InputError(fmt::format(
-        "{}: no diagnosis; a report takes what `thermotwin diagnose --json` prints, and data sets", path.string()));
-  return json;
-}
 
 /// "-0.892 um (-1.19 um to -0.595 um)", to three digits, in the unit in which people say the amplitude.
 std::string amplitude_text(Json const& finding, Effect const& effect) {
@@ -84,16 +75,11 @@ std::string sentence(Json const& diagnosis) {
 
 }  // namespace
 
-Json diagnosis_json(std::filesystem::path const& path) {
-  try {
-    Json json = read_diagnosis(path);
-    for (auto& finding : json["effects"]) explain(finding);
-    json["name"] = path.stem().string();
-    json["sentence"] = sentence(json);
-    return json;
-  } catch (Json::exception const& error) {
-    throw thermal::InputError(fmt::format("{}: a damaged diagnosis: {}", path.string(), error.what()));
-  }
+Json diagnosis_json(Json diagnosis, std::string const& name) {
+  for (auto& finding : diagnosis["effects"]) explain(finding);
+  diagnosis["name"] = name;
+  diagnosis["sentence"] = sentence(diagnosis);
+  return diagnosis;
 }
 
 }  // namespace thermotwin::twin

@@ -145,6 +145,13 @@ Json field_json(Machine const& machine, FieldMesh const& mesh, Surface const& su
           {"bodies", body_courses_json(machine.geometry, mesh, placed, page)}};
 }
 
+Json shape_json(Machine const& machine, FieldMesh const& mesh, Surface const& surface, ReportPage& page) {
+  Json json = surface_json(surface, mesh, page);
+  json["title"] = machine.title;
+  json["up"] = {machine.up.x(), machine.up.y(), machine.up.z()};
+  return json;
+}
+
 }  // namespace
 
 std::optional<Machine> machine_of(ShownRun const& run) {
@@ -164,13 +171,40 @@ Json machine_json(Machine const& machine, output::Dataset const& data, ReportPag
   FieldMesh const mesh(machine.geometry);
   if (mesh.elements().empty()) return nullptr;
   auto const surface = output::surface_of(mesh);
-  Json json = surface_json(surface, mesh, page);
-  json["title"] = machine.title;
-  json["up"] = {machine.up.x(), machine.up.y(), machine.up.z()};
+  Json json = shape_json(machine, mesh, surface, page);
   json["sensors"] = sensors_json(machine, surface, mesh);
   if (data.node_temperatures && data.node_temperatures->cols() == machine.network().nodes() &&
       data.node_temperatures->rows() > 0)
     json["field"] = field_json(machine, mesh, surface, *data.node_temperatures, page);
+  return json;
+}
+
+Json painted_machine_json(Machine const& machine, Eigen::VectorXd const& first, Eigen::VectorXd const& second,
+                          std::vector<MarkedPlace> const& marks, ReportPage& page) {
+  FieldMesh const mesh(machine.geometry);
+  if (mesh.elements().empty()) return nullptr;
+  Eigen::Index const n = mesh.n_nodes();
+  if (std::min(first.size(), second.size()) < n)
+    throw thermal::InputError(fmt::format("the map has {} numbers for the {} nodes of '{}'.",
+                                          std::min(first.size(), second.size()), n, machine.name));
+  auto const surface = output::surface_of(mesh);
+  Eigen::VectorXd const change = (second - first).head(n);
+  Json json = shape_json(machine, mesh, surface, page);
+  json["set"] = 0;
+  json["sensors"] = Json::array();
+  for (auto const& [name, title, at] : marks)
+    json["sensors"].push_back({{"name", name},
+                               {"title", title},
+                               {"position", {at.x(), at.y(), at.z()}},
+                               {"point", nearest_point(surface, mesh, at)}});
+  json["field"] = {{"start", page.add_numbers(at_surface(surface, mesh.mean_at_points(first.head(n))))},
+                   {"courses", page.add_numbers(Eigen::Vector2d(0.0, 1.0))},
+                   {"temperature", page.add_quantised(at_surface(surface, mesh.mean_at_points(change)))},
+                   {"displacement", page.add_quantised(Eigen::VectorXd::Zero(3 * Eigen::Index(surface.points.size())))},
+                   {"lowest", std::min(first.head(n).minCoeff(), second.head(n).minCoeff())},
+                   {"highest", std::max(first.head(n).maxCoeff(), second.head(n).maxCoeff())},
+                   {"largest_error", 0.0},
+                   {"nodes", n}};
   return json;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "output/report_page.h"
 #include "twin/machine.h"
@@ -19,5 +22,17 @@ namespace thermotwin::twin {
 /// max(0.01 K, 0.1 % of the span), and mean, lowest and highest temperature of every body, exactly.
 /// Empty (null) when no body of the machine has a place in space.
 [[nodiscard]] output::Json machine_json(Machine const& machine, output::Dataset const& data, output::ReportPage& page);
+
+/// A place on the machine with a name, and what it is.
+struct MarkedPlace {
+  std::string name, title;
+  Eigen::Vector3d position{0.0, 0.0, 0.0};  ///< [m]
+};
+
+/// The machine with places marked and two numbers per node in place of temperatures: `field` goes from the first at
+/// time 0 to the second at time 1. InputError when these are fewer than the nodes of its bodies; null as above.
+[[nodiscard]] output::Json painted_machine_json(Machine const& machine, Eigen::VectorXd const& first,
+                                                Eigen::VectorXd const& second, std::vector<MarkedPlace> const& marks,
+                                                output::ReportPage& page);
 
 }  // namespace thermotwin::twin

@@ -9,7 +9,7 @@
 #include "output/report_page.h"
 #include "thermal/error.h"
 #include "twin/diagnosis/run_files.h"
-#include "twin/report/diagnosis_section.h"
+#include "twin/report/answer_section.h"
 #include "twin/report/machine_section.h"
 #include "twin/report/shown_run.h"
 #include "twin/version.h"
@@ -61,7 +61,12 @@ std::string field_remark(Json const& machine) {
 Json runs_json(std::vector<ShownRun> const& runs, fs::path const& machine_file, ReportPage& page) {
   std::vector<std::string> remarks;
   Json json = {{"sets", Json::array()}};
-  for (auto const& run : runs) json["sets"].push_back(run_json(run, page));
+  for (auto const& run : runs) {
+    json["sets"].push_back(run_json(run, page));
+    if (run.without_instruments)
+      remarks.push_back(fmt::format("{} has not ended: until then its channels are shown without their noise.",
+                                    run.path.filename().string()));
+  }
   auto const* drawn = drawn_run(runs);
   if (auto const machine = machine_to_draw(drawn, machine_file, remarks)) {
     if (!drawn) drawn = &runs.front();
@@ -77,26 +82,29 @@ Json runs_json(std::vector<ShownRun> const& runs, fs::path const& machine_file, 
   return json;
 }
 
+bool is_answer(fs::path const& file) { return file.extension() == ".json"; }
+
 }  // namespace
+
+BuiltReport build_report(ReportFiles const& files) {
+  std::vector<ShownRun> runs;
+  for (auto const& file : files.data)
+    if (!is_answer(file)) runs.push_back(read_shown_run(file));
+  BuiltReport report{ReportPage(title_of(files, runs), fmt::format("ThermoTwin {} ({})", version(), commit())), {}};
+  for (auto const& file : files.data)
+    if (is_answer(file)) add_answer(file, files.machine, report.page);
+  if (runs.empty()) return report;
+  Json const section = runs_json(runs, files.machine, report.page);
+  report.page.add_section("runs", section);
+  report.remarks = section["remarks"].get<std::vector<std::string>>();
+  return report;
+}
 
 std::string write_report(ReportFiles const& files) {
   refuse_to_overwrite(files.output, files.machine, files.data);
-  std::vector<ShownRun> runs;
-  std::vector<fs::path> diagnoses;
-  for (auto const& file : files.data)
-    if (file.extension() == ".json")
-      diagnoses.push_back(file);
-    else
-      runs.push_back(read_shown_run(file));
-
-  ReportPage page(title_of(files, runs), fmt::format("ThermoTwin {} ({})", version(), commit()));
-  for (auto const& diagnosis : diagnoses) page.add_section("diagnosis", diagnosis_json(diagnosis));
+  auto const [page, remarks] = build_report(files);
   std::string text;
-  if (!runs.empty()) {
-    Json const section = runs_json(runs, files.machine, page);
-    page.add_section("runs", section);
-    for (auto const& remark : section["remarks"]) text += remark.get<std::string>() + "\n";
-  }
+  for (auto const& remark : remarks) text += remark + "\n";
   auto const html = page.html();
   output::write_atomically(files.output, html);
   return fmt::format("{}{}: {:.1f} MB; open it in a browser\n", text, files.output.string(), double(html.size()) / 1e6);

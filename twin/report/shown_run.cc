@@ -1,5 +1,6 @@
 #include "twin/report/shown_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -92,17 +93,30 @@ Json facts_json(std::map<std::string, std::string> const& provenance) {
   return facts;
 }
 
+bool has_values(std::vector<Channel> const& channels) {
+  return std::any_of(channels.begin(), channels.end(), [](auto const& c) { return c.values.array().isFinite().any(); });
+}
+
+/// A run that goes on has no readings yet, but their truth.
+bool show_truth_for_now(output::Dataset& data) {
+  if (data.complete || has_values(data.readings) || has_values(data.displacements)) return false;
+  if (!data.truth_readings.empty()) data.readings = data.truth_readings;
+  if (!data.truth_displacements.empty()) data.displacements = data.truth_displacements;
+  return true;
+}
+
 }  // namespace
 
 ShownRun read_shown_run(std::filesystem::path const& path) {
-  ShownRun run{path, {}, false};
+  ShownRun run{path.extension() == ".partial" ? std::filesystem::path(path).replace_extension() : path, {}};
   if (path.extension() == ".csv")
     run.data = output::import_csv(path);
   else if (path.extension() == ".toml")
     run.data = dataset_of(read_measurement_file(path), path);
   else
     run.data = output::read(path);
-  run.simulated = run.data.provenance.contains("solver.steps");
+  run.simulated = run.data.provenance.contains("solver.steps") || !run.data.complete;
+  run.without_instruments = show_truth_for_now(run.data);
   return run;
 }
 

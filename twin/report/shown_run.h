@@ -13,9 +13,12 @@ struct ShownRun {
   std::filesystem::path path;
   output::Dataset data;
   bool simulated = false;  ///< with the provenance of a run of this program
+  /// A run that goes on: what its instruments show is known at its end only; their channels hold the truth.
+  bool without_instruments = false;
 };
 
-/// A data set (`.h5`), a table (`.csv`), or a measurement file (`.toml`). InputError names the file.
+/// A data set (`.h5`, or `.h5.partial` of a run that has not ended, under the name that it will have), a table
+/// (`.csv`), or a measurement file (`.toml`). InputError names the file.
 [[nodiscard]] ShownRun read_shown_run(std::filesystem::path const& path);
 
 /// Channels with their courses, positioning, and what is known of the run. An input that never changes is one number.

@@ -106,6 +106,38 @@ Json identification_json(VolumetricStudy const& study) {
   return json;
 }
 
+Json components(Eigen::Matrix3Xd const& vectors, double factor) {
+  Json json;
+  for (int i = 0; i < 3; ++i) {
+    Eigen::VectorXd const row = factor * vectors.row(i).transpose();
+    json[std::string(1, "xyz"[i])] = std::vector<double>(row.begin(), row.end());
+  }
+  return json;
+}
+
+Json field_json(VolumetricStudy const& study) {
+  return {{"points", study.table.grid.points},
+          {"position_mm", components(study.before.positions, 1e3)},
+          {"before_um", components(study.before.errors, to_um)},
+          {"after_um", components(study.after.errors, to_um)}};
+}
+
+Json functions_json(VolumetricStudy const& study, int axis) {
+  int const steps = study.measured.steps;
+  std::vector<double> positions;
+  Eigen::Matrix3Xd predicted(3, steps + 1), truth(3, steps + 1);
+  for (int j = 0; j <= steps; ++j) {
+    double const q = study.truth.position(axis, j);
+    positions.push_back(1e3 * q);
+    predicted.col(j) = study.chosen.functions.at(axis, q);
+    truth.col(j) = study.truth.at(axis, q);
+  }
+  return {{"axis", std::string(1, "XYZ"[axis])},
+          {"position_mm", positions},
+          {"predicted_um", components(predicted, to_um)},
+          {"true_um", components(truth, to_um)}};
+}
+
 }  // namespace
 
 std::string volumetric_text(VolumetricStudy const& study) {
@@ -144,6 +176,9 @@ std::string volumetric_json(VolumetricStudy const& study) {
                              {"compensated_um", to_um * point.compensated},
                              {"squareness_urad", numbers(point.squareness, to_um)},
                              {"linear_totals_um", numbers(point.linear_totals, to_um)}});
+  json["field"] = field_json(study);
+  json["functions"] = Json::array();
+  for (int axis = 0; axis < 3; ++axis) json["functions"].push_back(functions_json(study, axis));
   json["remarks"] = study.remarks;
   return json.dump(2) + "\n";
 }

@@ -50,6 +50,14 @@ function roomFor(low: number, high: number): [number, number] {
 }
 
 const pointer = new Set<(x: number | null) => void>();
+const plots = new Set<uPlot>();
+
+/** Ends every chart of a page that is drawn anew. */
+export function forgetCharts(): void {
+  for (const plot of plots) plot.destroy();
+  plots.clear();
+  pointer.clear();
+}
 
 /** Tells where on the common time axis the pointer is, or that it is nowhere. */
 export function watchPointer(watcher: (x: number | null) => void): void {
@@ -99,10 +107,10 @@ export class Chart {
 
   private resized(): void {
     const width = this.host.clientWidth;
-    if (width === 0) return;
+    if (width === 0 || !this.element.isConnected) return;
     const height = this.options.height ?? 190;
     if (this.plot) this.plot.setSize({width, height});
-    else this.plot = new uPlot(this.settings(width, height), this.data(), this.host);
+    else plots.add(this.plot = new uPlot(this.settings(width, height), this.data(), this.host));
     this.plot.over.append(this.now);
     this.placeNow();
   }

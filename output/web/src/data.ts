@@ -130,10 +130,104 @@ export interface DiagnosisSection {
   remarks: string[];
 }
 
+export interface StudyFigure {
+  mean: number | null;
+  half_width_95: number;
+}
+
+export interface StudyCombination {
+  world: string;
+  selection: string;
+  model: string;
+  sensors: string[];
+  refused: string | null;
+  remark: string;
+  figures: Record<string, StudyFigure>;
+}
+
+export interface StudySection {
+  kind: 'study';
+  title: string;
+  verdict: string[];
+  claims: {says: string; answer: string; words: string}[];
+  remarks: string[];
+  worlds: {name: string; machine: string; error: string; unit: string; repetitions: number}[];
+  selections: {world: string; selection: string; remark: string; figures: Record<string, StudyFigure>}[];
+  combinations: StudyCombination[];
+}
+
+export interface SensorSet {
+  sensors: {name: string; at: string[]; position_m: [number, number, number]; cost: number; error_without_um: number; idle: boolean}[];
+  cost: number;
+  model_um: number;
+  predicted_um: number;
+  unseen_rms_um: number;
+  displacements: {name: string; without_sensors_um: number; predicted_um: number; unseen_rms_um: number}[];
+  worst_with_dead_sensors_um?: number;
+}
+
+export interface PlacementSection {
+  kind: 'placement';
+  machine: string;
+  candidates: number;
+  noise_K: number;
+  dead: number;
+  no_sensor_um: number;
+  all_candidates_um: number;
+  bound_um: number;
+  all_sets_looked_at: boolean;
+  recommended: SensorSet;
+  one_fewer?: SensorSet;
+  one_more?: SensorSet;
+  proposed?: SensorSet;
+  distinction?: {effects: number; recommended_deg: number; for_displacement_deg: number; all_candidates_deg: number; closest: [string, string]};
+  /** The machine, its field going from what one sensor tells alone (0) to beside the recommended ones (1). */
+  shape?: Machine | null;
+  remarks: string[];
+}
+
+/** Components along X, Y and Z. */
+export interface Components {
+  x: number[];
+  y: number[];
+  z: number[];
+}
+
+export interface VolumeState {
+  diagonals_um: Record<string, number>;
+  grid_largest_um: number;
+  grid_rms_um: number;
+}
+
+export interface VolumetricSection {
+  kind: 'volumetric';
+  travel_mm: [number, number, number];
+  compensated_by: string;
+  predictions: {method: string; remark: string; rms_um: number; largest_um: number; mape_percent: number; training_s: number}[];
+  before: VolumeState;
+  after: VolumeState;
+  reduction: number;
+  misleading: boolean;
+  field?: {points: [number, number, number]; position_mm: Components; before_um: Components; after_um: Components};
+  functions?: {axis: string; position_mm: number[]; predicted_um: Components; true_um: Components}[];
+  drift: {time_s: number; moved_um: number; uncompensated_um: number; compensated_um: number}[];
+  remarks: string[];
+}
+
+/** What a command has done so far. */
+export interface ProgressSection {
+  kind: 'progress';
+  title: string;
+  steps: {what: string; share?: number; at_s: number}[];
+  done: boolean;
+}
+
 export interface PageDocument {
   title: string;
   version: string;
   bytes: number;
+  /** Of a page that a program serves and renews: what it has; 0 or absent: from disk. */
+  revision?: number;
   sections: {kind: string}[];
 }
 

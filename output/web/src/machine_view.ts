@@ -8,9 +8,18 @@ import {grouped, roundDown, roundTicks, timeText} from './format';
 import {Scene} from './scene';
 import {SensorMarks} from './sensor_marks';
 import type {PageState} from './signal';
+import {turntable} from './turntable';
 import {visibleTriangles} from './visible';
 
 const factors = (largest: number): number[] => [0, ...[0.2, 0.5, 1, 2, 5].map((m) => roundDown(m * largest * 1.0001))];
+
+/** What the colours stand for, and the words above the picture. */
+export interface Look {
+  quantity: string;
+  caption: (t: number) => string;
+}
+
+const temperatures: Look = {quantity: 'Temperature / °C', caption: (t) => `t = ${timeText(t)}`};
 
 /** The machine in space: coloured by temperature, deformed, turned with pointer or keys, its parts to be picked. */
 export class MachineView {
@@ -37,7 +46,8 @@ export class MachineView {
   private settle = 0;
 
   constructor(private readonly machine: Machine, numbers: Numbers, time: Float32Array,
-              private readonly readings: Map<string, Course>, private readonly state: PageState) {
+              private readonly readings: Map<string, Course>, private readonly state: PageState,
+              private readonly look: Look = temperatures) {
     this.rest = numbers.single(machine.points);
     this.triangles = numbers.whole(machine.triangles);
     this.edges = numbers.whole(machine.edges);
@@ -47,12 +57,13 @@ export class MachineView {
     this.range = [ticks[0]!, ticks[ticks.length - 1]!];
     this.scene = new Scene(this.stage, this.rest, this.triangles, this.edges, this.field && this.range);
     this.camera = new Camera(machine.up);
+    if (state.view) Object.assign(this.camera, state.view);
     this.marks = new SensorMarks(machine.sensors, state);
     this.stage.append(this.marks.element, this.caption);
     this.element = make('section', {class: 'machine', 'aria-label': machine.title},
       this.stage,
       make('div', {class: 'controls'}, this.deformationControl(), this.viewButtons()),
-      colourBar(gradient(viridis), ticks, 'Temperature / °C'),
+      colourBar(gradient(viridis), ticks, look.quantity),
       this.bodyList());
     this.listen();
   }
@@ -116,63 +127,8 @@ export class MachineView {
       }) : []);
       this.refresh();
     });
-    this.stage.addEventListener('keydown', (event) => this.key(event));
-    this.stage.addEventListener('wheel', (event) => {
-      if (!event.ctrlKey) return;
-      event.preventDefault();
-      this.zoom(Math.exp(event.deltaY / 300));
-    }, {passive: false});
-    this.followPointers();
+    turntable(this.stage, this.camera, {changed: () => this.viewChanged(), fit: () => this.fit(), pick: (event) => this.pick(event)});
     new ResizeObserver(() => this.resized()).observe(this.stage);
-  }
-
-  private key(event: KeyboardEvent): void {
-    const turns: Record<string, [number, number]> =
-      {ArrowLeft: [-8, 0], ArrowRight: [8, 0], ArrowUp: [0, 8], ArrowDown: [0, -8]};
-    const turn = turns[event.key];
-    if (turn) this.camera.turn(...turn);
-    else if (event.key === '+' || event.key === '=') this.camera.scale /= 1.15;
-    else if (event.key === '-') this.camera.scale *= 1.15;
-    else if (event.key === '0') this.fit();
-    else return;
-    event.preventDefault();
-    this.viewChanged();
-  }
-
-  private followPointers(): void {
-    const down = new Map<number, PointerEvent>();
-    let still = true;
-    this.stage.addEventListener('pointerdown', (event) => {
-      if ((event.target as Element).closest('button')) return;
-      down.set(event.pointerId, event);
-      still = true;
-      this.stage.setPointerCapture(event.pointerId);
-    });
-    this.stage.addEventListener('pointermove', (event) => {
-      const last = down.get(event.pointerId);
-      if (!last) return;
-      const dx = event.clientX - last.clientX, dy = event.clientY - last.clientY;
-      if (still && Math.hypot(dx, dy) < 4) return;
-      still = false;
-      const other = [...down.values()].find((p) => p.pointerId !== event.pointerId);
-      if (other) {
-        const gap = (p: PointerEvent): number => Math.hypot(p.clientX - other.clientX, p.clientY - other.clientY);
-        this.camera.scale *= gap(last) / Math.max(10, gap(event));
-        this.camera.shift(dx / 2 / this.stage.clientHeight, -dy / 2 / this.stage.clientHeight);
-      } else if (event.shiftKey || event.buttons === 2) {
-        this.camera.shift(dx / this.stage.clientHeight, -dy / this.stage.clientHeight);
-      } else {
-        this.camera.turn(dx * 0.4, dy * 0.4);
-      }
-      down.set(event.pointerId, event);
-      this.viewChanged();
-    });
-    const up = (event: PointerEvent): void => {
-      if (down.delete(event.pointerId) && still && event.type === 'pointerup') this.pick(event);
-    };
-    this.stage.addEventListener('pointerup', up);
-    this.stage.addEventListener('pointercancel', up);
-    this.stage.addEventListener('contextmenu', (event) => event.preventDefault());
   }
 
   private pick(event: PointerEvent): void {
@@ -196,6 +152,8 @@ export class MachineView {
   }
 
   private viewChanged(): void {
+    const {azimuth, elevation, scale, focus} = this.camera;
+    this.state.view = {azimuth, elevation, scale, focus};
     this.dirty.spots = true;
     this.ask();
   }
@@ -208,7 +166,8 @@ export class MachineView {
   private resized(): void {
     if (this.stage.clientWidth === 0) return;
     this.fineness = 1;
-    this.fit();
+    if (this.size === '' && this.state.view) this.viewChanged();
+    else this.fit();
   }
 
   /** The picture's pixels; only before a drawing, because it empties the picture. */
@@ -246,6 +205,7 @@ export class MachineView {
   }
 
   private draw(): void {
+    if (!this.element.isConnected) return;
     const t = this.state.time.value;
     if (this.dirty.field) this.showField(t);
     if (this.dirty.spots) this.showVisible();
@@ -254,7 +214,7 @@ export class MachineView {
     this.placeMarks();
     this.dirty = {field: false, spots: false};
     const coarse = this.fineness < 1 ? ' · fewer pixels while it moves' : '';
-    this.caption.textContent = `t = ${timeText(t)}${coarse}`;
+    this.caption.textContent = this.look.caption(t) + coarse;
   }
 
   private showField(t: number): void {

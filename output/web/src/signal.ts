@@ -21,13 +21,23 @@ export class Signal<T> {
   }
 }
 
+export interface View {
+  azimuth: number;
+  elevation: number;
+  scale: number;
+  focus: [number, number, number];
+}
+
 export type Selection = {kind: 'sensor' | 'body' | 'displacement'; name: string} | null;
 
-/** What all parts of a page share. */
+/** What all parts of a page share; a part with a time of its own shares the theme only. */
 export class PageState {
   readonly time = new Signal(0);
   readonly selection = new Signal<Selection>(null);
-  readonly dark = new Signal(false);
+  /** From where the machine is seen; null: from where it fits. */
+  view: View | null = null;
+
+  constructor(readonly dark = new Signal(false)) {}
 
   /** Chooses, or gives up what was chosen. */
   choose(selection: Selection): void {

@@ -1,15 +1,23 @@
-import type {DiagnosisSection, Numbers, RunsSection} from '../data';
+import type {DiagnosisSection, Numbers, PlacementSection, ProgressSection, RunsSection, StudySection, VolumetricSection} from '../data';
 import {make} from '../dom';
 import type {PageState} from '../signal';
 import {diagnosisSection} from './diagnosis';
+import {placementSection} from './placement';
+import {progressSection} from './progress';
 import {runsSection} from './runs';
+import {studySection} from './study';
+import {volumetricSection} from './volumetric';
 
 type Drawer = (section: never, numbers: Numbers, state: PageState) => HTMLElement;
 
 /** What draws each kind of section. A new kind is one entry here and one file beside. */
 const drawers: Record<string, Drawer> = {
   diagnosis: (section: DiagnosisSection, _: Numbers, state: PageState) => diagnosisSection(section, state),
+  placement: (section: PlacementSection, numbers: Numbers, state: PageState) => placementSection(section, numbers, state),
+  progress: (section: ProgressSection) => progressSection(section),
   runs: (section: RunsSection, numbers: Numbers, state: PageState) => runsSection(section, numbers, state),
+  study: (section: StudySection) => studySection(section),
+  volumetric: (section: VolumetricSection, _: Numbers, state: PageState) => volumetricSection(section, state),
 };
 
 export function drawSection(section: {kind: string}, numbers: Numbers, state: PageState): HTMLElement {

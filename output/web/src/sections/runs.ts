@@ -106,7 +106,7 @@ function factsPanel(runs: Run[]): HTMLElement {
     const constants = run.set.inputs.filter((c) => c.constant !== undefined && c.constant !== 0);
     const rows: [string, string][] = [
       ['data set', run.set.title],
-      ['rows', `${run.time.length}${run.set.complete ? '' : ', interrupted: the run did not end'}`],
+      ['rows', `${run.time.length}${run.set.complete ? '' : ', so far: the run has not ended'}`],
       ...Object.entries(run.set.facts),
       ...constants.map((c): [string, string] => [c.name, `${valueText(c.constant!, c.unit)} ${unitText(c.unit)}`.trim() + ', constant']),
     ];

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thermotwin::twin {
+
+/// What a long command has done so far, for those who look on: `progress.json` in the folder that it will fill,
+/// {"title", "steps": [{"what", "at_s", "share"}], "done"}. It is there while the object is; `thermotwin view FOLDER`
+/// shows it. A file that cannot be written is no reason to stop: onlookers see less.
+class ProgressFile {
+ public:
+  /// Makes the folder; OutputError when that cannot be.
+  ProgressFile(std::filesystem::path folder, std::string title);
+  ~ProgressFile();
+  ProgressFile(ProgressFile const&) = delete;
+  ProgressFile& operator=(ProgressFile const&) = delete;
+
+  /// A new step when `what` differs from the last one, or the share that is done of the last. Written at most every
+  /// half second, but for new steps.
+  void show(std::string const& what, std::optional<double> share = {});
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Step {
+    std::string what;
+    double at_s;
+    std::optional<double> share;
+  };
+
+  void write() const;
+
+  std::filesystem::path path_;
+  std::string title_;
+  std::vector<Step> steps_;
+  Clock::time_point start_ = Clock::now(), next_ = start_;
+};
+
+}  // namespace thermotwin::twin

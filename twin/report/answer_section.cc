@@ -1,0 +1,107 @@
+#include "twin/report/answer_section.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
+
+#include "thermal/error.h"
+#include "twin/diagnosis/run_files.h"
+#include "twin/report/diagnosis_section.h"
+#include "twin/report/machine_section.h"
+
+namespace thermotwin::twin {
+namespace {
+
+namespace fs = std::filesystem;
+using output::Json;
+using output::ReportPage;
+
+std::string_view kind_of(Json const& answer) {
+  struct Kind {
+    std::string_view name;
+    std::vector<char const*> keys;
+  };
+  static std::vector<Kind> const kinds = {{"diagnosis", {"verdict", "effects", "gaps"}},
+                                          {"study", {"combinations", "worlds", "claims"}},
+                                          {"placement", {"recommended", "candidates"}},
+                                          {"volumetric", {"predictions", "compensated_by"}},
+                                          {"progress", {"steps", "title"}}};
+  for (auto const& [name, keys] : kinds)
+    if (answer.is_object() && std::all_of(keys.begin(), keys.end(), [&](auto key) { return answer.contains(key); }))
+      return name;
+  return "";
+}
+
+Json study_json(Json study) {
+  for (char const* list : {"selections", "combinations"})
+    for (auto& row : study[list])
+      for (auto& figure : row["figures"]) figure.erase("values");
+  return study;
+}
+
+Eigen::VectorXd vector_of(Json const& list) {
+  auto const values = list.get<std::vector<double>>();
+  return Eigen::Map<Eigen::VectorXd const>(values.data(), Eigen::Index(values.size()));
+}
+
+/// The recommended sensors by their numbers; those in the air have no place.
+std::vector<MarkedPlace> marks_of(Json const& sensors) {
+  std::vector<MarkedPlace> marks;
+  int number = 0;
+  for (auto const& sensor : sensors) {
+    ++number;
+    auto const p = sensor["position_m"].get<std::array<double, 3>>();
+    if (sensor["at"] != Json::array({"ambient"}))
+      marks.push_back({std::to_string(number), sensor["name"].get<std::string>(), {p[0], p[1], p[2]}});
+  }
+  return marks;
+}
+
+/// Without a machine or a map the section says why nothing is drawn.
+Json placement_json(Json placement, fs::path const& machine, ReportPage& page) {
+  placement["remarks"] = Json::array();
+  if (!placement.contains("map")) {
+    placement["remarks"].push_back(
+        "No map is drawn: this answer holds none. `thermotwin place … --report DIR` has it.");
+    return placement;
+  }
+  try {
+    auto const built = Machine::read(machine.empty() ? machine_file(placement["machine"].get<std::string>()) : machine);
+    auto const& map = placement["map"];
+    placement["shape"] = painted_machine_json(built, vector_of(map["alone_um"]), vector_of(map["beside_um"]),
+                                              marks_of(placement["recommended"]["sensors"]), page);
+  } catch (thermal::InputError const& error) {
+    placement["remarks"].push_back(fmt::format("No map is drawn: {} Name the machine with --machine.", error.what()));
+  }
+  placement.erase("map");
+  return placement;
+}
+
+}  // namespace
+
+void add_answer(fs::path const& file, fs::path const& machine, ReportPage& page) {
+  try {
+    Json const answer = Json::parse(text_of_file(file));
+    auto const kind = kind_of(answer);
+    if (kind == "diagnosis")
+      page.add_section(kind, diagnosis_json(answer, file.stem().string()));
+    else if (kind == "study")
+      page.add_section(kind, study_json(answer));
+    else if (kind == "placement")
+      page.add_section(kind, placement_json(answer, machine, page));
+    else if (!kind.empty())
+      page.add_section(kind, answer);
+    else
+      throw thermal::InputError(
+          fmt::format("{}: a report takes data sets, and what `diagnose --json`, `study`, `place --json` and "
+                      "`volumetric --json` write; this is none of them",
+                      file.string()));
+  } catch (Json::exception const& error) {
+    throw thermal::InputError(fmt::format("{}: damaged, or no answer of thermotwin: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "output/report_page.h"
+
+namespace thermotwin::twin {
+
+/// Adds the section for what another command answered as JSON, known by its keys: `diagnose` ("diagnosis"), `study`
+/// ("study"), `place` ("placement"), `volumetric` ("volumetric"), or how far one has come ("progress").
+///
+/// The document is the command's own, with what people need besides: a diagnosis its sentence (diagnosis_section.h), a
+/// study without the values of each repetition, a placement the machine with the map of informative places when the
+/// answer holds it. The machine of a placement is `machine`, or else the shipped one that it names. InputError when the
+/// file is no such answer, or damaged.
+void add_answer(std::filesystem::path const& file, std::filesystem::path const& machine, output::ReportPage& page);
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,332 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "output/picture_scale.h"
+#include "output/report_page.h"
+#include "thermal/error.h"
+#include "twin/diagnosis/run_files.h"
+#include "twin/report/figure_files.h"
+#include "twin/report/shown_run.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using output::Channel;
+using output::Figure;
+using output::FigureLine;
+using output::Json;
+
+using Channels = std::vector<Channel> const& (*)(output::Dataset const&);
+
+constexpr double two_sided_95 = 1.96;
+
+std::string unit_text(std::string const& unit) {
+  static std::map<std::string, std::string> const symbols = {{"degC", "°C"}, {"um", "µm"}, {"urad", "µrad"}};
+  auto const found = symbols.find(unit);
+  return found == symbols.end() ? unit : found->second;
+}
+
+std::string axis_text(std::string const& quantity, std::string const& unit) {
+  return unit == "1" ? quantity : fmt::format("{} / {}", quantity, unit_text(unit));
+}
+
+std::string quantity_of(std::string const& unit) {
+  static std::map<std::string, std::string> const quantities = {
+      {"rpm", "Speed"}, {"mm/min", "Feed"}, {"degC", "Temperature"}, {"K", "Temperature"}, {"W", "Heat"},
+      {"um", "Error"},  {"urad", "Tilt"},   {"mm", "Position"},      {"K/m", "Gradient"},  {"1", "Setting"},
+  };
+  auto const found = quantities.find(unit);
+  return found == quantities.end() ? "Value" : found->second;
+}
+
+struct TimeUnit {
+  std::string name;
+  double seconds;
+};
+
+TimeUnit time_unit(double duration) {
+  if (duration >= 2 * 3600.0) return {"h", 3600.0};
+  return duration >= 180.0 ? TimeUnit{"min", 60.0} : TimeUnit{"s", 1.0};
+}
+
+std::string file_part(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_'; }, '_');
+  return text;
+}
+
+/// Courses over time, in the unit that suits the longest of them.
+class TimeFigure {
+ public:
+  TimeFigure(std::string y_label, double start, double end) : unit_(time_unit(end - start)) {
+    figure_.x_label = "Time / " + unit_.name;
+    figure_.y_label = std::move(y_label);
+    figure_.x_range = {start / unit_.seconds, end / unit_.seconds};
+  }
+
+  FigureLine& add(std::string const& name, Eigen::VectorXd const& time_s, Eigen::VectorXd const& values) {
+    figure_.lines.push_back({name, time_s / unit_.seconds, values});
+    output::set_style(figure_.lines.back(), figure_.lines.size() - 1);
+    return figure_.lines.back();
+  }
+  void add_band(Eigen::VectorXd const& time_s, Eigen::VectorXd const& low, Eigen::VectorXd const& high) {
+    figure_.bands.push_back({time_s / unit_.seconds, low, high});
+  }
+  [[nodiscard]] Figure take() { return std::move(figure_); }
+
+ private:
+  TimeUnit unit_;
+  Figure figure_;
+};
+
+double start_of(ShownRun const& run) { return run.data.time_s.size() > 0 ? run.data.time_s[0] : 0.0; }
+double end_of(ShownRun const& run) { return run.data.time_s.size() > 0 ? run.data.time_s.tail(1)[0] : 1.0; }
+
+std::pair<double, double> range_of(std::vector<ShownRun> const& runs) {
+  std::pair range{start_of(runs[0]), end_of(runs[0])};
+  for (auto const& run : runs) range = {std::min(range.first, start_of(run)), std::max(range.second, end_of(run))};
+  return range;
+}
+
+bool varies(Eigen::VectorXd const& values) {
+  return values.size() > 0 && !(values.array() == values[0]).all() && values.array().isFinite().any();
+}
+
+/// Units in order of appearance, angles last.
+std::vector<std::string> units_of(std::vector<ShownRun> const& runs, Channels channels) {
+  std::vector<std::string> units;
+  for (auto const& run : runs)
+    for (auto const& channel : channels(run.data))
+      if (std::find(units.begin(), units.end(), channel.unit) == units.end()) units.push_back(channel.unit);
+  std::stable_partition(units.begin(), units.end(), [](auto const& unit) { return unit != "urad"; });
+  return units;
+}
+
+/// Every channel of a unit; a channel has one colour, a run one way of dashing.
+Figure courses(std::vector<ShownRun> const& runs, Channels channels, std::string const& unit) {
+  static std::vector<std::vector<double>> const dashes = {{}, {4.0, 2.0}, {1.0, 1.5}, {6.0, 2.0, 1.0, 2.0}};
+  auto const [start, end] = range_of(runs);
+  TimeFigure figure(axis_text(quantity_of(unit), unit), start, end);
+  std::vector<std::string> names;
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (auto const& channel : channels(runs[r].data)) {
+      if (channel.unit != unit) continue;
+      auto const known = std::find(names.begin(), names.end(), channel.name);
+      auto const i = std::size_t(known - names.begin());
+      if (known == names.end()) names.push_back(channel.name);
+      auto const name =
+          runs.size() > 1 ? fmt::format("{}, {}", channel.name, runs[r].path.stem().string()) : channel.name;
+      auto& line = figure.add(name, runs[r].data.time_s, channel.values);
+      output::set_style(line, i);
+      if (r > 0) line.dashes = dashes[r % dashes.size()];
+    }
+  return figure.take();
+}
+
+/// Along straight lines between the samples; NaN outside.
+Eigen::VectorXd at_times(Channel const& channel, Eigen::VectorXd const& own, Eigen::VectorXd const& times) {
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(times.size(), std::nan(""));
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    auto const next = std::lower_bound(own.begin(), own.end(), times[i]) - own.begin();
+    if (next == own.size() || times[i] < own[0]) continue;
+    values[i] = channel.values[next];
+    if (next == 0 || own[next] == times[i]) continue;
+    double const share = (times[i] - own[next - 1]) / (own[next] - own[next - 1]);
+    values[i] = channel.values[next - 1] + share * (channel.values[next] - channel.values[next - 1]);
+  }
+  return values;
+}
+
+/// The reference less each of the others.
+Figure residuals(std::vector<ShownRun> const& runs, Channels channels, std::string const& unit) {
+  auto const& reference = runs[0].data;
+  TimeFigure figure(axis_text("Residual", unit == "degC" ? "K" : unit), start_of(runs[0]), end_of(runs[0]));
+  for (std::size_t r = 1; r < runs.size(); ++r)
+    for (auto const& mine : channels(reference))
+      for (auto const& other : channels(runs[r].data))
+        if (mine.unit == unit && other.name == mine.name)
+          figure.add(runs.size() > 2 ? fmt::format("{}, {}", mine.name, runs[r].path.stem().string()) : mine.name,
+                     reference.time_s, mine.values - at_times(other, runs[r].data.time_s, reference.time_s));
+  return figure.take();
+}
+
+/// Forward solid, backward dashed, from light to dark with time.
+Figure positioning(output::Positioning const& axis) {
+  Figure figure;
+  figure.x_label = "Position / mm";
+  figure.y_label = "Error / µm";
+  Eigen::Index const passes = axis.time_s.size();
+  for (Eigen::Index p = 0; p < passes; ++p)
+    for (bool const forward : {true, false}) {
+      FigureLine line{"", axis.position_mm, (forward ? axis.forward_um : axis.backward_um).row(p).transpose()};
+      if (forward && (p == 0 || p + 1 == passes)) line.name = "after " + output::time_text(axis.time_s[p]);
+      double const share = passes > 1 ? double(p) / double(passes - 1) : 1.0;
+      line.colour = {0.75 * (1 - share), 0.85 - 0.55 * share, 0.95 - 0.35 * share};
+      if (!forward) line.dashes = {3.0, 2.0};
+      figure.lines.push_back(line);
+    }
+  return figure;
+}
+
+void add_group(std::vector<FigurePanel>& panels, std::vector<ShownRun> const& runs, std::string const& title,
+               Channels channels) {
+  for (auto const& unit : units_of(runs, channels)) {
+    auto const name = fmt::format("{}_{}", unit == "urad" ? "tilt" : title, file_part(unit));
+    panels.push_back({name, courses(runs, channels, unit)});
+    if (runs.size() > 1) panels.push_back({"residual_" + name, residuals(runs, channels, unit)});
+  }
+}
+
+void add_inputs(std::vector<FigurePanel>& panels, ShownRun const& run) {
+  for (auto const& unit : units_of(
+           {run}, [](auto const& d) -> auto const& { return d.inputs; })) {
+    TimeFigure figure(axis_text(quantity_of(unit), unit), start_of(run), end_of(run));
+    bool any = false;
+    for (auto const& input : run.data.inputs)
+      if (input.unit == unit && varies(input.values)) {
+        figure.add(input.name, run.data.time_s, input.values);
+        any = true;
+      }
+    if (any) panels.push_back({"input_" + file_part(unit), figure.take()});
+  }
+}
+
+void add_runs(std::vector<FigurePanel>& panels, std::vector<ShownRun> runs) {
+  auto const measured = std::find_if(runs.begin(), runs.end(), [](auto const& run) { return !run.simulated; });
+  if (measured != runs.end()) std::rotate(runs.begin(), measured, measured + 1);
+  add_inputs(panels, runs[0]);
+  add_group(
+      panels, runs, "sensor_temperatures", [](auto const& d) -> auto const& { return d.readings; });
+  add_group(
+      panels, runs, "displacements", [](auto const& d) -> auto const& { return d.displacements; });
+  TimeFigure heat("Heat / W", start_of(runs[0]), end_of(runs[0]));
+  bool made = false;
+  for (auto const& channel : runs[0].data.heat)
+    if ((channel.values.array() != 0.0).any()) {
+      heat.add(channel.name, runs[0].data.time_s, channel.values);
+      made = true;
+    }
+  if (made) panels.push_back({"heat", heat.take()});
+  for (auto const& run : runs)
+    for (auto const& axis : run.data.positioning)
+      panels.push_back({fmt::format("positioning_{}_{}", run.path.stem().string(), axis.axis), positioning(axis)});
+}
+
+Eigen::VectorXd vector_of(Json const& list) {
+  Eigen::VectorXd values(Eigen::Index(list.size()));
+  for (std::size_t i = 0; i < list.size(); ++i)
+    values[Eigen::Index(i)] = list[i].is_null() ? std::nan("") : list[i].get<double>();
+  return values;
+}
+
+/// Heat of unknown course, of the first body, run after run, each with the band in which 95 % of it lies.
+Figure free_heat(Json const& body) {
+  double end = 0.0;
+  for (auto const& run : body["runs"]) end = std::max(end, run["time_s"].back().get<double>());
+  TimeFigure figure("Heat / W", 0.0, end);
+  int number = 0;
+  for (auto const& run : body["runs"]) {
+    auto const time = vector_of(run["time_s"]), watts = vector_of(run["watts"]);
+    Eigen::VectorXd const half = two_sided_95 * vector_of(run["standard_error"]);
+    figure.add_band(time, watts - half, watts + half);
+    ++number;
+    figure.add(body["runs"].size() > 1 ? fmt::format("run {}", number) : "", time, watts);
+  }
+  return figure.take();
+}
+
+Figure ranking(Json const& study, std::string const& world) {
+  constexpr std::size_t most = 12;
+  Figure figure;
+  std::string unit;
+  for (auto const& entry : study["worlds"])
+    if (entry["name"] == world || unit.empty()) unit = entry["unit"].get<std::string>();
+  figure.x_label = axis_text("RMSE on unseen runs", unit);
+  for (auto const& row : study["combinations"]) {
+    if (row["world"] != world || !row["figures"].contains("cross.rmse")) continue;
+    auto const& of = row["figures"]["cross.rmse"];
+    if (of["mean"].is_null()) continue;
+    double const mean = of["mean"], half = of["half_width_95"];
+    figure.rows.push_back({fmt::format("{} + {}", row["selection"].get<std::string>(), row["model"].get<std::string>()),
+                           mean, mean - half, mean + half});
+  }
+  std::stable_sort(figure.rows.begin(), figure.rows.end(),
+                   [](auto const& a, auto const& b) { return a.value < b.value; });
+  if (figure.rows.size() > most) figure.rows.resize(most);
+  return figure;
+}
+
+Figure functions(Json const& axis) {
+  Figure figure;
+  figure.x_label = axis["axis"].get<std::string>() + " / mm";
+  figure.y_label = "Error / µm";
+  for (char const* source : {"predicted_um", "true_um"}) {
+    std::size_t i = 1;
+    for (char const* component : {"x", "y", "z"}) {
+      bool const truth = std::string_view(source) == "true_um";
+      FigureLine line{fmt::format("{}{}", component, truth ? ", true" : ""), vector_of(axis["position_mm"]),
+                      vector_of(axis[source][component])};
+      output::set_style(line, i++);
+      if (truth) line.dashes = {3.0, 2.0};
+      figure.lines.push_back(line);
+    }
+  }
+  return figure;
+}
+
+Figure drift(Json const& points) {
+  TimeFigure figure("Largest error / µm", points.front()["time_s"], points.back()["time_s"]);
+  Eigen::VectorXd time(Eigen::Index(points.size())), values = time;
+  for (auto const& [key, name] :
+       {std::pair{"moved_um", "moved since measured"}, std::pair{"uncompensated_um", "machine"},
+        std::pair{"compensated_um", "compensated"}}) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      time[Eigen::Index(i)] = points[i]["time_s"];
+      values[Eigen::Index(i)] = points[i][key];
+    }
+    figure.add(name, time, values);
+  }
+  return figure.take();
+}
+
+void add_answer_panels(std::vector<FigurePanel>& panels, std::filesystem::path const& path) {
+  try {
+    Json const answer = Json::parse(text_of_file(path));
+    if (answer.contains("heat")) panels.push_back({"unknown_heat", free_heat(answer["heat"])});
+    if (answer.contains("unaccounted_heat") && !answer["unaccounted_heat"].empty())
+      panels.push_back({"unaccounted_heat", free_heat(answer["unaccounted_heat"][0])});
+    std::set<std::string> worlds;
+    if (answer.contains("combinations"))
+      for (auto const& row : answer["combinations"]) worlds.insert(row["world"].get<std::string>());
+    for (auto const& world : worlds)
+      if (auto const figure = ranking(answer, world); !figure.rows.empty())
+        panels.push_back({"ranking_" + file_part(world), figure});
+    if (answer.contains("functions"))
+      for (auto const& axis : answer["functions"])
+        panels.push_back({"functions_" + axis["axis"].get<std::string>(), functions(axis)});
+    if (answer.contains("drift") && !answer["drift"].empty()) panels.push_back({"drift", drift(answer["drift"])});
+  } catch (Json::exception const& error) {
+    throw thermal::InputError(fmt::format("{}: damaged, or no answer of thermotwin: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace
+
+std::vector<FigurePanel> figure_panels(std::vector<std::filesystem::path> const& files) {
+  std::vector<FigurePanel> panels;
+  std::vector<ShownRun> runs;
+  for (auto const& file : files)
+    if (file.extension() == ".json")
+      add_answer_panels(panels, file);
+    else
+      runs.push_back(read_shown_run(file));
+  if (!runs.empty()) add_runs(panels, std::move(runs));
+  return panels;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,112 @@
+#include "twin/report/live_page.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "output/report_page.h"
+#include "thermal/error.h"
+#include "twin/report/report_files.h"
+#include "twin/version.h"
+
+namespace thermotwin::twin {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path partial_of(fs::path path) { return path += ".partial"; }
+
+/// Where the newer of a data set and its unfinished successor lies; empty: neither is there.
+fs::path newest(fs::path const& path) {
+  std::error_code ignored;
+  auto const partial = partial_of(path);
+  bool const here = fs::exists(path, ignored), begun = fs::exists(partial, ignored);
+  if (here && begun) return fs::last_write_time(partial, ignored) > fs::last_write_time(path, ignored) ? partial : path;
+  return here ? path : begun ? partial : fs::path();
+}
+
+/// Progress first, then answers, then data sets, each by name.
+LivePage::Paths files_of(fs::path const& folder) {
+  LivePage::Paths answers, data;
+  std::error_code ignored;
+  for (auto const& entry : fs::directory_iterator(folder, ignored)) {
+    auto const& path = entry.path();
+    if (path.extension() == ".json") answers.push_back(path);
+    if (path.extension() == ".h5") data.push_back(newest(path));
+    if (path.extension() == ".partial" && !fs::exists(fs::path(path).replace_extension(), ignored))
+      data.push_back(path);
+  }
+  std::sort(data.begin(), data.end());
+  std::sort(answers.begin(), answers.end(), [](auto const& a, auto const& b) {
+    return std::pair(a.filename() != "progress.json", a) < std::pair(b.filename() != "progress.json", b);
+  });
+  answers.insert(answers.end(), data.begin(), data.end());
+  return answers;
+}
+
+struct Found {
+  LivePage::Paths files, missing;
+};
+
+Found look(LivePage::Paths const& watched) {
+  Found found;
+  std::error_code ignored;
+  for (auto const& path : watched) {
+    auto const here = fs::is_directory(path, ignored) ? files_of(path) : LivePage::Paths{newest(path)};
+    for (auto const& file : here)
+      if (!file.empty()) found.files.push_back(file);
+    if (here.empty() || here.front().empty()) found.missing.push_back(path);
+  }
+  return found;
+}
+
+output::Json notice(std::string const& text) {
+  return {{"title", text}, {"steps", output::Json::array()}, {"done", false}};
+}
+
+output::ReportPage page_of(Found const& found, fs::path const& machine) {
+  output::ReportPage waiting("Waiting", fmt::format("ThermoTwin {} ({})", version(), commit()));
+  for (auto const& path : found.missing)
+    waiting.add_section("progress", notice(fmt::format("Nothing is in {} yet.", path.string())));
+  if (found.files.empty()) return waiting;
+  try {
+    return build_report({found.files, machine, {}}).page;
+  } catch (thermal::InputError const& error) {
+    waiting.add_section("progress", notice(error.what()));
+    return waiting;
+  }
+}
+
+}  // namespace
+
+LivePage::LivePage(Paths watched, fs::path machine) : watched_(std::move(watched)), machine_(std::move(machine)) {}
+
+void LivePage::renew() {
+  auto const found = look(watched_);
+  Stamp stamp;
+  std::error_code ignored;
+  for (auto const& file : found.files)
+    stamp.push_back(
+        {file.string(), {fs::last_write_time(file, ignored).time_since_epoch().count(), fs::file_size(file, ignored)}});
+  if (revision_ > 0 && stamp == stamp_) return;
+  stamp_ = stamp;
+  auto page = page_of(found, machine_);
+  page.set_revision(++revision_);
+  html_ = page.html();
+  news_ = page.news();
+}
+
+std::string LivePage::html() {
+  std::scoped_lock const lock(asked_);
+  renew();
+  return html_;
+}
+
+std::optional<std::string> LivePage::news(std::uint64_t after) {
+  std::scoped_lock const lock(asked_);
+  renew();
+  if (after == revision_) return {};
+  return news_;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace thermotwin::twin {
+
+/// The report page of files that change: built anew when one of them has, and asked for.
+///
+/// A data set that a run still writes is shown from `<name>.partial`; of a folder everything is shown that a command
+/// left or keeps in it: `progress.json`, answers (`.json`) and data sets (`.h5`). What is not there yet is waited for,
+/// and what cannot be read is said in its place. Safe to be asked from several threads.
+class LivePage {
+ public:
+  using Paths = std::vector<std::filesystem::path>;
+
+  explicit LivePage(Paths watched, std::filesystem::path machine = {});
+
+  /// The page as it is now, HTML.
+  [[nodiscard]] std::string html();
+
+  /// What a page of an older revision than the present one needs (ReportPage::news); none when it is as new.
+  [[nodiscard]] std::optional<std::string> news(std::uint64_t after);
+
+ private:
+  using Stamp = std::vector<std::pair<std::string, std::pair<std::int64_t, std::uintmax_t>>>;
+
+  void renew();
+
+  Paths watched_;
+  std::filesystem::path machine_;
+  std::mutex asked_;
+  Stamp stamp_;
+  std::uint64_t revision_ = 0;
+  std::string html_, news_;
+};
+
+}  // namespace thermotwin::twin
