@@ -1,0 +1,187 @@
+#include "twin/command_line_compensate.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+#include <optional>
+#include <unistd.h>
+
+#include "output/atomic_file.h"
+#include "output/dataset_file.h"
+#include "thermal/error.h"
+#include "thermal/units.h"
+#include "twin/compensation/compensate.h"
+#include "twin/compensation/play.h"
+#include "twin/error_model_file.h"
+#include "twin/fit_error_model.h"
+#include "twin/progress.h"
+
+namespace thermotwin::twin {
+namespace {
+
+namespace dimension = thermal::dimension;
+using thermal::parse_value;
+
+constexpr double um_per_m = 1e6;
+
+double um(std::string const& text) { return um_per_m * parse_value(text, dimension::length); }
+
+/// What both sides of the broker are told.
+struct ConnectionArguments {
+  BrokerOptions broker;
+  Topics topics;
+  std::string axis = "X", channel = "E_X";
+  double speed = 1.0;
+
+  void add_to(CLI::App& command);
+};
+
+void ConnectionArguments::add_to(CLI::App& command) {
+  command.add_option("--broker", broker.url, "mqtt://HOST:1883, or mqtts://HOST:8883 for TLS")->capture_default_str();
+  command.add_option("--user", broker.user, "name at the broker");
+  command.add_option("--password-file", broker.password_file, "file whose first line is the password");
+  command.add_option("--ca", broker.ca_file,
+                     "certificates (PEM) that the broker's must come from; default: the system's");
+  command.add_option("--certificate", broker.certificate_file, "ours (PEM), where the broker wants one");
+  command.add_option("--key", broker.key_file, "of our certificate (PEM)");
+  command.add_option("--prefix", topics.prefix, "of all topics")->capture_default_str();
+  command.add_option("--axis", axis, "that the offset moves")->capture_default_str();
+  command.add_option("--channel", channel, "displacement that the offset works against")->capture_default_str();
+  command.add_option("--speed", speed, "seconds of the run per second; the same on both sides")->capture_default_str();
+}
+
+struct CompensateCommand : ConnectionArguments {
+  std::string model, machine;
+  std::string cycle = "10 s", resolution = "1 um", dead_band = "1 um", slew = "1 um/s", largest = "50 um";
+  std::string stale = "60 s", stuck = "10 min", jump = "0.3 K", fastest = "0.02 K/s";
+  std::string lowest = "-20 degC", highest = "120 degC", hold = "10 min", fade = "10 min";
+
+  void add_to(CLI::App& command);
+  void operator()(std::atomic<bool> const& stop) const;
+  [[nodiscard]] LiveModel live_model() const;
+  [[nodiscard]] CompensationSettings settings() const;
+};
+
+void CompensateCommand::add_to(CLI::App& command) {
+  auto* saved = command.add_option("--model", model, "saved error model (thermotwin fit)");
+  command
+      .add_option("--observer", machine, "instead of a model: the machine, file or name, running beside the real one")
+      ->excludes(saved);
+  ConnectionArguments::add_to(command);
+  auto const option = [&](char const* name, std::string& value, char const* meaning) {
+    command.add_option(name, value, meaning)->capture_default_str();
+  };
+  option("--cycle", cycle, "between two decisions");
+  option("--resolution", resolution, "of the controller's origin shift");
+  option("--dead-band", dead_band, "smaller changes are not followed");
+  option("--slew", slew, "fastest change of the offset");
+  option("--largest", largest, "offset of either sign");
+  option("--stale", stale, "a sensor is at fault without a message for this time");
+  option("--stuck", stuck, "a sensor is at fault that shows one number for this time");
+  option("--jump", jump, "change of a reading that noise may make");
+  option("--fastest", fastest, "change of a sensor's temperature that the machine can make");
+  option("--lowest", lowest, "reading that a sensor may show");
+  option("--highest", highest, "reading that a sensor may show");
+  option("--hold", hold, "how long the last good offset stands when a sensor fails");
+  option("--fade", fade, "and how long it then takes to nothing");
+}
+
+LiveModel CompensateCommand::live_model() const {
+  if (model.empty() && machine.empty())
+    throw thermal::InputError("compensate needs --model FILE or --observer MACHINE");
+  if (machine.empty()) return SavedModel(read_error_model(model));
+  return TwinObserver(Machine::read(machine_file(machine)), channel);
+}
+
+CompensationSettings CompensateCommand::settings() const {
+  CompensationSettings result;
+  result.shift = {um(resolution), um(dead_band), um_per_m * parse_value(slew, dimension::speed), um(largest)};
+  result.watch = {parse_value(stale, dimension::time),
+                  parse_value(stuck, dimension::time),
+                  parse_value(jump, dimension::temperature_difference),
+                  parse_value(fastest, dimension::temperature_rate),
+                  thermal::to_unit(thermal::parse_temperature(lowest), "degC"),
+                  thermal::to_unit(thermal::parse_temperature(highest), "degC")};
+  result.fallback = {parse_value(hold, dimension::time), parse_value(fade, dimension::time)};
+  return result;
+}
+
+void CompensateCommand::operator()(std::atomic<bool> const& stop) const {
+  auto const set = settings();
+  CompensateOptions options{broker, topics, axis, {}, {}};
+  options.broker.client = fmt::format("thermotwin-compensate-{}-{}", topics.prefix, axis);
+  options.loop = {parse_value(cycle, dimension::time), speed, 0.5 * set.watch.stale_time};
+  options.say = [](std::string const& line) { fmt::print(stderr, "{}\n", line); };
+  fmt::print("{}", summary_text(compensate(Compensator(live_model(), set), options, stop)));
+}
+
+struct PlayCommand : ConnectionArguments {
+  std::string run, output, largest = "100 um", slew = "5 um/s";
+  bool quiet = false;
+
+  void add_to(CLI::App& command);
+  void operator()(std::atomic<bool> const& stop) const;
+};
+
+void PlayCommand::add_to(CLI::App& command) {
+  command.add_option("run", run, "data set (HDF5) to play")->required();
+  ConnectionArguments::add_to(command);
+  command.add_option("--largest", largest, "offset that this machine accepts")->capture_default_str();
+  command.add_option("--slew", slew, "fastest change that this machine makes")->capture_default_str();
+  command.add_option("--output,-o", output, "CSV to write: error, offset and what is left");
+  command.add_flag("--quiet,-q", quiet, "no progress");
+}
+
+void PlayCommand::operator()(std::atomic<bool> const& stop) const {
+  VirtualMachineSettings settings{channel, axis, {}, {}};
+  settings.limits.largest = um(largest);
+  settings.limits.slew = um_per_m * parse_value(slew, dimension::speed);
+  PlayOptions options{broker, topics, speed, 10.0, {}, {}};
+  options.broker.client = fmt::format("thermotwin-play-{}-{}-{}", topics.prefix, axis, ::getpid());
+  options.say = [](std::string const& line) { fmt::print(stderr, "{}\n", line); };
+  std::optional<Progress> bar;
+  if (!quiet) {
+    bar.emplace(run);
+    options.progress = [&](double share) { bar->show(share); };
+  }
+  auto const played = play(VirtualMachine(output::read(run), settings, topics), axis, options, stop);
+  bar.reset();
+  if (!output.empty()) output::write_atomically(output, played_csv(played));
+  fmt::print("{}", played_text(played));
+}
+
+void add_fit(CLI::App& app) {
+  auto* command = app.add_subcommand("fit", "fit an error model to runs and save it");
+  auto fit = std::make_shared<ErrorModelFit>();
+  auto file = std::make_shared<std::string>();
+  command->add_option("runs", fit->runs, "data sets (HDF5)")->required();
+  command->add_option("--error", fit->error, "displacement to explain")->capture_default_str();
+  command->add_option("--sensors", fit->sensors, "temperatures to explain it by; default: all")->delimiter(',');
+  command->add_option("--method", fit->method, "linear, ridge, ridge_distributed_lag, …: docs/study.md")
+      ->capture_default_str();
+  command->add_option("--seed", fit->seed, "of random starts")->capture_default_str();
+  command->add_option("--output,-o", *file, "error model to write (TOML)")->required();
+  command->callback([fit, file] {
+    auto const model = fit_error_model(*fit);
+    write_error_model(*file, model);
+    fmt::print("{} of {} on {}{}{}\n", model.method, fit->error, fmt::join(model.inputs, ", "),
+               model.remark.empty() ? "" : ": ", model.remark);
+  });
+}
+
+}  // namespace
+
+void add_compensation_commands(CLI::App& app, std::atomic<bool> const& stop) {
+  add_fit(app);
+  auto compensate = std::make_shared<CompensateCommand>();
+  auto* command = app.add_subcommand("compensate", "tell a controller its thermal error, live, over an MQTT broker");
+  compensate->add_to(*command);
+  command->callback([compensate, &stop] { (*compensate)(stop); });
+  auto play = std::make_shared<PlayCommand>();
+  command = app.add_subcommand("play", "a recorded run as a virtual machine that applies the offsets it receives");
+  play->add_to(*command);
+  command->callback([play, &stop] { (*play)(stop); });
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,103 @@
+#include "twin/compensation/compensation_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
+
+#include "thermal/error.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr std::size_t most_reasons = 100;
+constexpr std::size_t most_pending = 100'000;  ///< between two decisions
+constexpr double furthest_time = 1e11;         ///< so that seconds and their fractions are still numbers [s]
+
+void require(bool holds, char const* what, double value) {
+  if (!holds) throw thermal::InputError(fmt::format("{} of {:g}: it must be positive", what, value));
+}
+
+}  // namespace
+
+CompensationLoop::CompensationLoop(Compensator compensator, LoopSettings const& settings, Topics topics)
+    : compensator_(std::move(compensator)),
+      settings_(settings),
+      clock_(settings.speed, settings.tolerance),
+      read_(compensator_.inputs().size(), -std::numeric_limits<double>::infinity()) {
+  require(settings.cycle > 0, "a cycle", settings.cycle);
+  require(settings.speed > 0, "a speed", settings.speed);
+  for (std::size_t i = 0; i < compensator_.inputs().size(); ++i) input_of_[topics.of(compensator_.inputs()[i])] = i;
+}
+
+std::vector<std::string> CompensationLoop::topics() const {
+  std::vector<std::string> names;
+  for (auto const& [topic, input] : input_of_) names.push_back(topic);
+  return names;
+}
+
+void CompensationLoop::refuse(std::string const& reason) {
+  bool const known = refusals_.contains(reason);
+  ++refusals_[known || refusals_.size() < most_reasons ? reason : "others"];
+}
+
+void CompensationLoop::keep(std::string const& topic, std::string_view payload, double wall) {
+  ++messages_;
+  auto const input = input_of_.find(topic);
+  if (input == input_of_.end()) return refuse("a topic that was not subscribed to");
+  auto const message = read_payload(payload);
+  auto const& expected = compensator_.inputs()[input->second].name;
+  if (auto const* reason = std::get_if<std::string>(&message)) return refuse(expected + ": " + *reason);
+  auto const& reading = std::get<Reading>(message);
+  if (reading.name != expected) return refuse(expected + ": another name than its topic's");
+  if (!(std::abs(reading.time) <= furthest_time)) return refuse(expected + ": no such time");
+  if (pending_.size() >= most_pending) return refuse("more messages than can be taken");
+  if (!clock_.follow(reading.time, wall)) return refuse(expected + ": from the future");
+  auto& last = read_[input->second];
+  last = std::max(last, reading.time);
+  pending_.push_back(reading);
+}
+
+/// Whether every input that is not at fault has been read for this cycle.
+bool CompensationLoop::complete(double now) const {
+  bool one = false;
+  for (std::size_t i = 0; i < read_.size(); ++i) {
+    bool const is_read = read_[i] >= due_;
+    if (!is_read && compensator_.fault(i, now) == SensorFault::none) return false;
+    if (!is_read && compensator_.last_time(i) == -std::numeric_limits<double>::infinity()) return false;
+    one = one || is_read;
+  }
+  return one;
+}
+
+Decision CompensationLoop::decide(double now) {
+  auto const decision = compensator_.step(now, pending_);
+  for (auto const& sentence : decision.refused) refuse(sentence);
+  pending_.clear();
+  due_ += settings_.cycle * (1.0 + std::floor(std::max(0.0, now - due_) / settings_.cycle));
+  return decision;
+}
+
+std::optional<Decision> CompensationLoop::take(std::string const& topic, std::string_view payload, double wall) {
+  keep(topic, payload, wall);
+  return idle(wall);
+}
+
+std::optional<Decision> CompensationLoop::idle(double wall) {
+  if (!clock_.started()) return std::nullopt;
+  double const now = clock_.now(wall);
+  if (!running_) due_ = now;
+  running_ = true;
+  if (complete(now) || now >= due_ + settings_.cycle) return decide(now);
+  return std::nullopt;
+}
+
+void CompensationLoop::require_inputs(double waited) const {
+  auto const unread = compensator_.unread();
+  if (unread.empty() || waited < settings_.start_time) return;
+  throw thermal::InputError(fmt::format("no reading of {} within {:g} s; the model needs every one of its inputs",
+                                        fmt::join(unread, ", "), settings_.start_time));
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "twin/compensation/compensator.h"
+#include "twin/compensation/model_clock.h"
+
+namespace thermotwin::twin {
+
+/// Where messages go: PREFIX/sensor/T2, PREFIX/input/spindle.speed, PREFIX/offset/X, PREFIX/report/X,
+/// PREFIX/status/WHO.
+struct Topics {
+  std::string prefix = "thermotwin";
+
+  [[nodiscard]] std::string of(ModelInput const& input) const {
+    return prefix + (input.sensor ? "/sensor/" : "/input/") + input.name;
+  }
+  [[nodiscard]] std::string offset(std::string const& axis) const { return prefix + "/offset/" + axis; }
+  [[nodiscard]] std::string report(std::string const& axis) const { return prefix + "/report/" + axis; }
+  [[nodiscard]] std::string status(std::string const& who) const { return prefix + "/status/" + who; }
+};
+
+struct LoopSettings {
+  double cycle = 10.0;       ///< between two decisions, on the senders' clock [s]
+  double speed = 1.0;        ///< of the senders' clock
+  double tolerance = 30.0;   ///< by which the clocks of senders may differ [s]
+  double start_time = 30.0;  ///< within which every input must have been read, on our clock [s]
+};
+
+/// From messages to decisions: everything but the broker. Whatever topic and payload, it throws nothing, and the offset
+/// obeys the limits of AxisShift with the time that passes on our own clock.
+///
+/// A decision is made as soon as every input that is not at fault has been read for this cycle; at the latest when the
+/// next cycle begins, messages or not.
+class CompensationLoop {
+ public:
+  CompensationLoop(Compensator compensator, LoopSettings const& settings, Topics topics = {});
+
+  /// What to subscribe to.
+  [[nodiscard]] std::vector<std::string> topics() const;
+
+  /// A message came at `wall` [s, steady].
+  std::optional<Decision> take(std::string const& topic, std::string_view payload, double wall);
+  /// Nothing came, but time passed.
+  std::optional<Decision> idle(double wall);
+
+  /// Messages that were not taken, by the reason; at most a hundred reasons, the others count as "others".
+  [[nodiscard]] std::map<std::string, long> const& refusals() const { return refusals_; }
+  [[nodiscard]] long messages() const { return messages_; }
+  [[nodiscard]] Compensator const& compensator() const { return compensator_; }
+
+  /// InputError that names the inputs which did not come in time.
+  void require_inputs(double waited) const;
+
+ private:
+  void refuse(std::string const& reason);
+  void keep(std::string const& topic, std::string_view payload, double wall);
+  [[nodiscard]] bool complete(double now) const;
+  Decision decide(double now);
+
+  Compensator compensator_;
+  LoopSettings settings_;
+  ModelClock clock_;
+  std::map<std::string, std::size_t> input_of_;  ///< by topic
+  std::vector<double> read_;                     ///< per input: time of its last message
+  std::vector<Reading> pending_;
+  double due_ = 0.0;
+  bool running_ = false;
+  std::map<std::string, long> refusals_;
+  long messages_ = 0;
+};
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,201 @@
+#include "twin/compensation/twin_observer.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "scenarios/course.h"
+#include "thermal/error.h"
+#include "thermal/nearest_name.h"
+#include "thermal/units.h"
+#include "twin/edge_unit.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int most_nodes = 400;
+constexpr double gamma_of_ros2 = 1.0 - 0.70710678118654752;
+constexpr char const* floor_temperature = "ambient.floor_temperature";
+constexpr double um_per_m = 1e6;
+
+Displacement displacement_of(Machine const& machine, std::string const& name) {
+  std::vector<std::string> known;
+  for (auto const& displacement : machine.displacements) {
+    if (displacement.name == name) return displacement;
+    known.push_back(displacement.name);
+  }
+  throw thermal::InputError(
+      fmt::format("the machine has no displacement '{}'; {}", name, thermal::did_you_mean(name, known)));
+}
+
+/// Edge unit of every channel that an experiment knows.
+std::string unit_of(std::vector<thermal::InputChannel> const& known, std::string const& name) {
+  auto const it = std::find_if(known.begin(), known.end(), [&](auto const& c) { return c.name == name; });
+  return it == known.end() ? "1" : edge_unit(*it);
+}
+
+double to_si(double number, std::string const& unit) { return unit == "1" ? number : thermal::from_unit(number, unit); }
+
+void require_observable(Machine const& machine) {
+  if (!machine.network().relays().empty())
+    throw thermal::InputError(fmt::format("the relay '{}' switches by itself; the twin observes no machine with relays",
+                                          machine.network().relays().front().name));
+  if (machine.network().nodes() > most_nodes)
+    throw thermal::InputError(fmt::format("{} has {} nodes; the twin observes machines of at most {}, in lumped form",
+                                          machine.name, machine.network().nodes(), most_nodes));
+}
+
+}  // namespace
+
+TwinObserver::TwinObserver(Machine machine, std::string const& displacement, ObserverOptions const& options)
+    : machine_(std::move(machine)), displacement_(displacement_of(machine_, displacement)), options_(options) {
+  require_observable(machine_);
+  list_channels();
+  list_inputs();
+  evaluation_ = std::make_shared<thermal::Evaluation>(machine_.network());
+}
+
+void TwinObserver::list_channels() {
+  auto const& network = machine_.network();
+  for (int i = 0; i < network.external_channels(); ++i) channels_.push_back({network.channel_names()[std::size_t(i)]});
+  for (auto const& term : displacement_.input_terms)
+    if (std::none_of(channels_.begin(), channels_.end(), [&](auto const& c) { return c.name == term.channel; }))
+      channels_.push_back({term.channel});
+}
+
+void TwinObserver::list_inputs() {
+  auto const known = scenarios::ExperimentCourse({}, machine_.limits).channels();
+  inputs_.push_back({"ambient.temperature", "degC", false, true});
+  for (auto const& channel : channels_)
+    if (channel.name != floor_temperature && channel.name != "ambient.temperature")
+      inputs_.push_back({channel.name, unit_of(known, channel.name), false, true});
+  for (std::size_t s = 0; s < machine_.sensors.size(); ++s)
+    if (!machine_.sensors[s].weights.empty()) {
+      inputs_.push_back({machine_.sensors[s].description.name, "degC", true, false});
+      sensors_.push_back(s);
+    }
+}
+
+double TwinObserver::given(std::string const& name, std::span<double const> values, double otherwise) const {
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    if (!inputs_[i].sensor && inputs_[i].name == name) return to_si(values[i], inputs_[i].unit);
+  return otherwise;
+}
+
+/// The air is taken to be as warm below as above unless the gradient is among the inputs.
+void TwinObserver::set_channels(std::span<double const> values) {
+  double const air = given("ambient.temperature", values, 0.0);
+  for (auto& channel : channels_) channel.value = given(channel.name, values, air);
+}
+
+double TwinObserver::seen(NodeWeights const& weights) const {
+  double sum = 0.0;
+  for (auto const& [node, weight] : weights)
+    sum += weight * machine_.network().temperature_of_state(node, state_[node]);
+  return sum;
+}
+
+VectorXd TwinObserver::gradient(NodeWeights const& weights) const {
+  VectorXd h = VectorXd::Zero(state_.size());
+  auto const& network = machine_.network();
+  for (auto const& [node, weight] : weights) {
+    double const warmer = network.temperature_of_state(node, state_[node]) - 293.15;
+    h[node] += weight / (1.0 + network.capacity_slope()[std::size_t(node)] * warmer);
+  }
+  return h;
+}
+
+double TwinObserver::displaced() const {
+  double sum = seen(displacement_.weights);
+  for (auto const& term : displacement_.input_terms)
+    for (auto const& channel : channels_)
+      if (channel.name == term.channel)
+        sum += term.coefficient * (std::pow(channel.value, term.power) - std::pow(channel.first, term.power));
+  return um_per_m * sum;
+}
+
+void TwinObserver::start(double time, std::span<double const> values) {
+  auto const& network = machine_.network();
+  set_channels(values);
+  for (auto& channel : channels_) channel.first = channel.value;
+  double const air = given("ambient.temperature", values, 0.0);
+  state_.resize(network.nodes());
+  for (int i = 0; i < network.nodes(); ++i)
+    state_[i] = network.state_of_temperature(i, network.signals()[std::size_t(i)] ? 0.0 : air);
+  covariance_ = MatrixXd::Zero(state_.size(), state_.size());
+  zero_readings_ = VectorXd::Map(values.data(), Index(values.size())).tail(Index(sensors_.size()));
+  for (std::size_t const s : sensors_) zero_seen_.push_back(seen(machine_.sensors[s].weights));
+  zero_displaced_ = displaced();
+  time_ = time;
+  started_ = true;
+}
+
+void TwinObserver::step(double h) {
+  std::vector<double> input(std::size_t(machine_.network().channels()));
+  for (int i = 0; i < machine_.network().external_channels(); ++i)
+    input[std::size_t(i)] = channels_[std::size_t(i)].value;
+  Index const n = state_.size();
+  MatrixXd const jacobian = evaluation_->jacobian(state_.data(), input.data());
+  MatrixXd const identity = MatrixXd::Identity(n, n);
+  Eigen::PartialPivLU<MatrixXd> const stage(identity - gamma_of_ros2 * h * jacobian);
+  VectorXd rate(n);
+  evaluation_->rate(state_.data(), input.data(), rate.data());
+  VectorXd const k1 = stage.solve(rate);
+  VectorXd const ahead = state_ + h * k1;
+  evaluation_->rate(ahead.data(), input.data(), rate.data());
+  VectorXd const k2 = stage.solve(rate - 2.0 * k1);
+  state_ += h * (1.5 * k1 + 0.5 * k2);
+
+  Eigen::PartialPivLU<MatrixXd> const implicit(identity - h * jacobian);
+  MatrixXd const moved = implicit.solve(covariance_);
+  covariance_ = implicit.solve(moved.transpose());
+  for (Index i = 0; i < n; ++i)
+    if (!machine_.network().signals()[std::size_t(i)])
+      covariance_(i, i) += options_.heat_noise * options_.heat_noise * h;
+}
+
+void TwinObserver::advance(double time) {
+  double const steps = std::ceil((time - time_) / options_.longest_step);
+  for (int i = 0; i < int(steps); ++i) step((time - time_) / steps);
+  time_ = time;
+}
+
+/// One sensor after another, with the Joseph form of the covariance, which keeps it symmetric and positive.
+void TwinObserver::correct(std::span<double const> values, double elapsed) {
+  double const variance = options_.sensor_noise * options_.sensor_noise / elapsed;
+  auto const readings = values.last(sensors_.size());
+  for (std::size_t j = 0; j < sensors_.size(); ++j) {
+    if (std::isnan(readings[j])) continue;
+    if (std::isnan(zero_readings_[Index(j)])) zero_readings_[Index(j)] = readings[j];
+    auto const& weights = machine_.sensors[sensors_[j]].weights;
+    double const missed = readings[j] - zero_readings_[Index(j)] - (seen(weights) - zero_seen_[j]);
+    VectorXd const h = gradient(weights);
+    VectorXd const gain = covariance_ * h / (h.dot(covariance_ * h) + variance);
+    state_ += gain * missed;
+    MatrixXd const kept = MatrixXd::Identity(state_.size(), state_.size()) - gain * h.transpose();
+    covariance_ = (kept * covariance_ * kept.transpose() + variance * gain * gain.transpose()).eval();
+  }
+}
+
+double TwinObserver::error(double time, std::span<double const> values) {
+  if (!started_) start(time, values);
+  if (double const elapsed = time - time_; elapsed > 0.0) {
+    advance(time);
+    set_channels(values);
+    correct(values, elapsed);
+  }
+  return displaced() - zero_displaced_;
+}
+
+VectorXd TwinObserver::temperatures() const {
+  VectorXd result(state_.size());
+  for (Index i = 0; i < result.size(); ++i) result[i] = machine_.network().temperature_of_state(int(i), state_[i]);
+  return result;
+}
+
+}  // namespace thermotwin::twin

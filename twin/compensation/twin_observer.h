@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "thermal/evaluation.h"
+#include "twin/compensation/model_input.h"
+#include "twin/machine.h"
+
+namespace thermotwin::twin {
+
+struct ObserverOptions {
+  double heat_noise = 5e-3;    ///< of the twin: deviation of each node's temperature after one second [K/√s]
+  double sensor_noise = 0.05;  ///< of a reading, with what its place differs from its node [K]
+  double longest_step = 10.0;  ///< of the integration [s]
+};
+
+/// The twin running beside the machine, driven by its inputs and corrected by its sensors: an extended Kalman filter
+/// (Jazwinski, Stochastic Processes and Filtering Theory, 1970, §8.3) on the network's own equations,
+///
+///   dy/dt = f(y, u) + w,   z_j = Σ w_ji T_i(y) + v_j,   P ← Φ P Φᵀ + q h I,  Φ = (I − h ∂f/∂y)⁻¹
+///
+/// integrated with ROS2 (Verwer, Spee, Blom, Hundsdorfer, SIAM J. Sci. Comput. 20 (1999) 1456: two stages, L-stable,
+/// order 2), its sensors taken one by one. The error is what its displacement channel makes of its nodes.
+///
+/// The machine is at the temperature of the air when the first readings come; readings count as changes since then, so
+/// that constant offsets of the sensors do not matter. A sensor that is not believed is left out, and the twin goes on;
+/// an input that is missing leaves it without an estimate.
+class TwinObserver {
+ public:
+  /// InputError for a displacement that the machine does not have, a machine with relays (whose switching the observer
+  /// would have to guess), or more nodes than a dense covariance is made for.
+  TwinObserver(Machine machine, std::string const& displacement, ObserverOptions const& options = {});
+
+  /// The machine's inputs, required, then its sensors on bodies, each by itself dispensable.
+  [[nodiscard]] std::vector<ModelInput> const& inputs() const { return inputs_; }
+  /// Thermal error [µm] at `time` [s], which never goes back. NaN among the sensors: not believed.
+  [[nodiscard]] double error(double time, std::span<double const> values);
+
+  [[nodiscard]] Eigen::VectorXd temperatures() const;  ///< of the nodes, as estimated [K]
+
+ private:
+  /// A channel that the network or the displacement needs, in SI.
+  struct Channel {
+    std::string name;
+    double value = 0.0, first = 0.0;
+  };
+  void list_channels();
+  void list_inputs();
+  void start(double time, std::span<double const> values);
+  void set_channels(std::span<double const> values);
+  [[nodiscard]] double given(std::string const& name, std::span<double const> values, double otherwise) const;
+  void advance(double time);
+  void step(double h);
+  void correct(std::span<double const> values, double elapsed);
+  [[nodiscard]] double seen(NodeWeights const& weights) const;
+  [[nodiscard]] Eigen::VectorXd gradient(NodeWeights const& weights) const;
+  [[nodiscard]] double displaced() const;
+
+  Machine machine_;
+  Displacement displacement_;
+  ObserverOptions options_;
+  std::vector<Channel> channels_;  ///< those of the network first, in its order
+  std::vector<ModelInput> inputs_;
+  std::vector<std::size_t> sensors_;  ///< of the machine: the last of the inputs
+  std::shared_ptr<thermal::Evaluation> evaluation_;
+
+  bool started_ = false;
+  double time_ = 0.0;
+  Eigen::VectorXd state_, zero_readings_;
+  std::vector<double> zero_seen_;  ///< per sensor [K]
+  Eigen::MatrixXd covariance_;
+  double zero_displaced_ = 0.0;
+};
+
+}  // namespace thermotwin::twin
