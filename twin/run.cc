@@ -7,22 +7,15 @@
 #include "output/dataset_file.h"
 #include "output/fields.h"
 #include "output/picture.h"
-#include "scenarios/course.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
+#include "twin/checkpoint.h"
+#include "twin/edge_unit.h"
 #include "twin/history.h"
 #include "twin/version.h"
 
 namespace thermotwin::twin {
 namespace {
-
-/// How a channel of the course is shown at the edge: rpm, °C, mm/min, mm.
-std::string edge_unit(thermal::InputChannel const& channel) {
-  if (channel.unit == "rad/s") return "rpm";
-  if (channel.unit == "K") return channel.name.ends_with("offset") ? "K" : "degC";
-  if (channel.unit == "m/s") return "mm/min";
-  return channel.unit == "m" ? "mm" : channel.unit;
-}
 
 double to_edge(double si, std::string const& unit) { return unit == "1" ? si : thermal::to_unit(si, unit); }
 
@@ -33,6 +26,7 @@ class Recorder {
            RunOptions const& options);
   void operator()(thermal::Sample const& sample);
   output::Dataset finish(std::map<std::string, std::string> const& provenance);
+  [[nodiscard]] output::Dataset const& dataset() const { return dataset_; }
 
  private:
   output::Dataset make_head() const;
@@ -72,9 +66,7 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
       inputs_(course.channels().size()),
       watts_(machine.network().parts().size()) {
   for (std::size_t i = 0; i < course.channels().size(); ++i)
-    if (auto const& name = course.channels()[i].name;
-        name != "ambient.floor_temperature" && !name.starts_with("clock."))
-      shown_inputs_.push_back(i);
+    if (is_shown(course.channels()[i])) shown_inputs_.push_back(i);
   for (std::size_t p = 0; p < machine.network().parts().size(); ++p)
     if (!machine.network().parts()[p].starts_with("joint.") && machine.network().parts()[p] != "conduction")
       shown_parts_.push_back(p);
@@ -90,10 +82,7 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
 output::Dataset Recorder::make_head() const {
   output::Dataset head;
   head.title = fmt::format("{}: {}", machine_.name, experiment_.title);
-  for (std::size_t i : shown_inputs_) {
-    auto const& channel = course_.channels()[i];
-    head.inputs.push_back({channel.name, edge_unit(channel), channel.description, {}});
-  }
+  head.inputs = input_channels(course_);
   for (auto const& sensor : machine_.sensors)
     head.readings.push_back({sensor.description.name, "degC", sensor.description.title, {}});
   head.displacements = displacement_channels(machine_);
@@ -109,6 +98,10 @@ output::Dataset Recorder::make_head() const {
   head.provenance["version"] = std::string(version());
   head.provenance["commit"] = std::string(commit());
   head.provenance["seed"] = std::to_string(experiment_.seed);
+  head.provenance["nodes"] = options_.node_temperatures ? "yes" : "no";
+  head.provenance["tolerance.relative"] = thermal::format_number(options_.integration.relative_tolerance);
+  head.provenance["tolerance.absolute_K"] = thermal::format_number(options_.integration.absolute_tolerance);
+  head.provenance["checkpoint_s"] = thermal::format_number(options_.checkpoint_interval);
   return head;
 }
 
@@ -301,15 +294,39 @@ std::vector<double> initial_temperatures(Machine const& machine, scenarios::Expe
   return temperatures;
 }
 
+std::vector<output::Channel> input_channels(scenarios::ExperimentCourse const& course) {
+  std::vector<output::Channel> channels;
+  for (auto const& channel : course.channels())
+    if (is_shown(channel)) channels.push_back({channel.name, edge_unit(channel), channel.description, {}});
+  return channels;
+}
+
 RunResult run(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options) {
   scenarios::ExperimentCourse const course(experiment, machine.limits);
   auto const times = scenarios::sample_times(experiment);
-  auto const start = initial_temperatures(machine, experiment, course);
+  auto const& network = machine.network();
+  auto state = thermal::start_of_run(network, initial_temperatures(machine, experiment, course), times.front());
   Recorder recorder(machine, experiment, course, options);
+  std::optional<Checkpoint> checkpoint;
+  std::size_t done = 0;
+  if (options.checkpoint) {
+    checkpoint.emplace(*options.checkpoint, recorder.dataset().provenance, options.resume);
+    done = checkpoint->replay(network, state, [&](thermal::Sample const& sample) { recorder(sample); });
+  }
+  auto const observe = [&](thermal::Sample const& sample) {
+    recorder(sample);
+    if (checkpoint) checkpoint->keep(sample);
+  };
+  for (std::size_t const end : stretches(times, options.checkpoint_interval)) {
+    if (end <= done) continue;
+    integrate(network, course, state, std::span(times).subspan(done, end - done), options.integration, observe);
+    done = end;
+    if (checkpoint && done < times.size()) checkpoint->write(state);
+  }
   RunResult result;
-  result.summary = thermal::integrate(machine.network(), course, start, times, options.integration,
-                                      [&](thermal::Sample const& sample) { recorder(sample); });
+  result.summary = state.summary;
   result.dataset = recorder.finish(solver_provenance(result.summary));
+  if (checkpoint) checkpoint->remove();
   return result;
 }
 

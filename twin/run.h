@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "output/dataset.h"
+#include "scenarios/course.h"
 #include "scenarios/experiment.h"
 #include "thermal/integrate.h"
 #include "twin/machine.h"
@@ -31,6 +32,13 @@ struct RunOptions {
   double field_interval = 900.0;                  ///< between two frames [s]
   bool node_temperatures = false;                 ///< keep every node's course in the data set
   std::map<std::string, std::string> provenance;  ///< echo of the input files and the command
+  /// File from which a killed run can be taken up; it goes when the run is done. InputError when there is one already
+  /// and `resume` is not asked for, or when it is of another run.
+  std::optional<std::filesystem::path> checkpoint;
+  bool resume = false;  ///< go on from the checkpoint, if there is one
+  /// The integrator starts anew at the first output time after each multiple of this [s], whether a checkpoint is
+  /// written or not: a run that is taken up there gives the same bytes. 0: never.
+  double checkpoint_interval = 0.0;
   /// Called now and then with the share done, 0…1.
   std::function<void(double)> progress;
   /// Set from outside (Ctrl-C) to stop at the next output time; the data set is then marked as partial.
@@ -44,6 +52,9 @@ struct RunResult {
 
 /// Runs an experiment on a machine: temperatures, displacements, instruments, fields.
 [[nodiscard]] RunResult run(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options);
+
+/// The inputs of a course as a data set shows them, without their values: names, units of the edge, descriptions.
+[[nodiscard]] std::vector<output::Channel> input_channels(scenarios::ExperimentCourse const& course);
 
 /// Temperatures of all nodes at the start: as the experiment says, or the air around each.
 [[nodiscard]] std::vector<double> initial_temperatures(Machine const& machine, scenarios::Experiment const& experiment,

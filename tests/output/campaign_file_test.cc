@@ -1,0 +1,98 @@
+#include "output/campaign_file.h"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include "tests/output/temporary_directory.h"
+#include "thermal/error.h"
+
+namespace thermotwin::output {
+namespace {
+
+using Kind = CampaignVariable::Kind;
+
+/// Two sensors, three times.
+CampaignLayout layout() {
+  CampaignLayout layout;
+  layout.title = "example";
+  layout.axes = {{"time", "s", "time", Eigen::VectorXd::LinSpaced(3, 0.0, 120.0)},
+                 {"reading", "1", "sensor", std::vector<std::string>{"T1", "T2"}}};
+  layout.variables = {{Kind::whole, "seed", "1", "", {}},
+                      {Kind::real64, "parameters/a.b", "W/K", "", {}},
+                      {Kind::real32, "readings", "degC", "", {"time", "reading"}}};
+  layout.provenance = {{"campaign.file", "experiments = []\n"}};
+  return layout;
+}
+
+float reading(std::int64_t run, int row, int channel) { return float(100 * run + 10 * row + channel); }
+
+CampaignPart part(std::int64_t first, std::int64_t count) {
+  CampaignPart part{first, count, {}, {}};
+  std::vector<std::int64_t> seeds;
+  std::vector<double> values;
+  std::vector<float> readings;
+  for (auto run = first; run < first + count; ++run) {
+    seeds.push_back(1000 + run);
+    values.push_back(0.1 * double(run));
+    for (int row = 0; row < 3; ++row)
+      for (int channel = 0; channel < 2; ++channel) readings.push_back(reading(run, row, channel));
+  }
+  part.values = {seeds, values, readings};
+  return part;
+}
+
+template <class T>
+std::vector<T> read(std::filesystem::path const& path, char const* name, hid_t type, std::vector<hsize_t> const& due) {
+  hid_t const file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), set = H5Dopen2(file, name, H5P_DEFAULT);
+  hid_t const space = H5Dget_space(set);
+  std::vector<hsize_t> shape(due.size());
+  EXPECT_EQ(H5Sget_simple_extent_ndims(space), int(due.size()));
+  H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  EXPECT_EQ(shape, due);
+  std::vector<T> values(std::size_t(H5Sget_simple_extent_npoints(space)));
+  EXPECT_GE(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+  H5Sclose(space);
+  H5Dclose(set);
+  H5Fclose(file);
+  return values;
+}
+
+TEST(CampaignFile, TheIndexShowsAllPartsAsOne) {
+  tests::TemporaryDirectory const directory;
+  std::filesystem::create_directory(directory / "parts");
+  write_part(layout(), part(0, 4), directory / "parts/0.h5");
+  write_part(layout(), part(4, 3), directory / "parts/1.h5");
+  write_index(layout(), {{"parts/0.h5", 0, 4}, {"parts/1.h5", 4, 3}}, directory / "campaign.h5");
+  // Opened from another folder: the parts are found beside the index.
+  auto const whole = directory / "campaign.h5";
+  auto const readings = read<float>(whole, "/readings", H5T_NATIVE_FLOAT, {7, 3, 2});
+  for (int run = 0; run < 7; ++run)
+    for (int row = 0; row < 3; ++row)
+      for (int channel = 0; channel < 2; ++channel)
+        EXPECT_EQ(readings[std::size_t(6 * run + 2 * row + channel)], reading(run, row, channel));
+  EXPECT_EQ(read<std::int64_t>(whole, "/run", H5T_NATIVE_INT64, {7}), (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(read<std::int64_t>(whole, "/seed", H5T_NATIVE_INT64, {7})[6], 1006);
+  EXPECT_EQ(read<double>(whole, "/parameters/a.b", H5T_NATIVE_DOUBLE, {7})[5], 0.5);
+  EXPECT_EQ(read<double>(whole, "/time", H5T_NATIVE_DOUBLE, {3})[2], 120.0);
+}
+
+TEST(CampaignFile, FailuresAreReadBack) {
+  tests::TemporaryDirectory const directory;
+  auto failed = part(4, 3);
+  failed.failures = {{5, "the integration stopped at 3 s"}, {6, "ä µ"}};
+  write_part(layout(), failed, directory / "part.h5");
+  EXPECT_EQ(read_failures(directory / "part.h5"), failed.failures);
+  write_part(layout(), part(4, 3), directory / "part.h5");
+  EXPECT_TRUE(read_failures(directory / "part.h5").empty());
+  tests::put(directory / "none.h5", "no HDF5");
+  EXPECT_THROW(static_cast<void>(read_failures(directory / "none.h5")), thermal::InputError);
+}
+
+TEST(CampaignFile, SamePartSameBytes) {
+  tests::TemporaryDirectory const directory;
+  for (auto const* name : {"a.h5", "b.h5"}) write_part(layout(), part(0, 4), directory / name);
+  EXPECT_TRUE(tests::contents(directory / "a.h5") == tests::contents(directory / "b.h5"));
+}
+
+}  // namespace
+}  // namespace thermotwin::output

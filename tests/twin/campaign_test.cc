@@ -1,0 +1,269 @@
+#include "twin/campaign/campaign.h"
+
+#include <gtest/gtest.h>
+#include <map>
+#include <omp.h>
+#include <set>
+
+#include "output/error.h"
+#include "output/locked_file.h"
+#include "tests/output/temporary_directory.h"
+#include "thermal/error.h"
+#include "twin/campaign/latin_hypercube.h"
+#include "twin/campaign/run_campaign.h"
+
+namespace thermotwin::twin {
+namespace {
+
+namespace fs = std::filesystem;
+using tests::contents;
+using tests::TemporaryDirectory;
+
+/// 3 x 2 values, 2 cases, 2 experiments, 2 repetitions: 48 runs of two hours.
+std::string const example = R"toml(
+title = "example"
+experiments = ["golden_b_2000", "golden_b_6000"]
+machine = "v450"
+repetitions = 2
+seed = 100
+tolerance = 1e-3
+set = ["experiment.duration=2 h"]
+keep = ["readings", "summary"]
+part = 7
+
+[[grid]]
+path = "bearing.front.grease_factor"
+values = [0.4, 0.5, 0.6]
+
+[[grid]]
+path = "experiment.ambient.mean"
+from = "18 degC"
+to = "26 degC"
+count = 2
+
+[[case]]
+set = ["bearing.rear.grease_factor=0.5"]
+
+[[case]]
+set = ["bearing.rear.grease_factor=0.7", "experiment.ambient.drift=0.1 K/h"]
+)toml";
+
+Campaign read(TemporaryDirectory const& directory, std::string const& text) {
+  tests::put(directory / "campaign.toml", text);
+  return Campaign::read(directory / "campaign.toml");
+}
+
+std::string refusal(std::string const& text) {
+  TemporaryDirectory const directory;
+  try {
+    static_cast<void>(read(directory, text));
+  } catch (thermal::InputError const& error) {
+    std::string const what = error.what();
+    return what.substr(what.find("campaign.toml"));
+  }
+  return "no complaint";
+}
+
+std::string changed(std::string const& from, std::string const& to) {
+  auto text = example;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// Every file below a folder, by its path.
+std::map<std::string, std::string> files_in(fs::path const& folder) {
+  std::map<std::string, std::string> files;
+  for (auto const& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = contents(entry.path());
+  return files;
+}
+
+std::map<std::string, std::string> made(Campaign const& campaign, fs::path const& folder, int threads) {
+  int const before = omp_get_max_threads();
+  omp_set_num_threads(threads);
+  static_cast<void>(run_campaign(campaign, {folder, {}, {}, nullptr}));
+  omp_set_num_threads(before);
+  EXPECT_TRUE(finish_campaign(campaign, folder));
+  return files_in(folder);
+}
+
+TEST(LatinHypercube, HoldsOneSampleInEachStripOfEachDimension) {
+  for (std::int64_t count : {1, 2, 3, 5, 16, 17, 1000})
+    for (auto const* name : {"a", "b"}) {
+      std::set<std::int64_t> strips;
+      for (std::int64_t k = 0; k < count; ++k) {
+        double const x = latin_hypercube(k, count, 3, name);
+        ASSERT_TRUE(x >= 0.0 && x < 1.0);
+        strips.insert(std::int64_t(x * double(count)));
+      }
+      EXPECT_EQ(std::int64_t(strips.size()), count);
+    }
+}
+
+/// Uncorrelated: the sample correlation of two dimensions of n samples has deviation 1/sqrt(n).
+TEST(LatinHypercube, DimensionsAndSeedsHaveNothingInCommon) {
+  constexpr std::int64_t count = 4000;
+  auto const correlation = [](auto const& a, auto const& b) {
+    double sum = 0.0;
+    for (std::int64_t k = 0; k < count; ++k) sum += (a(k) - 0.5) * (b(k) - 0.5);
+    return 12.0 * sum / double(count);
+  };
+  auto const x = [](std::int64_t k) { return latin_hypercube(k, count, 1, "x"); };
+  EXPECT_NEAR(correlation(x, x), 1.0, 0.01);
+  EXPECT_NEAR(correlation(x, [](auto k) { return latin_hypercube(k, count, 1, "y"); }), 0.0, 4.0 / std::sqrt(count));
+  EXPECT_NEAR(correlation(x, [](auto k) { return latin_hypercube(k, count, 2, "x"); }), 0.0, 4.0 / std::sqrt(count));
+  EXPECT_NEAR(correlation(x, [&](auto k) { return x((k + 1) % count); }), 0.0, 4.0 / std::sqrt(count));
+  EXPECT_NEAR(correlation(x, [](auto k) { return double(k) / count; }), 0.0, 4.0 / std::sqrt(count));
+}
+
+TEST(Campaign, EveryCombinationOnceAndNeighboursShareAMachine) {
+  TemporaryDirectory const directory;
+  auto const campaign = read(directory, example);
+  ASSERT_EQ(campaign.runs(), 3 * 2 * 2 * 2 * 2);
+  ASSERT_EQ(campaign.parts(), 7);
+  std::set<std::string> all;
+  int changes = 0;
+  std::string last;
+  for (std::int64_t i = 0; i < campaign.runs(); ++i) {
+    auto const run = campaign.run(i);
+    EXPECT_EQ(run.seed, 100 + i);
+    std::string machine;
+    for (auto const& setting : run.settings)
+      if (!setting.of_experiment()) machine += text_of(setting) + " ";
+    if (machine != last) ++changes;
+    last = machine;
+    all.insert(campaign.command(run));
+  }
+  EXPECT_EQ(all.size(), 48u);
+  EXPECT_EQ(changes, 3 * 2 * 2);
+  auto const run = campaign.run(47);
+  EXPECT_EQ(run.positions, (std::vector<double>{0.6, 26.0}));
+  EXPECT_EQ(run.experiment, 1u);
+  EXPECT_EQ(campaign.experiment(run).ambient.mean, 299.15);
+  EXPECT_EQ(campaign.experiment(run).duration, 7200.0);
+}
+
+TEST(Campaign, AMillionRunsAreAFunctionOfTheirNumber) {
+  TemporaryDirectory const directory;
+  auto const campaign = read(directory, R"toml(
+experiments = ["spindle_random"]
+machine = "v450"
+[latin_hypercube]
+count = 1000000
+[[latin_hypercube.vary]]
+path = "bearing.front.grease_factor"
+from = 0.1
+to = 10
+scale = "log"
+[[latin_hypercube.vary]]
+path = "experiment.ambient.mean"
+from = "18 degC"
+to = "26 degC"
+)toml");
+  EXPECT_EQ(campaign.runs(), 1'000'000);
+  EXPECT_EQ(campaign.runs_per_part(), 1000);
+  double below_one = 0.0;
+  for (std::int64_t i = 0; i < 1000; ++i) {
+    auto const run = campaign.run(999 * i);
+    EXPECT_TRUE(run.positions[0] >= 0.1 && run.positions[0] <= 10.0 && run.positions[1] >= 18.0);
+    below_one += run.positions[0] < 1.0 ? 1e-3 : 0.0;
+  }
+  EXPECT_NEAR(below_one, 0.5, 0.06);
+  EXPECT_EQ(campaign.command(campaign.run(123'456)), campaign.command(campaign.run(123'456)));
+}
+
+TEST(Campaign, SameBytesWhateverThreadsSharesAndRestarts) {
+  TemporaryDirectory const directory;
+  auto const campaign = read(directory, example);
+  auto const expected = made(campaign, directory / "one", 1);
+  EXPECT_EQ(expected.size(), 7 + 4u);  // parts, campaign.h5, failures.csv, manifest.json, lock
+  EXPECT_TRUE(made(campaign, directory / "three", 3) == expected);
+  EXPECT_TRUE(made(campaign, directory / "three", 1) == expected);
+  for (int share : {2, 0, 1}) {
+    EXPECT_FALSE(finish_campaign(campaign, directory / "shares"));
+    static_cast<void>(run_campaign(campaign, {directory / "shares", {share, 3}, {}, nullptr}));
+  }
+  EXPECT_TRUE(finish_campaign(campaign, directory / "shares"));
+  EXPECT_TRUE(files_in(directory / "shares") == expected);
+  EXPECT_EQ(failed_runs(directory / "one"), 0);
+}
+
+/// Stopped again and again: each time a few runs further.
+TEST(Campaign, StoppedItGoesOnWithNothingTwice) {
+  TemporaryDirectory const directory;
+  auto const campaign = read(directory, example);
+  auto const expected = made(campaign, directory / "whole", 2);
+  std::int64_t sum = 0;
+  int stops = 0;
+  for (;;) {
+    std::atomic<bool> stop = false;
+    double first = -1.0;
+    CampaignOptions options{directory / "stopped", {}, {}, &stop};
+    options.progress = [&](double share) {
+      if (first < 0.0) first = share;
+      stop = share >= first + 0.1;
+    };
+    try {
+      sum += run_campaign(campaign, options).made;
+      break;
+    } catch (Interrupted const&) {
+      ++stops;
+    }
+  }
+  EXPECT_GE(stops, 3);
+  EXPECT_TRUE(finish_campaign(campaign, directory / "stopped"));
+  EXPECT_TRUE(files_in(directory / "stopped") == expected);
+  EXPECT_LT(sum, 48 - 10);
+}
+
+TEST(Campaign, AFailedRunIsRecordedAndTheOthersGoOn) {
+  TemporaryDirectory const directory;
+  std::string values;
+  for (int k = 0; k < 21; ++k) values += "\"4000 rpm\", ";  // beyond those that are tried beforehand
+  auto const campaign = read(directory, R"toml(
+experiments = ["golden_b_4000"]
+machine = "v450"
+tolerance = 1e-3
+keep = ["summary"]
+[[grid]]
+path = "spindle.maximum_speed"
+values = [)toml" + values + "\"1000 rpm\", \"4000 rpm\"]\n");
+  auto const files = made(campaign, directory / "out", 2);
+  EXPECT_EQ(failed_runs(directory / "out"), 1);
+  EXPECT_EQ(files.at("failures.csv").find("run,reason\n21,\""), 0u) << files.at("failures.csv");
+  EXPECT_NE(files.at("failures.csv").find("1000 rpm"), std::string::npos) << files.at("failures.csv");
+}
+
+TEST(Campaign, AFolderOfAnotherCampaignIsRefused) {
+  TemporaryDirectory const directory;
+  auto const campaign = read(directory, changed("part = 7", "part = 24"));
+  static_cast<void>(run_campaign(campaign, {directory / "out", {1, 2}, {}, nullptr}));
+  auto const other = read(directory, changed("[0.4,", "[0.3,"));
+  EXPECT_THROW(run_campaign(other, {directory / "out", {}, {}, nullptr}), thermal::InputError);
+  output::LockedFile const busy(directory / "out/parts/000000.journal", output::LockedFile::Busy::refuse);
+  EXPECT_THROW(run_campaign(campaign, {directory / "out", {}, {}, nullptr}), thermal::InputError);
+}
+
+TEST(Campaign, MistakesAreToldWithTheirPlace) {
+  EXPECT_EQ(refusal(changed("grease_factor\"\nvalues", "greese_factor\"\nvalues")),
+            "campaign.toml:13:8: parameter bearing.front.greese_factor: unknown key 'greese_factor'; did you mean "
+            "'grease_factor'?");
+  EXPECT_EQ(refusal(changed("bearing.front", "bearing.frnt")),
+            "campaign.toml:13:8: parameter 'bearing.frnt.grease_factor': there is no bearing named 'frnt'; did you "
+            "mean 'front'?");
+  EXPECT_EQ(refusal(changed("\"26 degC\"", "\"299 K\"")),
+            "campaign.toml:19:6: 'to' is in 'K' and 'from' in 'degC'; one unit is due");
+  EXPECT_EQ(refusal(changed("golden_b_6000", "golden_b_600")).substr(0, 38), "campaign.toml:3:1: there is no experim");
+  EXPECT_EQ(refusal(changed("\"summary\"", "\"sumary\"")),
+            "campaign.toml:9:21: there is no 'sumary' to keep; did you mean 'summary'?");
+  EXPECT_NE(refusal(changed("path = \"experiment.ambient.mean\"", "path = \"experiment.duration\"")).find("time axis"),
+            std::string::npos);
+  EXPECT_NE(refusal(changed("path = \"experiment.ambient.mean\"", "path = \"bearing.front.grease_factor\""))
+                .find("varied twice"),
+            std::string::npos);
+  EXPECT_NE(refusal(changed("golden_b_6000", "etve")).find("give 'every'"), std::string::npos);
+  EXPECT_NE(refusal(changed("count = 2", "count = 2000000000")).find("at most"), std::string::npos);
+  EXPECT_NE(refusal(changed("part = 7", "prt = 7")).find("unknown key 'prt'; did you mean 'part'?"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

@@ -1,0 +1,134 @@
+#include "twin/checkpoint.h"
+
+#include <gtest/gtest.h>
+#include <numeric>
+
+#include "output/dataset_file.h"
+#include "tests/output/temporary_directory.h"
+#include "thermal/error.h"
+#include "twin/diagnosis/run_files.h"
+#include "twin/experiment_file.h"
+#include "twin/instruments/random_stream.h"
+#include "twin/run.h"
+
+namespace thermotwin::twin {
+namespace {
+
+struct Killed {};
+
+struct Bench {
+  Machine machine;
+  scenarios::Experiment experiment;
+};
+
+/// A turning centre whose tank is cooled by a chiller that switches on and off, read every minute through noisy
+/// instruments.
+Bench const& bench() {
+  static Bench const bench = [] {
+    auto const chilled = text_of_file(machine_file("g200")) + R"toml(
+[[chiller]]
+name = "tank"
+cools = "tank"
+temperature = "22 degC"
+power = "800 W"
+hysteresis = "0.4 K"
+)toml";
+    auto const file = experiment_file("duty_003");
+    Bench made{Machine::build(parse_toml(chilled, "chilled")), read_experiment(read_toml(file), file)};
+    made.experiment.sampling = 60.0;
+    return made;
+  }();
+  return bench;
+}
+
+/// `killed_after`: share of the run.
+RunOptions options(std::filesystem::path const& checkpoint, double interval, double killed_after) {
+  RunOptions options;
+  options.integration.relative_tolerance = options.integration.absolute_tolerance = 1e-4;
+  options.checkpoint_interval = interval;
+  if (!checkpoint.empty()) options.checkpoint = checkpoint;
+  options.progress = [killed_after](double share) {
+    if (share >= killed_after) throw Killed{};
+  };
+  return options;
+}
+
+std::string undisturbed(double interval) {
+  return output::to_hdf5(run(bench().machine, bench().experiment, options({}, interval, 2.0)).dataset);
+}
+
+TEST(Checkpoint, ARunTakenUpAtAHundredRandomBoundariesGivesTheSameBytes) {
+  tests::TemporaryDirectory const directory;
+  RandomStream random(7, "checkpoint");
+  int taken_up = 0;
+  for (int trial = 0; taken_up < 100; ++trial) {
+    double const interval = 60.0 * std::floor(random.uniform(1.0, 40.0));
+    auto const expected = undisturbed(interval);
+    auto const path = directory / std::to_string(trial);
+    for (double killed = random.uniform(0.0, 0.5); killed < 1.0; killed += random.uniform(0.0, 0.5)) {
+      auto cut = options(path, interval, killed);
+      cut.resume = true;
+      EXPECT_THROW(static_cast<void>(run(bench().machine, bench().experiment, cut)), Killed);
+      ++taken_up;
+    }
+    auto last = options(path, interval, 2.0);
+    last.resume = true;
+    EXPECT_TRUE(output::to_hdf5(run(bench().machine, bench().experiment, last).dataset) == expected) << trial;
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
+}
+
+TEST(Checkpoint, TheBenchSwitches) {
+  EXPECT_GT(run(bench().machine, bench().experiment, options({}, 0.0, 2.0)).summary.relay_switches, 10);
+}
+
+TEST(Checkpoint, ATornFileLosesAStretchAndNoByte) {
+  tests::TemporaryDirectory const directory;
+  auto const path = directory / "checkpoint";
+  EXPECT_THROW(static_cast<void>(run(bench().machine, bench().experiment, options(path, 600.0, 0.7))), Killed);
+  auto const bytes = tests::contents(path);
+  tests::put(path, bytes.substr(0, bytes.size() - 1));
+  auto last = options(path, 600.0, 2.0);
+  last.resume = true;
+  EXPECT_TRUE(output::to_hdf5(run(bench().machine, bench().experiment, last).dataset) == undisturbed(600.0));
+}
+
+/// Starting anew costs accuracy of the order of the tolerance, no more.
+TEST(Checkpoint, BoundariesDoNotBendTheRun) {
+  auto const plain = run(bench().machine, bench().experiment, options({}, 0.0, 2.0)).dataset;
+  auto const cut = run(bench().machine, bench().experiment, options({}, 300.0, 2.0)).dataset;
+  for (std::size_t c = 0; c < plain.truth_readings.size(); ++c)
+    EXPECT_LT((plain.truth_readings[c].values - cut.truth_readings[c].values).cwiseAbs().maxCoeff(), 0.02);
+}
+
+TEST(Checkpoint, OfAnotherRunOrUnasked) {
+  tests::TemporaryDirectory const directory;
+  auto const path = directory / "checkpoint";
+  EXPECT_THROW(static_cast<void>(run(bench().machine, bench().experiment, options(path, 600.0, 0.7))), Killed);
+  EXPECT_EQ(checkpoint_interval(path), 600.0);
+  EXPECT_THROW(static_cast<void>(run(bench().machine, bench().experiment, options(path, 600.0, 2.0))),
+               thermal::InputError);
+  auto other = options(path, 300.0, 2.0);
+  other.resume = true;
+  try {
+    static_cast<void>(run(bench().machine, bench().experiment, other));
+    FAIL();
+  } catch (thermal::InputError const& error) {
+    EXPECT_NE(std::string(error.what()).find("'checkpoint_s' is not the same"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(static_cast<void>(checkpoint_interval(directory / "none")), thermal::InputError);
+}
+
+TEST(Checkpoint, StretchesEndAtTheFirstTimeAfterEachMultiple) {
+  std::vector<double> times(11);
+  std::iota(times.begin(), times.end(), 0.0);
+  using Ends = std::vector<std::size_t>;
+  EXPECT_EQ(stretches(times, 0.0), (Ends{11}));
+  EXPECT_EQ(stretches(times, 5.0), (Ends{6, 11}));
+  EXPECT_EQ(stretches(times, 2.5), (Ends{4, 6, 9, 11}));
+  EXPECT_EQ(stretches(times, 0.1), (Ends{2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
+  EXPECT_EQ(stretches(times, 100.0), (Ends{11}));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

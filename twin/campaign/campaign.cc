@@ -1,0 +1,110 @@
+#include "twin/campaign/campaign.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "thermal/units.h"
+#include "twin/campaign/latin_hypercube.h"
+#include "twin/experiment_file.h"
+#include "twin/machine.h"
+
+namespace thermotwin::twin {
+
+/// Exact up to 2^53, and no overflow beyond.
+double Campaign::count() const {
+  double count = double(experiments.size()) * description.repetitions;
+  for (auto const& parameter : grid) count *= double(parameter.count);
+  if (!samples.empty()) count *= description.latin_hypercube->count;
+  return cases_.empty() ? count : count * double(cases_.size());
+}
+
+std::int64_t Campaign::runs_per_part() const {
+  if (description.part > 0) return description.part;
+  return std::clamp<std::int64_t>((runs() + 255) / 256, 1, 1000);
+}
+
+CampaignRun Campaign::run(std::int64_t number) const {
+  CampaignRun run;
+  run.number = number;
+  run.seed = int(description.seed + number);
+  auto digit = [rest = number](std::int64_t count) mutable {
+    auto const lowest = rest % count;
+    rest /= count;
+    return lowest;
+  };
+  static_cast<void>(digit(description.repetitions));
+  run.experiment = std::size_t(digit(std::int64_t(experiments.size())));
+  run.settings = common_;
+  if (!cases_.empty()) {
+    auto const& chosen = cases_[std::size_t(digit(std::int64_t(cases_.size())))];
+    run.settings.insert(run.settings.end(), chosen.begin(), chosen.end());
+  }
+  auto const number_of = [](CampaignParameter const& parameter, Setting const& setting, std::int64_t k) {
+    return parameter.numeric ? std::strtod(setting.value.c_str(), nullptr) : double(k);
+  };
+  std::vector<double> sampled;
+  if (!samples.empty()) {
+    auto const& latin = *description.latin_hypercube;
+    auto const sample = digit(latin.count);
+    for (auto const& parameter : samples) {
+      run.settings.push_back(
+          parameter.at(latin_hypercube(sample, latin.count, std::uint64_t(latin.seed), parameter.path)));
+      sampled.push_back(number_of(parameter, run.settings.back(), 0));
+    }
+  }
+  std::vector<std::int64_t> places(grid.size());
+  for (std::size_t g = grid.size(); g-- > 0;) places[g] = digit(grid[g].count);
+  for (std::size_t g = 0; g < grid.size(); ++g) {
+    run.settings.push_back(grid[g].value(places[g]));
+    run.positions.push_back(number_of(grid[g], run.settings.back(), places[g]));
+  }
+  run.positions.insert(run.positions.end(), sampled.begin(), sampled.end());
+  return run;
+}
+
+CampaignRun Campaign::nominal(std::size_t experiment) const {
+  CampaignRun run;
+  run.experiment = experiment;
+  run.seed = description.seed;
+  run.settings = common_;
+  return run;
+}
+
+scenarios::Experiment Campaign::experiment(CampaignRun const& run) const {
+  auto const& source = experiments[run.experiment];
+  bool const changed = std::any_of(run.settings.begin(), run.settings.end(), [](auto& s) { return s.of_experiment(); });
+  auto experiment = source.nominal;
+  bool own_seed = false;
+  if (changed) {
+    Value document = source.document, unused{{}, Value::Table{}};
+    for (auto const& setting : run.settings)
+      if (setting.of_experiment()) {
+        apply(setting, unused, document);
+        own_seed = own_seed || setting.path == "experiment.seed";
+      }
+    experiment = read_experiment(document, source.file);
+  }
+  if (!own_seed) experiment.seed = run.seed;
+  if (description.every) experiment.sampling = *description.every;
+  return experiment;
+}
+
+Value Campaign::machine(CampaignRun const& run) const {
+  Value document = machine_document, unused{{}, Value::Table{}};
+  for (auto const& setting : run.settings)
+    if (!setting.of_experiment()) apply(setting, document, unused);
+  return document;
+}
+
+std::string Campaign::command(CampaignRun const& run) const {
+  std::string text = fmt::format("thermotwin run {} -m {} --tolerance {} --set experiment.seed={}",
+                                 experiments[run.experiment].file.string(), machine_file.string(),
+                                 thermal::format_number(description.tolerance), run.seed);
+  if (description.every)
+    text += fmt::format(" --set 'experiment.sampling={}'",
+                        thermal::format_quantity(*description.every, thermal::dimension::time));
+  for (auto const& setting : run.settings) text += fmt::format(" --set '{}={}'", setting.path, setting.value);
+  return text;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenarios/experiment.h"
+#include "twin/campaign/campaign_description.h"
+#include "twin/setting.h"
+
+namespace thermotwin::twin {
+
+/// What one run of a campaign differs in; a function of its number alone.
+struct CampaignRun {
+  std::int64_t number = 0;
+  std::size_t experiment = 0;
+  int seed = 0;                   ///< of the instruments
+  std::vector<double> positions;  ///< per parameter: see CampaignParameter
+  std::vector<Setting> settings;  ///< those of every run, of the case, of samples and grid, in this order
+};
+
+/// A parameter that a grid or a Latin hypercube varies.
+struct CampaignParameter {
+  std::string path, unit;
+  double from = 0.0, to = 0.0;  ///< as numbers before the unit
+  bool logarithmic = false;
+  std::vector<std::string> values;  ///< one by one, in place of a range
+  std::int64_t count = 0;           ///< of a grid's values
+  bool numeric = true;              ///< false: values are words, and a run's position is their number from 0
+  Location where;                   ///< of its table in the file
+
+  /// The value at a share of the range, or the k-th.
+  [[nodiscard]] Setting at(double share) const;
+  [[nodiscard]] Setting value(std::int64_t k) const;
+};
+
+struct CampaignExperiment {
+  std::string name;
+  std::filesystem::path file;
+  Value document;
+  scenarios::Experiment nominal;
+};
+
+/// A campaign as its file describes it: nothing is expanded, run i is made when it is asked for.
+///
+/// From the slowest to the fastest run the grid's parameters in the order of the file, the samples, the cases, the
+/// experiments, and the repetitions, so that neighbours share a machine.
+class Campaign {
+ public:
+  /// FileError with line and column for unknown keys, paths that no machine or experiment has, ranges without order
+  /// or of two units, a parameter given twice, experiments of different sampling without `every`.
+  static Campaign read(std::filesystem::path const& file);
+
+  CampaignDescription description;
+  std::filesystem::path file, machine_file;
+  std::string text, machine_text;  ///< of both files
+  Value machine_document;
+  std::vector<CampaignExperiment> experiments;
+  std::vector<CampaignParameter> grid, samples;
+
+  [[nodiscard]] std::int64_t runs() const { return std::int64_t(count()); }
+  [[nodiscard]] CampaignRun run(std::int64_t number) const;
+  [[nodiscard]] std::int64_t runs_per_part() const;
+  [[nodiscard]] std::int64_t parts() const { return (runs() + runs_per_part() - 1) / runs_per_part(); }
+
+  /// An experiment with what is set in every run, and nothing varied.
+  [[nodiscard]] CampaignRun nominal(std::size_t experiment) const;
+
+  /// The experiment of a run, with its settings, its seed and the campaign's sampling.
+  [[nodiscard]] scenarios::Experiment experiment(CampaignRun const& run) const;
+  /// The machine's document with the run's settings.
+  [[nodiscard]] Value machine(CampaignRun const& run) const;
+  /// The command that makes this run alone, with all that a campaign leaves out.
+  [[nodiscard]] std::string command(CampaignRun const& run) const;
+
+ private:
+  Campaign() = default;
+  [[nodiscard]] double count() const;
+  void read_experiments();
+  void read_machine();
+  void read_parameters(Value const& document);
+  void check_settings(Value const& document) const;
+  void check_sampling(Value const& document) const;
+  void try_setting(Location const& where, std::vector<Setting> const& settings) const;
+
+  std::vector<Setting> common_;
+  std::vector<std::vector<Setting>> cases_;
+};
+
+}  // namespace thermotwin::twin

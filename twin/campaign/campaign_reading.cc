@@ -1,0 +1,235 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+#include "scenarios/course.h"
+#include "thermal/error.h"
+#include "thermal/nearest_name.h"
+#include "twin/campaign/campaign.h"
+#include "twin/diagnosis/run_files.h"
+#include "twin/experiment_file.h"
+#include "twin/machine.h"
+
+namespace thermotwin::twin {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_values_tried = 20;
+constexpr double most_runs = 1e9;
+
+/// Beside the campaign's file, or as the command line takes it.
+template <class Shipped>
+fs::path file_of(std::string const& name, fs::path const& campaign, Shipped shipped) {
+  fs::path const beside = campaign.parent_path() / name;
+  return fs::path(name).extension() == ".toml" && fs::exists(beside) ? beside : shipped(name);
+}
+
+Location place_of_key(Value const& table, std::string const& key, std::size_t item = 0) {
+  Value const* value = table.find(key);
+  if (!value) return table.where;
+  if (!value->is_list() || item >= std::get<Value::List>(value->content).size()) return value->where;
+  return std::get<Value::List>(value->content)[item].where;
+}
+
+Value::List const& tables(Value const& document, std::string const& key) {
+  static Value::List const none;
+  Value const* value = document.find(key);
+  return value ? std::get<Value::List>(value->content) : none;
+}
+
+/// Values of parameters are read as text, whether they were written as text or as numbers.
+void make_text(Value& value) {
+  if (value.is_list())
+    for (auto& item : std::get<Value::List>(value.content)) make_text(item);
+  else if (!value.is_text() && !value.is_table())
+    value.content = value.text();
+}
+
+void make_texts(Value& document) {
+  auto const each = [](Value* list) {
+    if (!list || !list->is_list()) return;
+    for (auto& table : std::get<Value::List>(list->content))
+      for (auto const* key : {"values", "from", "to"})
+        if (Value* value = table.is_table() ? table.find(key) : nullptr) make_text(*value);
+  };
+  each(document.find("grid"));
+  if (Value* latin = document.find("latin_hypercube"); latin && latin->is_table()) each(latin->find("vary"));
+}
+
+/// "18 degC" as 18 and "degC"; false when no number stands in front.
+bool split(std::string const& text, double& number, std::string& unit) {
+  char* end = nullptr;
+  number = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || !std::isfinite(number)) return false;
+  unit = end;
+  unit.erase(0, unit.find_first_not_of(' '));
+  return true;
+}
+
+void read_range(Value const& table, std::string const& from, std::string const& to, std::string const& scale,
+                CampaignParameter& parameter) {
+  std::string other;
+  if (!split(from, parameter.from, parameter.unit))
+    throw FileError(place_of_key(table, "from"), fmt::format("'from' is '{}'; a number with its unit is due", from));
+  if (!split(to, parameter.to, other))
+    throw FileError(place_of_key(table, "to"), fmt::format("'to' is '{}'; a number with its unit is due", to));
+  if (other != parameter.unit)
+    throw FileError(place_of_key(table, "to"),
+                    fmt::format("'to' is in '{}' and 'from' in '{}'; one unit is due", other, parameter.unit));
+  parameter.logarithmic = scale == "log";
+  if (parameter.logarithmic && (parameter.from <= 0.0 || parameter.to <= 0.0))
+    throw FileError(place_of_key(table, "scale"), "a logarithmic range lies above 0");
+}
+
+CampaignParameter grid_parameter(Value const& table, GridDescription const& grid) {
+  CampaignParameter parameter;
+  parameter.path = grid.path;
+  parameter.where = place_of_key(table, "path");
+  if (!grid.values.empty()) {
+    if (!grid.from.empty() || !grid.to.empty() || grid.count > 0)
+      throw FileError(table.where, "give either 'values', or 'from', 'to' and 'count'");
+    parameter.values = grid.values;
+    parameter.count = std::int64_t(grid.values.size());
+    for (std::size_t i = 0; i < grid.values.size(); ++i) {
+      double number = 0.0;
+      std::string unit;
+      parameter.numeric = parameter.numeric && split(grid.values[i], number, unit);
+      if (i == 0) parameter.unit = unit;
+      parameter.numeric = parameter.numeric && unit == parameter.unit;
+    }
+    if (!parameter.numeric) parameter.unit.clear();
+    return parameter;
+  }
+  if (grid.count < 1) throw FileError(table.where, "give either 'values', or 'from', 'to' and 'count' from 1 on");
+  read_range(table, grid.from, grid.to, grid.scale, parameter);
+  parameter.count = grid.count;
+  return parameter;
+}
+
+}  // namespace
+
+void Campaign::read_experiments() {
+  for (auto const& name : description.experiments) {
+    auto const path = file_of(name, file, experiment_file);
+    Value document = read_toml(path);
+    auto nominal = read_experiment(document, path);
+    experiments.push_back({path.stem().string(), path, std::move(document), std::move(nominal)});
+  }
+}
+
+void Campaign::read_machine() {
+  auto const& first = experiments.front();
+  machine_file = description.machine.empty() ? machine_of(first.nominal, first.file)
+                                             : file_of(description.machine, file, twin::machine_file);
+  machine_text = text_of_file(machine_file);
+  machine_document = parse_toml(machine_text, machine_file.string());
+}
+
+void Campaign::read_parameters(Value const& document) {
+  for (std::size_t g = 0; g < description.grid.size(); ++g)
+    grid.push_back(grid_parameter(tables(document, "grid")[g], description.grid[g]));
+  if (!description.latin_hypercube) return;
+  Value const& latin = *document.find("latin_hypercube");
+  auto const& varied = description.latin_hypercube->vary;
+  for (std::size_t v = 0; v < varied.size(); ++v) {
+    Value const& table = tables(latin, "vary")[v];
+    auto& parameter = samples.emplace_back();
+    parameter.path = varied[v].path;
+    parameter.where = place_of_key(table, "path");
+    read_range(table, varied[v].from, varied[v].to, varied[v].scale, parameter);
+  }
+  if (samples.empty()) throw FileError(latin.where, "[latin_hypercube] varies nothing; add [[latin_hypercube.vary]]");
+}
+
+/// Builds what the settings make, on the first experiment; a complaint gets the place of what asked for it.
+void Campaign::try_setting(Location const& where, std::vector<Setting> const& settings) const {
+  try {
+    auto run = nominal(0);
+    run.settings.insert(run.settings.end(), settings.begin(), settings.end());
+    for (auto const& setting : settings)
+      if (setting.path == "experiment.duration" || setting.path == "experiment.sampling")
+        throw thermal::InputError(
+            fmt::format("'{}' cannot be varied: all runs share one time axis; see 'every'", setting.path));
+    auto const machine = Machine::build(this->machine(run));
+    for (; run.experiment < experiments.size(); ++run.experiment)
+      scenarios::ExperimentCourse const course(experiment(run), machine.limits);
+  } catch (thermal::InputError const& error) {
+    throw FileError(where, error.what());
+  }
+}
+
+void Campaign::check_settings(Value const& document) const {
+  std::set<std::string> paths;
+  try_setting(document.where, {});
+  for (auto const* parameters : {&grid, &samples})
+    for (auto const& parameter : *parameters) {
+      if (!paths.insert(parameter.path).second)
+        throw FileError(parameter.where, fmt::format("'{}' is varied twice", parameter.path));
+      if (parameter.values.empty()) {
+        try_setting(parameter.where, {parameter.at(0.0)});
+        try_setting(parameter.where, {parameter.at(1.0)});
+      }
+      for (std::size_t k = 0; k < std::min(parameter.values.size(), most_values_tried); ++k)
+        try_setting(parameter.where, {parameter.value(std::int64_t(k))});
+    }
+  for (std::size_t c = 0; c < std::min(cases_.size(), most_values_tried); ++c)
+    try_setting(tables(document, "case")[c].where, cases_[c]);
+}
+
+void Campaign::check_sampling(Value const& document) const {
+  if (description.every) return;
+  double const first = experiment(nominal(0)).sampling;
+  for (std::size_t e = 1; e < experiments.size(); ++e)
+    if (double const sampling = experiment(nominal(e)).sampling; sampling != first)
+      throw FileError(place_of_key(document, "experiments", e),
+                      fmt::format("'{}' is read every {:g} s and '{}' every {:g} s; give 'every', for all",
+                                  experiments[e].name, sampling, experiments[0].name, first));
+}
+
+Campaign Campaign::read(fs::path const& file) {
+  Campaign campaign;
+  campaign.file = file;
+  Value document = read_toml(file);
+  campaign.text = text_of_file(file);
+  make_texts(document);
+  read_fields(document, campaign.description);
+  auto const& description = campaign.description;
+  std::vector<std::string> const groups = {"readings", "displacements", "inputs", "truth", "summary"};
+  for (std::size_t k = 0; k < description.keep.size(); ++k)
+    if (std::find(groups.begin(), groups.end(), description.keep[k]) == groups.end())
+      throw FileError(place_of_key(document, "keep", k),
+                      fmt::format("there is no '{}' to keep; {}", description.keep[k],
+                                  thermal::did_you_mean(description.keep[k], groups)));
+  if (description.experiments.empty()) throw FileError(document.where, "the campaign names no 'experiments'");
+  auto const located = [&](std::string const& key, auto const& action) {
+    try {
+      action();
+    } catch (FileError const&) {
+      throw;
+    } catch (thermal::InputError const& error) {
+      throw FileError(place_of_key(document, key), error.what());
+    }
+  };
+  located("experiments", [&] { campaign.read_experiments(); });
+  located("machine", [&] { campaign.read_machine(); });
+  campaign.read_parameters(document);
+  located("set", [&] {
+    for (auto const& text : description.set) campaign.common_.push_back(setting(text));
+  });
+  located("case", [&] {
+    for (auto const& given : description.cases) {
+      auto& settings = campaign.cases_.emplace_back();
+      for (auto const& text : given.set) settings.push_back(setting(text));
+    }
+  });
+  if (campaign.count() > most_runs)
+    throw FileError(document.where,
+                    fmt::format("these are {:.3g} runs; at most {:.0e} are possible", campaign.count(), most_runs));
+  campaign.check_settings(document);
+  campaign.check_sampling(document);
+  return campaign;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,213 @@
+#include "twin/campaign/run_campaign.h"
+
+#include <algorithm>
+#include <boost/crc.hpp>
+#include <chrono>
+#include <exception>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <omp.h>
+
+#include "output/atomic_file.h"
+#include "output/campaign_file.h"
+#include "output/error.h"
+#include "output/locked_file.h"
+#include "thermal/error.h"
+#include "twin/campaign/campaign_form.h"
+#include "twin/campaign/campaign_parts.h"
+#include "twin/diagnosis/run_files.h"
+#include "twin/replay.h"
+#include "twin/run.h"
+#include "twin/version.h"
+
+namespace thermotwin::twin {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::string checksum(std::string const& text) {
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return fmt::format("CRC-32 {:08x}", crc.checksum());
+}
+
+/// What the results are made of, by name; of long files the checksum.
+std::map<std::string, std::string> sources_of(Campaign const& campaign) {
+  std::map<std::string, std::string> texts = {
+      {"campaign.file", campaign.text},          {"machine.file", campaign.machine_text},
+      {"runs", std::to_string(campaign.runs())}, {"runs_per_part", std::to_string(campaign.runs_per_part())},
+      {"version", std::string(version())},       {"commit", std::string(commit())}};
+  for (auto const& experiment : campaign.experiments)
+    for (auto const& [key, text] : origin(campaign.machine_file, experiment.file, "", experiment.nominal))
+      if (key == "experiment.file")
+        texts["experiment." + experiment.name] = text;
+      else if (key.starts_with("recorded.") || key == "machine.weights")
+        texts[key.starts_with("recorded.") ? experiment.name + "." + key : key] = checksum(text);
+  return texts;
+}
+
+/// The folder is this campaign's, or becomes it.
+void claim(Campaign const& campaign, fs::path const& folder) {
+  output::make_directory(folder / "parts");
+  output::LockedFile const lock(folder / "lock", output::LockedFile::Busy::wait);
+  auto const path = folder / "manifest.json";
+  auto const sources = sources_of(campaign);
+  if (!fs::exists(path)) {
+    output::write_atomically(path, nlohmann::ordered_json(sources).dump(2) + "\n");
+    return;
+  }
+  auto const there = nlohmann::json::parse(text_of_file(path), nullptr, false);
+  for (auto const& [key, text] : sources)
+    if (!there.is_object() || !there.contains(key) || there.at(key) != text)
+      throw thermal::InputError(
+          fmt::format("'{}' holds another campaign: '{}' is not the same; name another folder, or delete it",
+                      folder.string(), key));
+}
+
+/// Makes runs one by one, and keeps the machine while it stays the same.
+class RunMaker {
+ public:
+  RunMaker(Campaign const& campaign, CampaignForm const& form, std::atomic<bool> const* stop)
+      : campaign_(campaign), form_(form) {
+    options_.integration.relative_tolerance = campaign.description.tolerance;
+    options_.integration.absolute_tolerance = campaign.description.tolerance;
+    options_.stop = stop;
+  }
+
+  CampaignResult operator()(std::int64_t number) {
+    CampaignResult result;
+    result.number = number;
+    try {
+      auto const order = campaign_.run(number);
+      set_machine(order);
+      auto const dataset = run(*machine_, campaign_.experiment(order), options_).dataset;
+      result.numbers = form_.kept(dataset);
+      result.rows = std::int64_t(dataset.time_s.size());
+    } catch (Interrupted const&) {
+      throw;
+    } catch (std::bad_alloc const&) {
+      throw;
+    } catch (std::exception const& error) {
+      result.numbers.clear();
+      result.failure = error.what();
+    }
+    return result;
+  }
+
+ private:
+  void set_machine(CampaignRun const& order) {
+    std::vector<Setting> settings;
+    for (auto const& setting : order.settings)
+      if (!setting.of_experiment()) settings.push_back(setting);
+    if (machine_ && settings == settings_) return;
+    machine_.reset();
+    machine_ = std::make_unique<Machine const>(Machine::build(campaign_.machine(order)));
+    settings_ = std::move(settings);
+  }
+
+  Campaign const& campaign_;
+  CampaignForm const& form_;
+  RunOptions options_;
+  std::unique_ptr<Machine const> machine_;
+  std::vector<Setting> settings_;
+};
+
+/// The first exception of any thread stops all of them.
+class Stopper {
+ public:
+  explicit Stopper(std::atomic<bool> const* outside) : outside_(outside) {}
+
+  [[nodiscard]] bool stopped() const { return failed_ || (outside_ && *outside_); }
+  void take(std::exception_ptr const& exception) {
+    if (!failed_.exchange(true)) first_ = exception;
+  }
+  void rethrow() const {
+    if (first_) std::rethrow_exception(first_);
+    if (outside_ && *outside_) throw Interrupted("stopped; the same command goes on from here");
+  }
+
+ private:
+  std::atomic<bool> const* outside_;
+  std::atomic<bool> failed_ = false;
+  std::exception_ptr first_;
+};
+
+std::string csv_text(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
+  return "\"" + text + "\"";
+}
+
+}  // namespace
+
+CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& options) {
+  claim(campaign, options.folder);
+  CampaignForm const form(campaign, Machine::build(campaign.machine(campaign.nominal(0))));
+  CampaignParts parts(campaign, form, options.folder, options.share);
+  Stopper stopper(options.stop);
+  CampaignReport report;
+  auto const start = Clock::now();
+#pragma omp parallel
+  {
+#pragma omp single
+    report.threads = omp_get_num_threads();
+    RunMaker make(campaign, form, options.stop);
+    double in_runs = 0.0;
+    std::int64_t made = 0;
+    try {
+      while (!stopper.stopped()) {
+        auto const number = parts.next();
+        if (!number) break;
+        auto const begin = Clock::now();
+        auto result = make(*number);
+        in_runs += seconds_since(begin);
+        parts.put(std::move(result));
+        ++made;
+        if (options.progress && omp_get_thread_num() == 0)
+          options.progress(double(parts.done()) / double(parts.runs()));
+      }
+    } catch (...) {
+      stopper.take(std::current_exception());
+    }
+#pragma omp critical(thermotwin_campaign)
+    {
+      report.made += made;
+      report.run_seconds += in_runs;
+    }
+  }
+  report.seconds = seconds_since(start);
+  stopper.rethrow();
+  return report;
+}
+
+bool finish_campaign(Campaign const& campaign, fs::path const& folder) {
+  output::LockedFile const lock(folder / "lock", output::LockedFile::Busy::wait);
+  std::vector<output::CampaignPartFile> parts;
+  for (std::int64_t part = 0; part < campaign.parts(); ++part) {
+    auto const first = part * campaign.runs_per_part();
+    parts.push_back({part_file(part).string(), first, std::min(campaign.runs_per_part(), campaign.runs() - first)});
+    if (!fs::exists(folder / parts.back().file)) return false;
+  }
+  if (fs::exists(folder / "campaign.h5")) return true;
+  std::string failures = "run,reason\n";
+  for (auto const& part : parts)
+    for (auto const& [run, reason] : output::read_failures(folder / part.file))
+      failures += fmt::format("{},{}\n", run, csv_text(reason));
+  output::write_atomically(folder / "failures.csv", failures);
+  CampaignForm const form(campaign, Machine::build(campaign.machine(campaign.nominal(0))));
+  auto layout = form.layout();
+  layout.provenance = sources_of(campaign);
+  output::write_index(layout, parts, folder / "campaign.h5");
+  return true;
+}
+
+std::int64_t failed_runs(fs::path const& folder) {
+  auto const text = text_of_file(folder / "failures.csv");
+  return std::count(text.begin(), text.end(), '\n') - 1;
+}
+
+}  // namespace thermotwin::twin

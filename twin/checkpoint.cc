@@ -1,0 +1,149 @@
+#include "twin/checkpoint.h"
+
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "thermal/error.h"
+#include "thermal/evaluation.h"
+
+namespace thermotwin::twin {
+namespace {
+
+template <class T>
+void put(std::string& bytes, T const& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  bytes.append(reinterpret_cast<char const*>(&value), sizeof value);
+}
+
+void put(std::string& bytes, std::span<double const> values) {
+  put(bytes, values.size());
+  bytes.append(reinterpret_cast<char const*>(values.data()), values.size_bytes());
+}
+
+/// Takes from a record what was put there, in the same order.
+class Bytes {
+ public:
+  explicit Bytes(std::string const& bytes) : bytes_(bytes) {}
+
+  [[nodiscard]] bool empty() const { return at_ == bytes_.size(); }
+  template <class T>
+  T take() {
+    T value;
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    return value;
+  }
+  std::vector<double> take_values() {
+    std::vector<double> values(take<std::size_t>());
+    std::memcpy(values.data(), bytes_.data() + at_, values.size() * sizeof(double));
+    at_ += values.size() * sizeof(double);
+    return values;
+  }
+
+ private:
+  std::string const& bytes_;
+  std::size_t at_ = 0;
+};
+
+std::string text_of(Checkpoint::Identity const& identity) { return nlohmann::json(identity).dump(); }
+
+/// The first thing in which two runs differ.
+std::string difference(Checkpoint::Identity const& a, Checkpoint::Identity const& b) {
+  for (auto const& [key, text] : a)
+    if (auto const other = b.find(key); other == b.end() || other->second != text) return key;
+  return "number of settings";
+}
+
+Checkpoint::Identity identity_in(std::string const& record, std::filesystem::path const& path) {
+  auto const json = nlohmann::json::parse(record, nullptr, false);
+  if (!json.is_object()) throw thermal::InputError(fmt::format("'{}' is no checkpoint of a run", path.string()));
+  return json.get<Checkpoint::Identity>();
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(std::filesystem::path const& path, Identity const& identity, bool resume)
+    : journal_(path), records_(journal_.take_records()) {
+  if (records_.empty()) {
+    journal_.append(text_of(identity));
+    return;
+  }
+  if (!resume)
+    throw thermal::InputError(
+        fmt::format("'{}' holds a run that was not finished; go on with --resume, or delete it", path.string()));
+  if (records_.front() != text_of(identity))
+    throw thermal::InputError(fmt::format("'{}' is of another run: '{}' is not the same", path.string(),
+                                          difference(identity, identity_in(records_.front(), path))));
+  records_.erase(records_.begin());
+}
+
+std::size_t Checkpoint::replay(thermal::Network const& network, thermal::IntegrationState& state,
+                               thermal::Observer const& observe) {
+  thermal::Evaluation evaluation(network);
+  std::size_t count = 0;
+  for (auto const& record : records_) {
+    Bytes bytes(record);
+    for (auto left = bytes.take<std::size_t>(); left > 0; --left, ++count) {
+      thermal::Sample sample;
+      sample.time = bytes.take<double>();
+      sample.energy = bytes.take<thermal::Energy>();
+      auto const values = bytes.take_values(), input = bytes.take_values();
+      sample.state = values;
+      sample.input = input;
+      sample.temperatures = evaluation.temperatures(values.data(), input.data());
+      observe(sample);
+    }
+    state.time = bytes.take<double>();
+    for (auto* part : {&state.state, &state.start, &state.relays, &state.next_switch}) *part = bytes.take_values();
+    state.summary = bytes.take<thermal::IntegrationSummary>();
+  }
+  records_.clear();
+  return count;
+}
+
+void Checkpoint::keep(thermal::Sample const& sample) {
+  put(samples_, sample.time);
+  put(samples_, sample.energy);
+  put(samples_, sample.state);
+  put(samples_, sample.input);
+  ++kept_;
+}
+
+void Checkpoint::write(thermal::IntegrationState const& state) {
+  std::string record;
+  put(record, kept_);
+  record += samples_;
+  put(record, state.time);
+  for (auto const* part : {&state.state, &state.start, &state.relays, &state.next_switch})
+    put(record, std::span<double const>(*part));
+  put(record, state.summary);
+  journal_.append(record);
+  samples_.clear();
+  kept_ = 0;
+}
+
+std::vector<std::size_t> stretches(std::span<double const> times, double interval) {
+  std::vector<std::size_t> ends;
+  double boundary = interval;
+  for (std::size_t i = 0; interval > 0.0 && i + 1 < times.size(); ++i) {
+    double const since = times[i] - times.front();
+    if (since < boundary * (1.0 - 1e-12)) continue;
+    ends.push_back(i + 1);
+    boundary = interval * (std::floor(since / interval * (1.0 + 1e-12)) + 1.0);
+  }
+  ends.push_back(times.size());
+  return ends;
+}
+
+double checkpoint_interval(std::filesystem::path const& path) {
+  if (!std::filesystem::exists(path))
+    throw thermal::InputError(fmt::format("there is no checkpoint '{}' to go on from", path.string()));
+  auto const records = output::Journal(path).take_records();
+  if (records.empty()) throw thermal::InputError(fmt::format("'{}' holds no run", path.string()));
+  return std::stod(identity_in(records.front(), path)["checkpoint_s"]);
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,83 @@
+#include "twin/command_line_campaign.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+#include "thermal/error.h"
+#include "twin/campaign/campaign.h"
+#include "twin/campaign/ranks.h"
+#include "twin/campaign/run_campaign.h"
+#include "twin/progress.h"
+
+namespace thermotwin::twin {
+namespace {
+
+struct CampaignCommand {
+  std::string file, folder, share;
+  std::int64_t show = -1;
+  bool quiet = false;
+
+  void operator()(std::atomic<bool> const& stop) const;
+
+ private:
+  void show_run(Campaign const& campaign) const;
+};
+
+void CampaignCommand::show_run(Campaign const& campaign) const {
+  if (show >= campaign.runs())
+    throw thermal::InputError(fmt::format("--show {}: the runs are 0 to {}", show, campaign.runs() - 1));
+  fmt::print("{}\n", campaign.command(campaign.run(show)));
+}
+
+std::string text_of(CampaignReport const& report) {
+  if (report.made == 0) return "";
+  return fmt::format("{} runs in {:.1f} s on {} threads: {:.3f} ms of a thread each, and {:.1f} us for the campaign\n",
+                     report.made, report.seconds, report.threads, 1e3 * report.run_seconds / double(report.made),
+                     1e6 * report.overhead());
+}
+
+void CampaignCommand::operator()(std::atomic<bool> const& stop) const {
+  if (folder.empty() && show < 0) throw thermal::InputError("campaign needs a folder: --output DIR");
+  auto const campaign = Campaign::read(file);
+  if (show >= 0) return show_run(campaign);
+  Ranks const ranks;
+  if (!share.empty() && ranks.share().count > 1)
+    throw thermal::InputError("--array and mpirun both share out the runs; use one of them");
+  CampaignOptions options{folder, share.empty() ? ranks.share() : share_of(share), {}, &stop};
+  std::optional<Progress> progress;
+  if (!quiet && options.share.index == 0) {
+    progress.emplace(fmt::format("{} runs", campaign.runs()));
+    options.progress = [&](double done) { progress->show(done); };
+  }
+  auto const report = run_campaign(campaign, options);
+  progress.reset();
+  double const made = ranks.sum(double(report.made));
+  if (ranks.share().index != 0) return;
+  bool const whole = finish_campaign(campaign, folder);
+  if (quiet) return;
+  fmt::print("{}", text_of(report));
+  if (ranks.share().count > 1) fmt::print("{:.0f} runs on {} ranks\n", made, ranks.share().count);
+  if (whole)
+    fmt::print("{}: {} runs, {} of them failed (failures.csv)\n",
+               (std::filesystem::path(folder) / "campaign.h5").string(), campaign.runs(), failed_runs(folder));
+  else
+    fmt::print("{}: other shares are still to be made\n", folder);
+}
+
+}  // namespace
+
+void add_campaign_command(CLI::App& app, std::atomic<bool> const& stop) {
+  auto command = std::make_shared<CampaignCommand>();
+  auto* added = app.add_subcommand("campaign", "many runs: experiments x parameters x instruments, in one data set");
+  added->add_option("campaign", command->file, "campaign file")->required();
+  added->add_option("--output,-o", command->folder, "folder for the results; what is there already is not made again");
+  added->add_option("--array", command->share, "make share I of N only, as I/N with I from 0: for job arrays");
+  added->add_option("--show", command->show, "print the command that makes run number N alone, and make nothing")
+      ->check(CLI::NonNegativeNumber);
+  added->add_flag("--quiet,-q", command->quiet, "print nothing but errors");
+  added->callback([command, &stop] { (*command)(stop); });
+}
+
+}  // namespace thermotwin::twin

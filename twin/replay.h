@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "scenarios/experiment.h"
+#include "twin/run.h"
+
+namespace thermotwin::twin {
+
+/// All that a run was made from, as its provenance keeps it: the texts of the machine's and the experiment's files, the
+/// settings line by line, recorded inputs, and the elastic solutions that stand beside the machine's file.
+[[nodiscard]] std::map<std::string, std::string> origin(std::filesystem::path const& machine,
+                                                        std::filesystem::path const& experiment,
+                                                        std::string const& settings,
+                                                        scenarios::Experiment const& nominal);
+
+/// A run made anew from its own output, and how that compares.
+struct Replay {
+  bool same_bytes = false;
+  std::string text;  ///< for people: the same, or what differs and by how much
+};
+
+/// Runs again what a data set says it was made from, with no other file, and compares the two byte for byte. `output`
+/// keeps the new data set. InputError when the data set does not hold its origin: a measured one, a partial one.
+[[nodiscard]] Replay replay(std::filesystem::path const& dataset, std::filesystem::path const& output,
+                            std::function<void(double)> const& progress, std::atomic<bool> const* stop);
+
+}  // namespace thermotwin::twin
