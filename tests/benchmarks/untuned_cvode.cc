@@ -1,0 +1,128 @@
+#include <benchmark/benchmark.h>
+#include <cvodes/cvodes.h>
+#include <filesystem>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+#include "scenarios/course.h"
+#include "thermal/evaluation.h"
+#include "twin/machine.h"
+#include "twin/run.h"
+
+/// What a campaign is measured against: 24 h of random spectrum on v450 with CVODES as it comes, a sparse matrix, KLU,
+/// the same right-hand side and Jacobian; scalar tolerances of 1e-6, of temperatures in kelvin: 3e-4 K. Its results are
+/// thrown away. Beside it the same run as a campaign makes it.
+namespace thermotwin::twin {
+namespace {
+
+struct Problem {
+  Machine machine = Machine::read(std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "twin/machines/v450.toml");
+  scenarios::Experiment experiment;
+
+  Problem() {
+    experiment.duration = 24 * 3600.0;
+    experiment.sampling = 600.0;
+    experiment.ambient.mean = 295.15;
+    experiment.spindle.emplace().random.emplace().run = experiment.duration;
+  }
+};
+
+struct Loop {
+  Loop(Problem const& problem)
+      : evaluation(problem.machine.network()), course(problem.experiment, problem.machine.limits) {
+    auto const& network = problem.machine.network();
+    raw.resize(course.channels().size());
+    input.resize(std::size_t(network.channels()));
+    for (int c = 0; c < network.external_channels(); ++c)
+      for (std::size_t i = 0; i < raw.size(); ++i)
+        if (course.channels()[i].name == network.channel_names()[std::size_t(c)]) source.push_back(i);
+  }
+
+  double const* at(double t) {
+    course.evaluate(t < end ? t : std::nextafter(end, 0.0), raw);
+    for (std::size_t i = 0; i < source.size(); ++i) input[i] = raw[source[i]];
+    return input.data();
+  }
+
+  static int rate(double t, N_Vector y, N_Vector rates, void* self) {
+    auto& loop = *static_cast<Loop*>(self);
+    loop.evaluation.rate(N_VGetArrayPointer(y), loop.at(t), N_VGetArrayPointer(rates));
+    return 0;
+  }
+  static int jacobian(double t, N_Vector y, N_Vector, SUNMatrix matrix, void* self, N_Vector, N_Vector, N_Vector) {
+    auto& loop = *static_cast<Loop*>(self);
+    auto const values = loop.evaluation.jacobian(N_VGetArrayPointer(y), loop.at(t));
+    std::copy_n(values.outerIndexPtr(), values.cols() + 1, SUNSparseMatrix_IndexPointers(matrix));
+    std::copy_n(values.innerIndexPtr(), values.nonZeros(), SUNSparseMatrix_IndexValues(matrix));
+    std::copy_n(values.valuePtr(), values.nonZeros(), SUNSparseMatrix_Data(matrix));
+    return 0;
+  }
+
+  thermal::Evaluation evaluation;
+  scenarios::ExperimentCourse course;
+  std::vector<double> raw, input;
+  std::vector<std::size_t> source;
+  double end = 0.0;
+};
+
+void UntunedCvodeKlu24h(benchmark::State& state) {
+  Problem const problem;
+  int const n = problem.machine.network().nodes();
+  for (auto _ : state) {
+    Loop loop(problem);
+    SUNContext context = nullptr;
+    SUNContext_Create(nullptr, &context);
+    N_Vector y = N_VNew_Serial(n, context);
+    N_VConst(295.15, y);
+    double const* input = loop.at(0.0);
+    auto const pattern = loop.evaluation.jacobian(N_VGetArrayPointer(y), input);
+    SUNMatrix matrix = SUNSparseMatrix(n, n, pattern.nonZeros() + n, CSC_MAT, context);
+    SUNLinearSolver solver = SUNLinSol_KLU(y, matrix, context);
+    void* cvode = CVodeCreate(CV_BDF, context);
+    CVodeInit(cvode, Loop::rate, 0.0, y);
+    CVodeSetUserData(cvode, &loop);
+    CVodeSStolerances(cvode, 1e-6, 1e-6);
+    CVodeSetMaxNumSteps(cvode, 1'000'000);
+    CVodeSetLinearSolver(cvode, solver, matrix);
+    CVodeSetJacFn(cvode, Loop::jacobian);
+    double t = 0.0;
+    loop.end = loop.course.next_jump(0.0);
+    for (double const out : scenarios::sample_times(problem.experiment))
+      while (t < out) {
+        if (std::isfinite(loop.end)) CVodeSetStopTime(cvode, loop.end);
+        if (CVode(cvode, std::min(out, loop.end), y, &t, CV_NORMAL) < 0) return state.SkipWithError("CVODES gave up");
+        if (t < loop.end) continue;
+        loop.end = loop.course.next_jump(t);
+        CVodeReInit(cvode, t, y);
+      }
+    benchmark::DoNotOptimize(N_VGetArrayPointer(y)[0]);
+    CVodeFree(&cvode);
+    SUNLinSolFree(solver);
+    SUNMatDestroy(matrix);
+    N_VDestroy(y);
+    SUNContext_Free(&context);
+  }
+}
+BENCHMARK(UntunedCvodeKlu24h)->Unit(benchmark::kMillisecond);
+
+void CampaignRun24h(benchmark::State& state) {
+  Problem const problem;
+  RunOptions options;
+  options.integration.relative_tolerance = options.integration.absolute_tolerance = 1e-5;
+  for (auto _ : state) benchmark::DoNotOptimize(run(problem.machine, problem.experiment, options).summary.steps);
+}
+BENCHMARK(CampaignRun24h)->Unit(benchmark::kMillisecond);
+
+void MachineFromItsDocument(benchmark::State& state) {
+  Value const document = read_toml(machine_file("v450"));
+  for (auto _ : state) {
+    Value changed = document;
+    set_parameter(changed, "bearing.front.grease_factor", "0.6");
+    benchmark::DoNotOptimize(Machine::build(changed).network().nodes());
+  }
+}
+BENCHMARK(MachineFromItsDocument)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace thermotwin::twin
