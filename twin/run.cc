@@ -17,6 +17,11 @@
 namespace thermotwin::twin {
 namespace {
 
+/// What only other channels are made of is not shown.
+bool is_shown(thermal::InputChannel const& channel) {
+  return channel.name != "ambient.floor_temperature" && !channel.name.starts_with("clock.");
+}
+
 double to_edge(double si, std::string const& unit) { return unit == "1" ? si : thermal::to_unit(si, unit); }
 
 /// Collects what the integrator shows and passes it on: history, partial file, fields.
