@@ -40,7 +40,7 @@ std::string text_of(CampaignReport const& report) {
 
 void CampaignCommand::operator()(std::atomic<bool> const& stop) const {
   if (folder.empty() && show < 0) throw thermal::InputError("campaign needs a folder: --output DIR");
-  auto const campaign = Campaign::read(file);
+  auto const campaign = Campaign::read(campaign_file(file));
   if (show >= 0) return show_run(campaign);
   Ranks const ranks;
   if (!share.empty() && ranks.share().count > 1)
@@ -71,7 +71,7 @@ void CampaignCommand::operator()(std::atomic<bool> const& stop) const {
 void add_campaign_command(CLI::App& app, std::atomic<bool> const& stop) {
   auto command = std::make_shared<CampaignCommand>();
   auto* added = app.add_subcommand("campaign", "many runs: experiments x parameters x instruments, in one data set");
-  added->add_option("campaign", command->file, "campaign file")->required();
+  added->add_option("campaign", command->file, "campaign file, or the name of a shipped one")->required();
   added->add_option("--output,-o", command->folder, "folder for the results; what is there already is not made again");
   added->add_option("--array", command->share, "make share I of N only, as I/N with I from 0: for job arrays");
   added->add_option("--show", command->show, "print the command that makes run number N alone, and make nothing")

@@ -9,6 +9,19 @@
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
+namespace {
+
+/// Sets a parameter, and notes where in its range that is.
+void add(CampaignRun& run, CampaignParameter const& parameter, Setting setting, std::int64_t place) {
+  run.positions.push_back(parameter.numeric ? std::strtod(setting.value.c_str(), nullptr) : double(place));
+  run.settings.push_back(std::move(setting));
+}
+
+}  // namespace
+
+bool Campaign::samples_leave_machine() const {
+  return std::all_of(samples.begin(), samples.end(), [](auto const& parameter) { return parameter.of_experiment(); });
+}
 
 /// Exact up to 2^53, and no overflow beyond.
 double Campaign::count() const {
@@ -34,31 +47,24 @@ CampaignRun Campaign::run(std::int64_t number) const {
   };
   static_cast<void>(digit(description.repetitions));
   run.experiment = std::size_t(digit(std::int64_t(experiments.size())));
-  run.settings = common_;
-  if (!cases_.empty()) {
-    auto const& chosen = cases_[std::size_t(digit(std::int64_t(cases_.size())))];
-    run.settings.insert(run.settings.end(), chosen.begin(), chosen.end());
-  }
-  auto const number_of = [](CampaignParameter const& parameter, Setting const& setting, std::int64_t k) {
-    return parameter.numeric ? std::strtod(setting.value.c_str(), nullptr) : double(k);
-  };
-  std::vector<double> sampled;
-  if (!samples.empty()) {
-    auto const& latin = *description.latin_hypercube;
-    auto const sample = digit(latin.count);
-    for (auto const& parameter : samples) {
-      run.settings.push_back(
-          parameter.at(latin_hypercube(sample, latin.count, std::uint64_t(latin.seed), parameter.path)));
-      sampled.push_back(number_of(parameter, run.settings.back(), 0));
-    }
-  }
   std::vector<std::int64_t> places(grid.size());
-  for (std::size_t g = grid.size(); g-- > 0;) places[g] = digit(grid[g].count);
-  for (std::size_t g = 0; g < grid.size(); ++g) {
-    run.settings.push_back(grid[g].value(places[g]));
-    run.positions.push_back(number_of(grid[g], run.settings.back(), places[g]));
+  std::int64_t sample = 0, chosen = 0;
+  for (bool const of_experiment : {true, false}) {  // what changes the machine changes last
+    for (std::size_t g = grid.size(); g-- > 0;)
+      if (grid[g].of_experiment() == of_experiment) places[g] = digit(grid[g].count);
+    if (!samples.empty() && samples_leave_machine() == of_experiment)
+      sample = digit(description.latin_hypercube->count);
+    if (!cases_.empty() && !of_experiment) chosen = digit(std::int64_t(cases_.size()));
   }
-  run.positions.insert(run.positions.end(), sampled.begin(), sampled.end());
+  run.settings = common_;
+  if (!cases_.empty())
+    run.settings.insert(run.settings.end(), cases_[std::size_t(chosen)].begin(), cases_[std::size_t(chosen)].end());
+  for (std::size_t g = 0; g < grid.size(); ++g) add(run, grid[g], grid[g].value(places[g]), places[g]);
+  for (auto const& parameter : samples) {
+    auto const& latin = *description.latin_hypercube;
+    add(run, parameter, parameter.at(latin_hypercube(sample, latin.count, std::uint64_t(latin.seed), parameter.path)),
+        0);
+  }
   return run;
 }
 

@@ -16,8 +16,8 @@ struct CampaignRun {
   std::int64_t number = 0;
   std::size_t experiment = 0;
   int seed = 0;                   ///< of the instruments
-  std::vector<double> positions;  ///< per parameter: see CampaignParameter
-  std::vector<Setting> settings;  ///< those of every run, of the case, of samples and grid, in this order
+  std::vector<double> positions;  ///< per parameter of grid and samples: see CampaignParameter
+  std::vector<Setting> settings;  ///< those of every run, of the case, of grid and samples, in this order
 };
 
 /// A parameter that a grid or a Latin hypercube varies.
@@ -29,6 +29,8 @@ struct CampaignParameter {
   std::int64_t count = 0;           ///< of a grid's values
   bool numeric = true;              ///< false: values are words, and a run's position is their number from 0
   Location where;                   ///< of its table in the file
+
+  [[nodiscard]] bool of_experiment() const { return Setting{path, {}}.of_experiment(); }
 
   /// The value at a share of the range, or the k-th.
   [[nodiscard]] Setting at(double share) const;
@@ -44,8 +46,9 @@ struct CampaignExperiment {
 
 /// A campaign as its file describes it: nothing is expanded, run i is made when it is asked for.
 ///
-/// From the slowest to the fastest run the grid's parameters in the order of the file, the samples, the cases, the
-/// experiments, and the repetitions, so that neighbours share a machine.
+/// What changes the machine changes seldom: from the slowest to the fastest the grid's parameters of the machine, the
+/// samples, the cases, the grid's parameters of the experiment, the experiments, and the repetitions. Samples that
+/// leave the machine alone stand behind the cases.
 class Campaign {
  public:
   /// FileError with line and column for unknown keys, paths that no machine or experiment has, ranges without order
@@ -77,6 +80,7 @@ class Campaign {
  private:
   Campaign() = default;
   [[nodiscard]] double count() const;
+  [[nodiscard]] bool samples_leave_machine() const;
   void read_experiments();
   void read_machine();
   void read_parameters(Value const& document);
@@ -87,5 +91,8 @@ class Campaign {
   std::vector<Setting> common_;
   std::vector<std::vector<Setting>> cases_;
 };
+
+/// A campaign file, or the name of one in scenarios/campaigns; InputError with the nearest name.
+[[nodiscard]] std::filesystem::path campaign_file(std::string const& name_or_path);
 
 }  // namespace thermotwin::twin

@@ -9,6 +9,7 @@
 #include "twin/campaign/campaign.h"
 #include "twin/diagnosis/run_files.h"
 #include "twin/experiment_file.h"
+#include "twin/file/shipped_file.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -230,6 +231,10 @@ Campaign Campaign::read(fs::path const& file) {
   campaign.check_settings(document);
   campaign.check_sampling(document);
   return campaign;
+}
+
+fs::path campaign_file(std::string const& name_or_path) {
+  return shipped_file("campaign", "scenarios/campaigns", name_or_path);
 }
 
 }  // namespace thermotwin::twin
