@@ -1,0 +1,251 @@
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <map>
+#include <random>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "output/dataset_file.h"
+#include "tests/end_to_end/program.h"
+#include "tests/output/temporary_directory.h"
+
+/// Campaigns, checkpoints and replays, as their users meet them, and as SIGKILL does.
+namespace thermotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using tests::answer;
+using tests::contents;
+using tests::TemporaryDirectory;
+
+std::string const program = THERMOTWIN_PROGRAM;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// 200 runs of a day.
+fs::path campaign_of_200(TemporaryDirectory const& directory) {
+  tests::put(directory / "campaign.toml", R"toml(
+experiments = ["spindle_random"]
+machine = "v450"
+set = ["experiment.duration=24 h", "experiment.spindle.random.run=24 h"]
+every = "10 min"
+part = 30
+
+[latin_hypercube]
+count = 200
+
+[[latin_hypercube.vary]]
+path = "bearing.front.grease_factor"
+from = 0.4
+to = 0.8
+
+[[latin_hypercube.vary]]
+path = "experiment.ambient.mean"
+from = "18 degC"
+to = "26 degC"
+)toml");
+  return directory / "campaign.toml";
+}
+
+/// What a campaign leaves, by path.
+std::map<std::string, std::string> files_in(fs::path const& folder) {
+  std::map<std::string, std::string> files;
+  for (auto const& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = contents(entry.path());
+  return files;
+}
+
+pid_t start(std::vector<std::string> words) {
+  pid_t const child = fork();
+  if (child != 0) return child;
+  std::vector<char*> arguments;
+  for (auto& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  if (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)) _exit(126);
+  execvp(arguments[0], arguments.data());
+  _exit(127);
+}
+
+bool was_killed(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status) || (WIFEXITED(status) && WEXITSTATUS(status) != 0);
+}
+
+void wait(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+/// The processes that a process has started.
+std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> children;
+  for (auto const& entry : fs::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "stat");
+    std::string number, name, state;
+    pid_t of = 0;
+    if (file >> number >> name >> state >> of && of == parent) children.push_back(std::stoi(number));
+  }
+  return children;
+}
+
+/// How long the program takes before its first run, and for all 200.
+struct Undisturbed {
+  double start, whole;
+  std::map<std::string, std::string> files;
+};
+
+Undisturbed undisturbed(TemporaryDirectory const& directory, std::string const& file) {
+  Undisturbed result;
+  auto begin = Clock::now();
+  answer(program + " campaign " + file + " --show 0");
+  result.start = seconds_since(begin);
+  begin = Clock::now();
+  auto const text = answer(program + " campaign " + file + " -o " + (directory / "whole").string());
+  EXPECT_NE(text.find("200 runs, 0 of them failed"), std::string::npos) << text;
+  result.whole = seconds_since(begin) - result.start;
+  result.files = files_in(directory / "whole");
+  return result;
+}
+
+TEST(CampaignCommand, KilledTwentyTimesItLeavesTheSameBytes) {
+  TemporaryDirectory const directory;
+  std::string const file = campaign_of_200(directory), folder = directory / "killed";
+  auto const expected = undisturbed(directory, file);
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> moment(0.5 * expected.start, expected.start + 0.08 * expected.whole);
+  int killed = 0;
+  for (int k = 0; k < 20; ++k) {
+    pid_t const child = start({program, "campaign", file, "-q", "-o", folder});
+    wait(moment(random));
+    kill(child, SIGKILL);
+    killed += was_killed(child) ? 1 : 0;
+  }
+  EXPECT_GE(killed, 15);
+  answer(program + " campaign " + file + " -q -o " + folder);
+  EXPECT_TRUE(files_in(folder) == expected.files);
+}
+
+TEST(CampaignCommand, ARankKilledUnderMpirunLeavesTheSameBytes) {
+  if (std::system("mpirun --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no mpirun";
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  TemporaryDirectory const directory;
+  std::string const file = campaign_of_200(directory), folder = directory / "ranks";
+  auto const expected = undisturbed(directory, file);
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> moment(0.0, 0.2 * expected.whole);
+  std::vector<std::string> const words = {"mpirun", "-np", "2",   "--oversubscribe", program, "campaign", file,
+                                          "-q",     "-o",  folder};
+  int killed = 0;
+  for (int k = 0; k < 3; ++k) {
+    pid_t const child = start(words);
+    for (int tries = 0; tries < 500 && !fs::exists(folder + "/manifest.json"); ++tries) wait(0.01);
+    wait(moment(random));
+    auto const ranks = children_of(child);
+    if (ranks.size() == 2) kill(ranks[std::size_t(k % 2)], SIGKILL);
+    killed += was_killed(child) ? 1 : 0;
+  }
+  EXPECT_GE(killed, 1);
+  EXPECT_FALSE(was_killed(start(words)));
+  EXPECT_TRUE(files_in(folder) == expected.files);
+}
+
+TEST(CampaignCommand, SharesOfAnArrayMakeTheWhole) {
+  TemporaryDirectory const directory;
+  std::string const file = campaign_of_200(directory), folder = directory / "array";
+  auto const expected = undisturbed(directory, file);
+  for (std::string const share : {"1/3", "0/3", "2/3"})
+    answer(program + " campaign " + file + " -q --array " + share + " -o " + folder);
+  EXPECT_TRUE(files_in(folder) == expected.files);
+  EXPECT_NE(answer(program + " campaign " + file + " --array 3/3 -o " + folder, 2).find("3/16"), std::string::npos);
+}
+
+/// The campaign's numbers are those of the run that it says it made.
+TEST(CampaignCommand, ShowsTheCommandOfARun) {
+  TemporaryDirectory const directory;
+  std::string const file = campaign_of_200(directory);
+  auto command = answer(program + " campaign " + file + " --show 123");
+  ASSERT_TRUE(command.starts_with("thermotwin run ")) << command;
+  command = program + command.substr(10, command.size() - 11);
+  answer(command + " -q -o " + (directory / "run.h5").string());
+  auto const run = output::read(directory / "run.h5");
+  answer(program + " campaign " + file + " -q -o " + (directory / "all").string());
+  if (std::system("/usr/bin/python3 -c 'import xarray, h5netcdf' 2>/dev/null") != 0)
+    GTEST_SKIP() << "no python3-xarray";
+  std::ofstream(directory / "look.py") << "import sys, xarray, numpy\n"
+                                          "a = xarray.open_dataset(sys.argv[1], engine='h5netcdf')\n"
+                                          "assert a.readings.dims == ('run', 'time', 'reading'), a\n"
+                                          "assert a.sizes['run'] == 200, a\n"
+                                          "r = xarray.open_dataset(sys.argv[2], group='readings', engine='h5netcdf')\n"
+                                          "for i, name in enumerate(a.reading.values):\n"
+                                          "    x = a.readings[123, :, i].values\n"
+                                          "    assert (x == r[name].values.astype(numpy.float32)).all(), name\n"
+                                          "print('good')\n";
+  EXPECT_NE(answer("/usr/bin/python3 -W error::UserWarning " + (directory / "look.py").string() + " " +
+                   (directory / "all/campaign.h5").string() + " " + (directory / "run.h5").string())
+                .find("good"),
+            std::string::npos);
+}
+
+TEST(RunCommand, KilledAndResumedGivesTheSameBytes) {
+  TemporaryDirectory const directory;
+  auto const command = [&](std::string const& name) {
+    return program + " run golden_b_4000 -q --set experiment.duration='2000 h' --checkpoint '20 h' -o " +
+           (directory / name).string();
+  };
+  auto const begin = Clock::now();
+  answer(command("whole.h5"));
+  double const whole = seconds_since(begin);
+  int killed = 0;
+  for (double share : {0.5, 0.6, 0.7}) {
+    pid_t const child = start({"sh", "-c", "exec " + command("killed.h5") + " --resume"});
+    wait(share * whole);
+    kill(child, SIGKILL);
+    killed += was_killed(child) ? 1 : 0;
+    EXPECT_FALSE(fs::exists(directory / "killed.h5") && killed == 1);
+  }
+  EXPECT_GE(killed, 1);
+  if (fs::exists(directory / "killed.h5.checkpoint")) {
+    EXPECT_NE(answer(command("killed.h5"), 2).find("go on with --resume"), std::string::npos);
+  }
+  answer(command("killed.h5") + " --resume");
+  EXPECT_TRUE(contents(directory / "killed.h5") == contents(directory / "whole.h5"));
+  EXPECT_FALSE(fs::exists(directory / "killed.h5.checkpoint"));
+}
+
+TEST(ReplayCommand, MakesARunAnewFromItsOutputAlone) {
+  TemporaryDirectory const directory;
+  fs::create_directory(directory / "gone");
+  fs::path const source = THERMOTWIN_SOURCE_DIR;
+  tests::put(directory / "gone/mine.toml", contents(source / "twin/machines/v450.toml"));
+  tests::put(directory / "gone/speed.csv", "time_s,n\n0,1000\n3600,5000\n7200,2000\n");
+  tests::put(directory / "gone/experiment.toml", R"toml(
+machine = "mine.toml"
+duration = "2 h"
+[[recorded]]
+file = "speed.csv"
+max_gap = "2 h"
+columns = [{column = "n", channel = "spindle.speed", unit = "rpm"}]
+)toml");
+  std::string const run = directory / "run.h5";
+  answer(program + " run " + (directory / "gone/experiment.toml").string() + " -q --nodes --tolerance 1e-5 " +
+         "--set bearing.front.grease_factor=0.7 --set experiment.seed=4 -o " + run);
+  fs::remove_all(directory / "gone");
+  EXPECT_NE(answer(program + " replay " + run).find("the same bytes"), std::string::npos);
+  auto data = output::read(run);
+  data.readings[0].values[7] += 0.5;
+  output::write(data, run);
+  auto const text = answer(program + " replay " + run, 1);
+  EXPECT_NE(text.find("reading " + data.readings[0].name + ": up to 0.5 degC"), std::string::npos) << text;
+  data.provenance.erase("machine.file");
+  output::write(data, run);
+  EXPECT_NE(answer(program + " replay " + run, 2).find("'machine.file'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace thermotwin
