@@ -55,7 +55,7 @@ struct CompensateCommand : ConnectionArguments {
   std::string model, machine;
   std::string cycle = "10 s", resolution = "1 um", dead_band = "1 um", slew = "1 um/s", largest = "50 um";
   std::string stale = "60 s", stuck = "10 min", jump = "0.3 K", fastest = "0.02 K/s";
-  std::string lowest = "-20 degC", highest = "120 degC", hold = "10 min", fade = "10 min";
+  std::string lowest = "-20 degC", highest = "120 degC", hold = "10 min", fade = "10 min", start = "30 s";
 
   void add_to(CLI::App& command);
   void operator()(std::atomic<bool> const& stop) const;
@@ -85,6 +85,7 @@ void CompensateCommand::add_to(CLI::App& command) {
   option("--highest", highest, "reading that a sensor may show");
   option("--hold", hold, "how long the last good offset stands when a sensor fails");
   option("--fade", fade, "and how long it then takes to nothing");
+  option("--start", start, "within which every input must come, from the first one on");
 }
 
 LiveModel CompensateCommand::live_model() const {
@@ -111,7 +112,8 @@ void CompensateCommand::operator()(std::atomic<bool> const& stop) const {
   auto const set = settings();
   CompensateOptions options{broker, topics, axis, {}, {}};
   options.broker.client = fmt::format("thermotwin-compensate-{}-{}", topics.prefix, axis);
-  options.loop = {parse_value(cycle, dimension::time), speed, 0.5 * set.watch.stale_time};
+  options.loop = {parse_value(cycle, dimension::time), speed, 0.5 * set.watch.stale_time,
+                  parse_value(start, dimension::time)};
   options.say = [](std::string const& line) { fmt::print(stderr, "{}\n", line); };
   fmt::print("{}", summary_text(compensate(Compensator(live_model(), set), options, stop)));
 }

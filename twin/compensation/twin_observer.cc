@@ -69,7 +69,9 @@ void TwinObserver::list_channels() {
 }
 
 void TwinObserver::list_inputs() {
-  auto const known = scenarios::ExperimentCourse({}, machine_.limits).channels();
+  scenarios::Experiment any;
+  any.duration = 1.0;
+  auto const known = scenarios::ExperimentCourse(any, machine_.limits).channels();
   inputs_.push_back({"ambient.temperature", "degC", false, true});
   for (auto const& channel : channels_)
     if (channel.name != floor_temperature && channel.name != "ambient.temperature")

@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <regex>
+
+#include "output/dataset_file.h"
+#include "tests/end_to_end/broker_process.h"
+#include "tests/end_to_end/program.h"
+#include "tests/output/temporary_directory.h"
+#include "thermal/error.h"
+#include "twin/compensation/broker.h"
+#include "twin/compensation/reading.h"
+
+/// `thermotwin fit`, `compensate` and `play` over a real broker.
+namespace thermotwin {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::Not;
+using tests::answer;
+using tests::BrokerProcess;
+using tests::Child;
+using tests::TemporaryDirectory;
+using twin::Broker;
+using twin::BrokerOptions;
+
+std::string const program = THERMOTWIN_PROGRAM;
+
+/// The number behind that word in what `play` prints.
+double figure(std::string const& text, std::string const& word) {
+  std::smatch match;
+  return std::regex_search(text, match, std::regex("\\b" + word + " +([0-9.]+)")) ? std::stod(match[1]) : -1.0;
+}
+
+// --- the loop --------------------------------------------------------------------------------------------------------
+
+class LiveCompensation : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    directory_ = new TemporaryDirectory;
+    answer(program + " run duty_003 -q -o " + at("duty.h5"));
+    answer(program + " run duty_003_other -q -o " + at("other.h5"));
+    answer(program + " fit " + at("other.h5") + " --error E_X --sensors T2,T4,T10,T12,T15 -o " + at("model.toml"));
+  }
+  static void TearDownTestSuite() { delete directory_; }
+  static std::string at(std::string const& name) { return (*directory_ / name).string(); }
+
+  /// The duty with somebody who compensates. What `play` and `compensate` print.
+  std::array<std::string, 2> played(std::vector<std::string> const& with, std::string const& run = "duty.h5",
+                                    std::string const& speed = "3000") {
+    std::vector<std::string> command{program,   "compensate", "--broker", broker_.url(), "--speed", speed,
+                                     "--cycle", "2 min",      "--stale",  "6 min",       "--stuck", "8 min"};
+    command.insert(command.end(), with.begin(), with.end());
+    Child compensate(command, at("compensate"));
+    auto const text = answer(program + " play " + at(run) + " -q --speed " + speed + " --broker " + broker_.url() +
+                             " -o " + at("played.csv"));
+    EXPECT_EQ(compensate.end(SIGINT), 0);
+    return {text, tests::contents(at("compensate"))};
+  }
+
+  TemporaryDirectory broker_directory_;
+  BrokerProcess broker_{broker_directory_.path().string()};
+  static TemporaryDirectory* directory_;
+};
+TemporaryDirectory* LiveCompensation::directory_ = nullptr;
+
+TEST_F(LiveCompensation, BringsTheDiameterBelow10WithAModelOfAnotherDuty) {
+  auto const [play, compensate] = played({"--model", at("model.toml")});
+  EXPECT_GT(figure(play, "uncompensated"), 25.0);
+  EXPECT_LE(2.0 * figure(play, "compensated"), 10.0) << play << compensate;
+  EXPECT_THAT(play, HasSubstr("at the worst instant 0.00 um worse"));
+  EXPECT_THAT(compensate, Not(HasSubstr("refused")));
+  EXPECT_THAT(tests::contents(at("played.csv")),
+              testing::StartsWith("time_s,error_um,offset_um,compensated_um\n0,0,0,0\n"));
+}
+
+TEST_F(LiveCompensation, ObservesWithTheTwin) {
+  auto const [play, compensate] = played({"--observer", "g200", "--fastest", "0.5 K/s"});
+  EXPECT_GT(figure(play, "uncompensated"), 25.0);
+  EXPECT_LE(2.0 * figure(play, "compensated"), 10.0) << play << compensate;
+}
+
+TEST_F(LiveCompensation, IsNeverWorseThanNothingWithAFaultySensor) {
+  std::array<std::pair<char const*, std::function<void(Eigen::VectorXd&)>>, 4> const faults{
+      {{"T2 missing", [](auto& values) { values.segment(20, 30).setConstant(std::nan("")); }},
+       {"T2 stuck", [](auto& values) { values.segment(20, 30).setConstant(values[20]); }},
+       {"T2 jumped", [](auto& values) { values.tail(50).array() += 6.0; }},
+       {"T2 out of range", [](auto& values) { values.segment(20, 30).setConstant(850.0); }}}};
+  auto const duty = output::read(at("duty.h5"));
+  for (auto const& [report, corrupt] : faults) {
+    auto faulty = duty;
+    for (auto& channel : faulty.readings)
+      if (channel.name == "T2") corrupt(channel.values);
+    output::write(faulty, at("faulty.h5"));
+    auto const [play, compensate] = played({"--model", at("model.toml")}, "faulty.h5", "6000");
+    EXPECT_THAT(compensate, HasSubstr(report));
+    EXPECT_LE(figure(play, "instant"), 1.0) << report << "\n" << play << compensate;
+  }
+}
+
+TEST_F(LiveCompensation, SaysWhichInputsDoNotCome) {
+  auto lacking = output::read(at("duty.h5"));
+  std::erase_if(lacking.readings, [](auto const& channel) { return channel.name == "T10"; });
+  output::write(lacking, at("lacking.h5"));
+  Child compensate({program, "compensate", "--model", at("model.toml"), "--broker", broker_.url(), "--speed", "3000",
+                    "--start", "1 s"},
+                   at("compensate"));
+  answer(program + " play " + at("lacking.h5") + " -q --speed 3000 --broker " + broker_.url());
+  EXPECT_EQ(compensate.wait(), 2);
+  EXPECT_THAT(tests::contents(at("compensate")), HasSubstr("no reading of T10 within 1 s"));
+}
+
+TEST_F(LiveCompensation, LeavesALastWill) {
+  Child compensate({program, "compensate", "--model", at("model.toml"), "--broker", broker_.url()}, at("compensate"));
+  Broker listener({broker_.url(), "listener", {}, {}, {}, {}, {}, {}}, {"thermotwin/status/compensate-X"});
+  auto const next = [&] {
+    auto const message = listener.receive(std::chrono::steady_clock::now() + 5s);
+    return message ? message->payload : "nothing";
+  };
+  EXPECT_EQ(next(), "online");
+  compensate.end(SIGKILL);
+  EXPECT_EQ(next(), "offline");
+}
+
+TEST_F(LiveCompensation, RefusesWhatItCannotDo) {
+  std::string const compensate = program + " compensate --broker " + broker_.url();
+  EXPECT_THAT(answer(compensate, 2), HasSubstr("compensate needs --model FILE or --observer MACHINE"));
+  EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --resolution 1", 2), HasSubstr("1 has no unit"));
+  EXPECT_THAT(answer(program + " compensate --broker localhost --model " + at("model.toml"), 2),
+              HasSubstr("broker 'localhost': write mqtt://HOST:1883"));
+  EXPECT_THAT(answer(program + " compensate --broker mqtt://localhost:1 --model " + at("model.toml"), 2),
+              HasSubstr("the broker mqtt://localhost:1 cannot be reached"));
+  EXPECT_THAT(answer(program + " fit " + at("other.h5") + " --sensors T22 -o " + at("x.toml"), 2),
+              HasSubstr("has no 'T22'; did you mean 'T2'?"));
+}
+
+// --- the connection --------------------------------------------------------------------------------------------------
+
+BrokerOptions named(std::string const& url, std::string const& client) {
+  BrokerOptions options;
+  options.url = url;
+  options.client = client;
+  return options;
+}
+
+/// Whether a message gets from one client to another.
+bool passes(BrokerOptions options) {
+  options.client = "receiver";
+  Broker receiver(options, {"there"});
+  options.client = "sender";
+  Broker sender(options, {});
+  sender.publish("there", "hello");
+  auto const message = receiver.receive(std::chrono::steady_clock::now() + 5s);
+  return message && message->payload == "hello";
+}
+
+std::string refusal(BrokerOptions const& options) {
+  try {
+    Broker const broker(options, {});
+    return "taken";
+  } catch (thermal::InputError const& error) {
+    return error.what();
+  }
+}
+
+TEST(BrokerConnection, TakesUserAndPassword) {
+  TemporaryDirectory const directory;
+  auto const at = [&](char const* name) { return (directory / name).string(); };
+  tests::put(at("password"), "secret\n");
+  tests::put(at("wrong"), "guess\n");
+  answer("mosquitto_passwd -b -c " + at("users") + " twin secret");
+  BrokerProcess const broker(directory.path().string(), "allow_anonymous false\npassword_file " + at("users") + "\n");
+  auto options = named(broker.url(), "twin");
+  EXPECT_THAT(refusal(options), HasSubstr("cannot be reached"));
+  options.user = "twin";
+  options.password_file = at("wrong");
+  EXPECT_THAT(refusal(options), HasSubstr("cannot be reached"));
+  options.password_file = at("absent");
+  EXPECT_THAT(refusal(options), HasSubstr("no password to read"));
+  options.password_file = at("password");
+  EXPECT_TRUE(passes(options));
+}
+
+TEST(BrokerConnection, IsEncryptedAndKnowsWhomItTalksTo) {
+  TemporaryDirectory const directory;
+  auto const at = [&](std::string const& name) { return (directory / name).string(); };
+  auto const sign = [&](std::string const& authority, std::string const& name) {
+    answer("openssl req -newkey rsa:2048 -nodes -subj /CN=" + name + " -addext subjectAltName=DNS:localhost -keyout " +
+           at(name + ".key") + " -x509 -days 2 -CA " + at(authority + ".pem") + " -CAkey " + at(authority + ".key") +
+           " -out " + at(name + ".pem"));
+  };
+  for (std::string const authority : {"ours", "theirs"})
+    answer("openssl req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=" + authority + " -keyout " +
+           at(authority + ".key") + " -out " + at(authority + ".pem"));
+  sign("ours", "broker");
+  sign("ours", "client");
+  BrokerProcess const broker(directory.path().string(), "allow_anonymous true\nrequire_certificate true\ncafile " +
+                                                            at("ours.pem") + "\ncertfile " + at("broker.pem") +
+                                                            "\nkeyfile " + at("broker.key") + "\n");
+  auto options = named(broker.url("mqtts"), "twin");
+  options.ca_file = at("ours.pem");
+  options.certificate_file = at("client.pem");
+  options.key_file = at("client.key");
+  EXPECT_TRUE(passes(options));
+  options.ca_file = at("theirs.pem");
+  EXPECT_THAT(refusal(options), HasSubstr("cannot be reached"));
+  options.ca_file = at("ours.pem");
+  options.certificate_file = options.key_file = {};
+  EXPECT_THAT(refusal(options), HasSubstr("cannot be reached"));
+}
+
+TEST(BrokerConnection, LosesNothingWhenTheBrokerIsKilledAndComesBack) {
+  TemporaryDirectory const directory;
+  BrokerProcess broker(directory.path().string());
+  Broker receiver(named(broker.url(), "receiver"), {"count"});
+  Broker sender(named(broker.url(), "sender"), {});
+  std::this_thread::sleep_for(1200ms);  // the broker has written down who listens
+  constexpr int messages = 2000;
+  for (int i = 0; i < messages; ++i) {
+    if (i == messages / 4) broker.kill();
+    if (i == messages / 2) broker.start();
+    EXPECT_TRUE(sender.publish("count", std::to_string(i)));
+    std::this_thread::sleep_for(500us);
+  }
+  std::vector<bool> seen(messages);
+  auto const until = std::chrono::steady_clock::now() + 15s;
+  while (auto const message = receiver.receive(until)) {
+    seen[std::size_t(std::stoi(message->payload))] = true;
+    if (std::all_of(seen.begin(), seen.end(), [](bool s) { return s; })) break;
+  }
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), false), 0);
+  EXPECT_GE(receiver.reconnections(), 1);
+}
+
+}  // namespace
+}  // namespace thermotwin

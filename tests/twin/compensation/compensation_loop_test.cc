@@ -1,0 +1,230 @@
+#include "twin/compensation/compensation_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <random>
+
+#include "tests/twin/compensation/closed_loop.h"
+#include "thermal/error.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using tests::close_loop;
+using tests::key_sensors;
+
+constexpr double half_hour = 1800.0;
+
+CompensationSettings settings() {
+  CompensationSettings result;
+  result.watch.stale_time = 60.0;
+  return result;
+}
+
+/// The duty of paper 003 on g200, read every 10 s; the model knows another duty only.
+class PaperLoop : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    duty_ = new output::Dataset(tests::simulated("duty_003", 10.0));
+    duty_->inputs.clear();
+    std::erase_if(duty_->readings, [](auto const& channel) {
+      return std::find(key_sensors.begin(), key_sensors.end(), channel.name) == key_sensors.end();
+    });
+    model_ = new models::ErrorModel(tests::fitted(tests::simulated("duty_003_other", 120.0), key_sensors));
+  }
+  static void TearDownTestSuite() {
+    delete duty_;
+    delete model_;
+  }
+  static CompensationLoop loop() { return {Compensator(SavedModel(*model_), settings()), {10.0, 1.0, 30.0, 30.0}}; }
+  static VirtualMachine machine() { return {*duty_, {}}; }
+
+  static output::Dataset* duty_;
+  static models::ErrorModel* model_;
+};
+output::Dataset* PaperLoop::duty_ = nullptr;
+models::ErrorModel* PaperLoop::model_ = nullptr;
+
+TEST_F(PaperLoop, BringsTheDiameterFrom27ToBelow10) {
+  auto compensation = loop();
+  auto const played = close_loop(compensation, machine());
+  EXPECT_GT(played.largest_error(), 25.0);
+  EXPECT_LT(2.0 * played.largest_residual(), 10.0);  // a diameter changes by twice the radial error
+  EXPECT_LT(2.0 * played.rms_residual(), 3.0);
+  EXPECT_EQ(played.worst_excess(), 0.0);
+  EXPECT_TRUE(compensation.refusals().empty());
+  EXPECT_NEAR(double(played.accepted), double(duty_->time_s.size()), 1.0);
+}
+
+TEST_F(PaperLoop, DecidesOncePerCycleWithEveryReadingOfIt) {
+  auto compensation = loop();
+  double last = -10.0;
+  close_loop(compensation, machine(), {}, [&](Decision const& decision) {
+    EXPECT_NEAR(decision.time - last, 10.0, 0.1);
+    EXPECT_EQ(decision.support, Support::good);
+    last = decision.time;
+  });
+  EXPECT_NEAR(last, duty_->time_s[duty_->time_s.size() - 1], 0.1);
+}
+
+/// Each fault of each sensor, from its begin to the end of the duty or for half an hour.
+struct FaultCase {
+  char const* name;
+  SensorFault expected;
+  std::function<void(Reading&)> corrupt;  ///< a reading without a name does not arrive
+};
+
+std::vector<FaultCase> fault_cases() {
+  return {{"stale", SensorFault::stale, [](Reading& r) { r.name.clear(); }},
+          {"missing", SensorFault::missing, [](Reading& r) { r.value = std::nan(""); }},
+          {"stuck", SensorFault::stuck, {}},
+          {"jump", SensorFault::jump, [](Reading& r) { r.value += 2.0; }},
+          {"jump down", SensorFault::jump, [](Reading& r) { r.value -= 2.0; }},
+          {"out of range", SensorFault::out_of_range, [](Reading& r) { r.value = 850.0; }}};
+}
+
+TEST_F(PaperLoop, IsNeverWorseThanNothingByMoreThanTheDeadBandWhateverSensorFails) {
+  double const dead_band = settings().shift.dead_band;
+  for (auto const& fault : fault_cases())
+    for (auto const& sensor : key_sensors)
+      for (double const begin : {0.0, 600.0, 3000.0, 7000.0})
+        for (double const length : {half_hour, 1e9}) {
+          if (begin == 0.0 && fault.expected != SensorFault::stuck) continue;  // that is a run without the sensor
+          auto compensation = loop();
+          std::optional<double> frozen;
+          bool seen = false;
+          auto const played = close_loop(
+              compensation, machine(),
+              [&](double time, std::string const& topic, std::string& payload) {
+                if (!topic.ends_with("/" + sensor) || time < begin || time > begin + length) return;
+                auto reading = std::get<Reading>(read_payload(payload));
+                if (!frozen) frozen = reading.value;
+                if (fault.corrupt)
+                  fault.corrupt(reading);
+                else
+                  reading.value = *frozen;
+                payload = reading.name.empty() ? "" : payload_of(reading);
+              },
+              [&](Decision const& d) {
+                auto const found = d.faults.find(sensor);
+                seen = seen || (found != d.faults.end() && found->second == fault.expected);
+              });
+          EXPECT_TRUE(seen) << fault.name << " of " << sensor << " at " << begin << " s was not reported";
+          EXPECT_LE(played.worst_excess(), dead_band)
+              << fault.name << " of " << sensor << " at " << begin << " s for " << length << " s";
+        }
+}
+
+TEST_F(PaperLoop, FadesWhenEverySensorIsSilent) {
+  auto compensation = loop();
+  double last_offset = 0.0;
+  Support last = Support::waiting;
+  auto const silent = [&](double time, std::string const&, std::string& payload) {
+    if (time > 3600.0) payload.clear();
+  };
+  close_loop(compensation, machine(), silent, [&](Decision const& d) { last_offset = d.offset, last = d.support; });
+  EXPECT_EQ(last, Support::off);
+  EXPECT_EQ(last_offset, 0.0);
+}
+
+TEST_F(PaperLoop, NamesTheInputsThatDidNotCome) {
+  auto compensation = loop();
+  close_loop(compensation, machine(), [](double, std::string const& topic, std::string& payload) {
+    if (topic.ends_with("/T10")) payload.clear();
+  });
+  compensation.require_inputs(29.0);
+  try {
+    compensation.require_inputs(30.0);
+    FAIL() << "not refused";
+  } catch (thermal::InputError const& error) {
+    EXPECT_STREQ(error.what(), "no reading of T10 within 30 s; the model needs every one of its inputs");
+  }
+}
+
+// --- whatever comes --------------------------------------------------------------------------------------------------
+
+/// Bytes, texts and numbers that somebody might send.
+class Hostile {
+ public:
+  explicit Hostile(std::uint64_t seed) : random_(seed) {}
+
+  std::string payload(std::string const& name, double time) {
+    switch (random_() % 8) {
+      case 0:
+        return bytes(random_() % 200);
+      case 1:
+        return std::string(random_() % 3000, '{');
+      case 2:
+        return payload_of({name, number(), "degC", time, "good"});
+      case 3:
+        return payload_of({name, 25.0, "degC", number(), "good"});
+      case 4:
+        return payload_of({bytes(5), 25.0, bytes(3), time, bytes(4)});
+      case 5:
+        return payload_of({name, 1000.0 * number(), "degC", time + double(random_() % 100), "good"});
+      case 6:
+        return cut(payload_of({name, 25.0, "degC", time, "good"}));
+      default:
+        return payload_of({name, 25.0 + 1e-3 * double(random_() % 1000), "degC", time, "good"});
+    }
+  }
+  std::uint64_t draw(std::uint64_t below) { return random_() % below; }
+
+ private:
+  double number() {
+    constexpr double wild[] = {0.0, -0.0, 1e308, -1e308, 5e-324, 1e11, -1e11, 120.0, -20.0, 119.9, 23.0};
+    return wild[random_() % std::size(wild)];
+  }
+  std::string bytes(std::size_t count) {
+    std::string text(count, ' ');
+    for (auto& c : text) c = char(random_());
+    return text;
+  }
+  std::string cut(std::string text) { return text.substr(0, random_() % text.size()); }
+
+  std::mt19937_64 random_;
+};
+
+TEST(CompensationLoop, KeepsItsLimitsWhateverComes) {
+  ShiftLimits const limits{1.0, 1.0, 0.5, 20.0};
+  models::LinearForm form;
+  form.coefficients = Eigen::Vector2d(3.0, -40.0);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Hostile hostile(seed);
+    CompensationLoop loop({SavedModel({"linear", {"T1", "T2"}, 0.0, 3.0, form, ""}), {limits, {}, {60.0, 60.0}}},
+                          {1.0, 1.0, 30.0, 30.0});
+    auto const topics = loop.topics();
+    double wall = 0.0, last = 0.0, last_wall = 0.0, ahead = 30.0;
+    for (int i = 0; i < 5000; ++i) {
+      wall += 1e-3 * double(hostile.draw(400));
+      auto const which = hostile.draw(3);
+      auto const decision = which == 2
+                                ? loop.take("thermotwin/#", "{}", wall)
+                                : loop.take(topics[which], hostile.payload(which == 0 ? "T1" : "T2", wall), wall);
+      if (!decision) continue;
+      ASSERT_LE(std::abs(decision->offset), limits.largest);
+      ASSERT_EQ(decision->offset, std::round(decision->offset));
+      double const moved = std::abs(decision->offset - last);
+      double const allowed = limits.slew * 1.001 * (wall - last_wall) + limits.resolution;
+      if (moved > allowed) ahead -= (moved - allowed) / limits.slew;  // the clock may be pushed, once
+      ASSERT_GE(ahead, 0.0);
+      last = decision->offset;
+      last_wall = wall;
+    }
+    EXPECT_LE(loop.refusals().size(), 101u);
+    EXPECT_GT(loop.refusals().size(), 5u);
+  }
+}
+
+TEST(CompensationLoop, RefusesSettingsThatAreNone) {
+  models::LinearForm form;
+  form.coefficients = Eigen::MatrixXd::Ones(1, 1);
+  Compensator const compensator(SavedModel({"linear", {"T1"}, 0.0, 1.0, form, ""}), {});
+  EXPECT_THROW(CompensationLoop(compensator, {0.0, 1.0, 30.0, 30.0}), thermal::InputError);
+  EXPECT_THROW(CompensationLoop(compensator, {1.0, -1.0, 30.0, 30.0}), thermal::InputError);
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

@@ -1,0 +1,102 @@
+#include "twin/compensation/twin_observer.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/twin/compensation/closed_loop.h"
+#include "thermal/error.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using tests::close_loop;
+using tests::simulated;
+
+Machine g200() { return Machine::read(machine_file("g200")); }
+
+/// What the observer makes of a run: its estimate of E_X against the truth [um], with or without its sensors.
+double largest_miss(output::Dataset const& data, bool with_sensors) {
+  TwinObserver observer(g200(), "E_X");
+  std::vector<output::Channel> channels = data.inputs;
+  channels.insert(channels.end(), data.readings.begin(), data.readings.end());
+  double worst = 0.0;
+  for (Eigen::Index row = 0; row < data.time_s.size(); ++row) {
+    std::vector<double> values;
+    for (auto const& input : observer.inputs())
+      for (auto const& channel : channels)
+        if (channel.name == input.name) {
+          EXPECT_EQ(channel.unit, input.unit) << input.name;
+          values.push_back(input.sensor && !with_sensors ? std::nan("") : channel.values[row]);
+        }
+    EXPECT_EQ(values.size(), observer.inputs().size());
+    double const truth = data.truth_displacements[1].values[row];
+    worst = std::max(worst, std::abs(observer.error(data.time_s[row], values) - truth));
+  }
+  return worst;
+}
+
+/// A machine that is not quite what its file says: friction, flows, conductances.
+std::map<std::string, std::string> const other_machine{
+    {"bearing.front.grease_factor", "0.55"}, {"bearing.rear.grease_factor", "1.1"},
+    {"heat.coolant_pump.power", "600 W"},    {"joint.bed.conductance", "12 W/K"},
+    {"coolant_flow.jacket.flow", "6 L/min"}, {"film.bed_base.area", "3 m2"}};
+
+TEST(TwinObserver, WithoutSensorsIsTheSimulation) {
+  auto const data = simulated("duty_003", 10.0);
+  ASSERT_EQ(data.truth_displacements[1].name, "E_X");
+  EXPECT_LT(largest_miss(data, false), 0.05);
+}
+
+TEST(TwinObserver, SensorsMakeItFollowAMachineThatIsNotQuiteIts) {
+  auto const data = simulated("duty_003", 10.0, other_machine);
+  double const alone = largest_miss(data, false), corrected = largest_miss(data, true);
+  EXPECT_GT(alone, 2.0);
+  EXPECT_LT(corrected, 0.5);
+}
+
+TEST(TwinObserver, InTheLoopLeavesThreeMicrometresOfTheDiameter) {
+  auto const data = simulated("duty_003", 10.0, other_machine);
+  CompensationSettings settings;
+  settings.shift.dead_band = 0.5;
+  settings.watch.fastest = 0.5;  // a bearing ring warms by 2 K in 10 s
+  CompensationLoop loop({TwinObserver(g200(), "E_X"), settings}, {10.0, 1.0, 30.0, 30.0});
+  auto const played = close_loop(loop, VirtualMachine(data, {}));
+  EXPECT_GT(2.0 * played.largest_error(), 27.0);
+  EXPECT_LE(2.0 * played.largest_residual(), 3.0);
+}
+
+TEST(TwinObserver, GoesOnWithoutASensorAndNotWithoutAnInput) {
+  auto const data = simulated("duty_003", 10.0, other_machine);
+  for (auto const& [silent, goes_on] : {std::pair{"/T2", true}, {"/spindle.speed", false}}) {
+    CompensationSettings settings;
+    settings.watch.fastest = 0.5;
+    CompensationLoop loop({TwinObserver(g200(), "E_X"), settings}, {10.0, 1.0, 30.0, 30.0});
+    Decision last;
+    auto const played = close_loop(
+        loop, VirtualMachine(data, {}),
+        [&](double time, std::string const& topic, std::string& payload) {
+          if (time > 600.0 && topic.ends_with(silent)) payload.clear();
+        },
+        [&](Decision const& decision) { last = decision; });
+    EXPECT_EQ(last.support, goes_on ? Support::good : Support::off) << silent;
+    EXPECT_EQ(last.faults.size(), 1u);
+    EXPECT_LE(played.worst_excess(), settings.shift.dead_band);
+    if (goes_on) {
+      EXPECT_LT(2.0 * played.largest_residual(), 5.0);
+    }
+  }
+}
+
+TEST(TwinObserver, RefusesWhatItCannotObserve) {
+  try {
+    TwinObserver const observer(g200(), "E_x");
+    FAIL() << "not refused";
+  } catch (thermal::InputError const& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("the machine has no displacement 'E_x'; did you mean 'E_X'?"));
+  }
+  EXPECT_THROW(TwinObserver(Machine::read(machine_file("v450_fine")), "E_Z"), thermal::InputError);
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
