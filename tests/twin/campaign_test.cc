@@ -240,7 +240,7 @@ TEST(Campaign, AFolderOfAnotherCampaignIsRefused) {
   auto const other = read(directory, changed("[0.4,", "[0.3,"));
   EXPECT_THROW(run_campaign(other, {directory / "out", {}, {}, nullptr}), thermal::InputError);
   output::LockedFile const busy(directory / "out/parts/000000.journal", output::LockedFile::Busy::refuse);
-  EXPECT_THROW(run_campaign(campaign, {directory / "out", {}, {}, nullptr}), thermal::InputError);
+  EXPECT_THROW(run_campaign(campaign, {directory / "out", {}, {}, nullptr}), output::OutputError);
 }
 
 TEST(Campaign, MistakesAreToldWithTheirPlace) {

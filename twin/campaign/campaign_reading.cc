@@ -109,6 +109,18 @@ CampaignParameter grid_parameter(Value const& table, GridDescription const& grid
   return parameter;
 }
 
+void check_keep(Value const& document, std::vector<std::string> const& keep) {
+  std::vector<std::string> const groups = {"readings", "displacements", "inputs", "truth", "summary"};
+  std::set<std::string> seen;
+  for (std::size_t k = 0; k < keep.size(); ++k) {
+    auto const where = place_of_key(document, "keep", k);
+    if (std::find(groups.begin(), groups.end(), keep[k]) == groups.end())
+      throw FileError(where,
+                      fmt::format("there is no '{}' to keep; {}", keep[k], thermal::did_you_mean(keep[k], groups)));
+    if (!seen.insert(keep[k]).second) throw FileError(where, fmt::format("'{}' is given twice", keep[k]));
+  }
+}
+
 }  // namespace
 
 void Campaign::read_experiments() {
@@ -197,12 +209,7 @@ Campaign Campaign::read(fs::path const& file) {
   make_texts(document);
   read_fields(document, campaign.description);
   auto const& description = campaign.description;
-  std::vector<std::string> const groups = {"readings", "displacements", "inputs", "truth", "summary"};
-  for (std::size_t k = 0; k < description.keep.size(); ++k)
-    if (std::find(groups.begin(), groups.end(), description.keep[k]) == groups.end())
-      throw FileError(place_of_key(document, "keep", k),
-                      fmt::format("there is no '{}' to keep; {}", description.keep[k],
-                                  thermal::did_you_mean(description.keep[k], groups)));
+  check_keep(document, description.keep);
   if (description.experiments.empty()) throw FileError(document.where, "the campaign names no 'experiments'");
   auto const located = [&](std::string const& key, auto const& action) {
     try {

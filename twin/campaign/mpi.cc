@@ -21,7 +21,8 @@ bool launched_together() {
 Ranks::Ranks() : exceptions_(std::uncaught_exceptions()) {
   int initialised = 0;
   if (!launched_together() || (MPI_Initialized(&initialised), initialised)) return;
-  MPI_Init(nullptr, nullptr);
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   started_ = true;
   MPI_Comm_rank(MPI_COMM_WORLD, &share_.index);
   MPI_Comm_size(MPI_COMM_WORLD, &share_.count);

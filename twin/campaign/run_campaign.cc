@@ -126,8 +126,8 @@ class Stopper {
     if (!failed_.exchange(true)) first_ = exception;
   }
   void rethrow() const {
-    if (first_) std::rethrow_exception(first_);
     if (outside_ && *outside_) throw Interrupted("stopped; the same command goes on from here");
+    if (first_) std::rethrow_exception(first_);
   }
 
  private:
