@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string_view>
 
 #include "output/atomic_file.h"
 #include "output/error.h"
@@ -38,6 +39,15 @@ Surface surface_for(std::filesystem::path const& path, double width, double heig
   Surface surface(cairo_pdf_surface_create_for_stream(append, &bytes, width, height), cairo_surface_destroy);
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
   return surface;
+}
+
+/// Cairo counts the surfaces of a process in the name of the outermost group.
+void forget_count(std::string& svg) {
+  constexpr std::string_view mark = "id=\"surface";
+  auto const at = svg.find(mark);
+  if (at == std::string::npos) return;
+  auto const number = at + mark.size();
+  svg.erase(number, svg.find('"', number) - number);
 }
 
 double width_of(cairo_t* pen, std::string const& text) {
@@ -312,6 +322,7 @@ FigureFrame write_figure(Figure const& figure, std::filesystem::path const& path
   for (auto const status : {cairo_status(pen.get()), cairo_surface_status(surface.get())})
     if (status != CAIRO_STATUS_SUCCESS)
       throw OutputError(fmt::format("{}: Cairo says: {}", path.string(), cairo_status_to_string(status)));
+  if (path.extension() == ".svg") forget_count(bytes);
   write_atomically(path, bytes);
   return frame;
 }

@@ -53,7 +53,8 @@ struct FigureFrame {
 };
 
 /// Writes an SVG (letters as outlines) or a PDF (fonts embedded as subsets), by the ending of the path; the same figure
-/// gives the same bytes. Replaced atomically. Coordinates are exact to 1/256 pt. thermal::InputError for another
+/// gives the same bytes. Replaced atomically. Every point of the data lies on its curve to 1/256 pt; corners that lie
+/// on a straight line between their neighbours are left out. thermal::InputError for another
 /// ending, a figure without any finite value, or curves whose x and y are not of one length.
 FigureFrame write_figure(Figure const& figure, std::filesystem::path const& path);
 

@@ -57,6 +57,11 @@ struct PageServer::Impl {
 
   void arrange() {
     server.set_keep_alive_timeout(1);  // s: how long an idle browser can hold up the end
+    server.set_read_timeout(2);
+    server.set_socket_options([](socket_t socket) {  // the library's own would let two programs share a port
+      int const yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
     server.set_default_headers({{"X-Content-Type-Options", "nosniff"},
                                 {"X-Frame-Options", "DENY"},
                                 {"Cross-Origin-Resource-Policy", "same-origin"},
