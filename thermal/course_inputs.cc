@@ -1,0 +1,39 @@
+#include "thermal/course_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <string>
+
+#include "thermal/error.h"
+#include "thermal/nearest_name.h"
+
+namespace thermotwin::thermal {
+
+CourseInputs::CourseInputs(Network const& network, Course const& course)
+    : course_(&course), raw_(course.channels().size()), values_(std::size_t(network.channels())) {
+  std::vector<std::string> given;
+  for (auto const& channel : course.channels()) given.push_back(channel.name);
+  for (int i = 0; i < network.external_channels(); ++i) {
+    auto const& name = network.channel_names()[std::size_t(i)];
+    auto const it = std::find(given.begin(), given.end(), name);
+    if (it == given.end())
+      throw InputError(fmt::format("the machine needs the input '{}', which the experiment does not give; {}", name,
+                                   did_you_mean(name, given)));
+    source_.push_back(std::size_t(it - given.begin()));
+  }
+}
+
+double CourseInputs::enter_piece(double t) {
+  start_ = t;
+  end_ = course_->next_jump(t);
+  return end_;
+}
+
+std::vector<double> const& CourseInputs::at(double t) {
+  course_->evaluate(t < end_ ? t : std::nextafter(end_, start_), raw_);
+  for (std::size_t i = 0; i < source_.size(); ++i) values_[i] = raw_[source_[i]];
+  return values_;
+}
+
+}  // namespace thermotwin::thermal

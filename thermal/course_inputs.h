@@ -1,0 +1,30 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "thermal/network.h"
+#include "thermal/operating_point.h"
+
+namespace thermotwin::thermal {
+
+/// A course, asked by the order of a network's channels, one piece between two jumps at a time. Holds scratch memory.
+class CourseInputs {
+ public:
+  /// InputError, with the nearest name, for a channel of the network that the course does not give.
+  CourseInputs(Network const& network, Course const& course);
+
+  /// Enters the piece that follows t and returns where it ends.
+  double enter_piece(double t);
+  /// At the end of the piece: the limit from the left. Relays and weights of moving averages stay 0.
+  std::vector<double> const& at(double t);
+
+ private:
+  Course const* course_;
+  std::vector<double> raw_, values_;
+  std::vector<std::size_t> source_;
+  double start_ = 0.0, end_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace thermotwin::thermal

@@ -1,0 +1,284 @@
+#include "twin/reduced_twin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "scenarios/course.h"
+#include "thermal/course_inputs.h"
+#include "thermal/error.h"
+#include "thermal/reduced_integration.h"
+#include "twin/run.h"
+#include "twin/version.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double step_tolerance = 3e-4;  // [K]
+constexpr double safety = 2.0;
+constexpr double watched_reading = 0.01 /* K */, watched_displacement = 1e-7 /* m, rad */;
+
+/// What the machine's instruments look at, in this order: sensors, displacements, and of every screw its seats, its
+/// reference and its cells.
+std::vector<NodeWeights> watched_sums(Machine const& machine) {
+  std::vector<NodeWeights> sums;
+  for (auto const& sensor : machine.sensors) sums.push_back(sensor.weights);
+  for (auto const& channel : machine.displacements) sums.push_back(channel.weights);
+  for (auto const& screw : machine.screws) {
+    sums.push_back(screw.seat_growth);
+    sums.push_back(screw.reference_strain);
+    for (int i = 0; i + 1 < int(screw.screw.edges.size()); ++i) sums.push_back({{screw.first_node + i, 1.0}});
+  }
+  return sums;
+}
+
+std::vector<thermal::WatchedSum> tolerated(Machine const& machine) {
+  std::vector<thermal::WatchedSum> watched;
+  for (auto const& sensor : machine.sensors)
+    if (!sensor.weights.empty()) watched.push_back({sensor.weights, watched_reading});
+  for (auto const& channel : machine.displacements) watched.push_back({channel.weights, watched_displacement});
+  for (auto const& screw : machine.screws)
+    for (int i = 0; i + 1 < int(screw.screw.edges.size()); ++i)
+      watched.push_back({{{screw.first_node + i, 1.0}}, watched_reading});
+  return watched;
+}
+
+/// Everywhere the same, and growing with height: what the machine may be when a run begins.
+Eigen::MatrixXd initial_rises(Machine const& machine) {
+  Eigen::MatrixXd rises = Eigen::MatrixXd::Zero(machine.network().nodes(), 2);
+  for (auto const& body : machine.geometry)
+    for (std::size_t i = 0; i < body.cells.size(); ++i) {
+      auto const node = Eigen::Index(body.first_node) + Eigen::Index(i);
+      rises(node, 0) = 1.0;
+      rises(node, 1) = centre(body.cells[i]).dot(machine.up);
+    }
+  return rises;
+}
+
+/// Spread of one experiment's inputs, seen every minute and on both sides of every jump.
+void widen(thermal::Network const& network, thermal::Course const& course, double duration,
+           std::vector<ReducedTwin::Limits>& limits) {
+  thermal::CourseInputs inputs(network, course);
+  double end = inputs.enter_piece(0.0);
+  auto const see = [&](double t) {
+    auto const& values = inputs.at(t);
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      limits[i].low = std::min(limits[i].low, values[i]);
+      limits[i].high = std::max(limits[i].high, values[i]);
+    }
+  };
+  for (double t = 0.0; t <= duration; t += 60.0) {
+    while (end <= t) {
+      see(end);
+      end = inputs.enter_piece(end);
+      see(t);
+    }
+    see(t);
+  }
+}
+
+/// How the data set's inputs are shown is the full run's business: only readings and displacements are here.
+output::Dataset head_of(Machine const& machine, scenarios::Experiment const& experiment) {
+  output::Dataset head;
+  head.title = fmt::format("{}: {}", machine.name, experiment.title);
+  for (auto const& sensor : machine.sensors)
+    head.readings.push_back({sensor.description.name, "degC", sensor.description.title, {}});
+  head.displacements = displacement_channels(machine);
+  head.truth_readings = head.readings;
+  head.truth_displacements = head.displacements;
+  head.provenance["version"] = std::string(version());
+  head.provenance["commit"] = std::string(commit());
+  head.provenance["seed"] = std::to_string(experiment.seed);
+  head.provenance["model"] = "reduced";
+  return head;
+}
+
+/// Turns what a reduced model shows into a History, sample by sample.
+class HistoryRecorder {
+ public:
+  HistoryRecorder(Machine const& machine, scenarios::ExperimentCourse const& course, thermal::ReducedSums const& sums)
+      : machine_(machine), course_(course), sums_(sums), history_(machine), inputs_(course.channels().size()) {}
+
+  void operator()(thermal::ReducedSample const& sample);
+  [[nodiscard]] History take() { return std::move(history_); }
+
+ private:
+  [[nodiscard]] double input_of(std::string const& name, double otherwise) const;
+  [[nodiscard]] double follows(Displacement const& channel) const;
+
+  Machine const& machine_;
+  scenarios::ExperimentCourse const& course_;
+  thermal::ReducedSums const& sums_;
+  History history_;
+  VectorXd now_, first_;
+  std::vector<double> inputs_, first_inputs_;
+};
+
+double HistoryRecorder::input_of(std::string const& name, double otherwise) const {
+  auto const& channels = course_.channels();
+  auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
+  return it == channels.end() ? otherwise : inputs_[std::size_t(it - channels.begin())];
+}
+
+double HistoryRecorder::follows(Displacement const& channel) const {
+  double value = 0.0;
+  auto const& channels = course_.channels();
+  for (auto const& term : channel.input_terms)
+    for (std::size_t i = 0; i < channels.size(); ++i)
+      if (channels[i].name == term.channel)
+        value += term.coefficient * (std::pow(inputs_[i], term.power) - std::pow(first_inputs_[i], term.power));
+  return value;
+}
+
+void HistoryRecorder::operator()(thermal::ReducedSample const& sample) {
+  course_.evaluate(sample.time, inputs_);
+  sums_.evaluate(sample.state, now_);
+  if (first_.size() == 0) {
+    first_ = now_;
+    first_inputs_ = inputs_;
+  }
+  double const floor = input_of("ambient.floor_temperature", 293.15), gradient = input_of("ambient.gradient", 0.0);
+  Eigen::Index next = 0;
+  history_.time.push_back(sample.time);
+  auto& body = history_.sensor_body.emplace_back();
+  auto& air = history_.sensor_air.emplace_back();
+  for (auto const& sensor : machine_.sensors) {
+    air.push_back(floor + gradient * sensor.position.dot(machine_.up));
+    body.push_back(sensor.weights.empty() ? air.back() : now_[next]);
+    ++next;
+  }
+  auto const since_start = [&] { return now_[next] - first_[next]; };
+  auto& displacement = history_.displacement.emplace_back();
+  for (auto const& channel : machine_.displacements) {
+    displacement.push_back(since_start() + follows(channel));
+    ++next;
+  }
+  auto& rise = history_.screw_rise.emplace_back();
+  auto& seats = history_.screw_seats.emplace_back();
+  auto& reference = history_.screw_reference.emplace_back();
+  for (auto const& screw : machine_.screws) {
+    seats.push_back(since_start());
+    ++next;
+    reference.push_back(since_start());
+    ++next;
+    for (std::size_t i = 0; i + 1 < screw.screw.edges.size(); ++i, ++next) rise.push_back(since_start());
+  }
+  history_.spindle_speed.push_back(input_of("spindle.speed", 0.0));
+  history_.air.push_back(floor + gradient);
+}
+
+/// Largest difference of every channel.
+ReducedError difference(History const& fine, History const& coarse) {
+  ReducedError bound;
+  bound.readings.assign(fine.sensor_body.front().size(), 0.0);
+  for (std::size_t r = 0; r < fine.time.size(); ++r) {
+    for (std::size_t s = 0; s < bound.readings.size(); ++s)
+      bound.readings[s] = std::max(bound.readings[s], std::abs(fine.sensor_body[r][s] - coarse.sensor_body[r][s]));
+    VectorXd const gap = (displacement_row(fine, r) - displacement_row(coarse, r)).cwiseAbs();
+    bound.displacements = r == 0 ? gap : VectorXd(bound.displacements.cwiseMax(gap));
+  }
+  return bound;
+}
+
+void keep(History const& history, output::Dataset& dataset) {
+  auto const rows = Eigen::Index(history.time.size());
+  output::resize_rows(dataset, rows);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    auto const row = std::size_t(r);
+    dataset.time_s[r] = history.time[row];
+    for (std::size_t s = 0; s < dataset.truth_readings.size(); ++s)
+      dataset.truth_readings[s].values[r] = history.sensor_body[row][s] - 273.15;
+    VectorXd const displacements = displacement_row(history, row);
+    for (std::size_t c = 0; c < dataset.truth_displacements.size(); ++c)
+      dataset.truth_displacements[c].values[r] = displacements[Eigen::Index(c)];
+  }
+}
+
+}  // namespace
+
+double ReducedError::largest_reading() const {
+  return readings.empty() ? 0.0 : *std::max_element(readings.begin(), readings.end());
+}
+
+double ReducedError::largest_displacement() const { return displacements.size() == 0 ? 0.0 : displacements.maxCoeff(); }
+
+ReducedTwin::Model::Model(Machine const& machine, thermal::LinearPart const& linear, thermal::Subspace const& subspace)
+    : network(machine.network(), linear, subspace.shapes, subspace.elements), sums(network, watched_sums(machine)) {}
+
+ReducedTwin::ReducedTwin(Machine const& machine, ReducedRange const& range) : machine_(&machine) {
+  auto const experiments = training_experiments(machine, range);
+  std::vector<std::unique_ptr<scenarios::ExperimentCourse>> courses;
+  thermal::ReductionTask task;
+  double const infinity = std::numeric_limits<double>::infinity();
+  limits_.assign(std::size_t(machine.network().external_channels()), {infinity, -infinity});
+  initial_ = {range.coldest_air, range.warmest_air};
+  for (auto const& experiment : experiments) {
+    auto const& course =
+        *courses.emplace_back(std::make_unique<scenarios::ExperimentCourse>(experiment, machine.limits));
+    widen(machine.network(), course, experiment.duration, limits_);
+    task.training.push_back({&course, initial_temperatures(machine, experiment, course), experiment.duration});
+  }
+  task.watched = tolerated(machine);
+  task.initial_rises = initial_rises(machine);
+  auto const reduction = thermal::reduce(machine.network(), task);
+  thermal::LinearPart const linear(machine.network(), reduction.reference);
+  fine_ = std::make_unique<Model const>(machine, linear, reduction.fine);
+  coarse_ = std::make_unique<Model const>(machine, linear, reduction.coarse);
+  training_error_.readings.assign(machine.sensors.size(), 0.0);
+  training_error_.displacements = VectorXd::Zero(Eigen::Index(displacement_channels(machine).size()));
+  std::size_t next = 0;
+  for (std::size_t s = 0; s < machine.sensors.size(); ++s)
+    if (!machine.sensors[s].weights.empty()) training_error_.readings[s] = reduction.training_error[next++];
+  for (std::size_t c = 0; c < machine.displacements.size(); ++c)
+    training_error_.displacements[Eigen::Index(c)] = 1e6 * reduction.training_error[next++];
+}
+
+void ReducedTwin::check_inputs(std::vector<double> const& input) const {
+  for (std::size_t i = 0; i < limits_.size(); ++i) {
+    double const slack = 1e-9 * (1.0 + std::abs(limits_[i].low) + std::abs(limits_[i].high));
+    if (input[i] >= limits_[i].low - slack && input[i] <= limits_[i].high + slack) continue;
+    throw thermal::InputError(
+        fmt::format("the input '{}' is {:.6g}; the reduced model of '{}' was made for {:.6g} to {:.6g} "
+                    "[SI]: run in full, or reduce for a wider range",
+                    machine_->network().channel_names()[i], input[i], machine_->name, limits_[i].low, limits_[i].high));
+  }
+}
+
+History ReducedTwin::history_of(Model const& model, scenarios::Experiment const& experiment,
+                                ReducedResult& result) const {
+  scenarios::ExperimentCourse const course(experiment, machine_->limits);
+  auto const start = initial_temperatures(*machine_, experiment, course);
+  HistoryRecorder recorder(*machine_, course, model.sums);
+  auto const summary =
+      thermal::integrate(model.network, course, model.network.state_of(start), scenarios::sample_times(experiment),
+                         step_tolerance, [&](thermal::ReducedSample const& sample) {
+                           check_inputs(sample.input);
+                           recorder(sample);
+                         });
+  result.steps += summary.steps;
+  result.rate_evaluations += summary.rate_evaluations;
+  return recorder.take();
+}
+
+ReducedResult ReducedTwin::run(scenarios::Experiment const& experiment) const {
+  if (experiment.initial_temperature &&
+      (*experiment.initial_temperature < initial_.low || *experiment.initial_temperature > initial_.high))
+    throw thermal::InputError(fmt::format(
+        "initial_temperature: {:.6g} °C; the reduced model of '{}' was made for {:.6g} to {:.6g} °C",
+        *experiment.initial_temperature - 273.15, machine_->name, initial_.low - 273.15, initial_.high - 273.15));
+  ReducedResult result;
+  auto const history = history_of(*fine_, experiment, result);
+  result.bound = difference(history, history_of(*coarse_, experiment, result));
+  for (std::size_t s = 0; s < result.bound.readings.size(); ++s)
+    result.bound.readings[s] = safety * result.bound.readings[s] + training_error_.readings[s];
+  result.bound.displacements = safety * result.bound.displacements + training_error_.displacements;
+  result.dataset = head_of(*machine_, experiment);
+  keep(history, result.dataset);
+  measure(history, experiment, result.dataset);
+  return result;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "output/dataset.h"
+#include "scenarios/experiment.h"
+#include "thermal/reduced_network.h"
+#include "thermal/reduced_sums.h"
+#include "thermal/reduction.h"
+#include "twin/history.h"
+#include "twin/machine.h"
+#include "twin/training_experiments.h"
+
+namespace thermotwin::twin {
+
+/// How far a reduced run may be from the full one.
+struct ReducedError {
+  std::vector<double> readings;   ///< per sensor [K]
+  Eigen::VectorXd displacements;  ///< per channel of displacement [um, urad]
+
+  [[nodiscard]] double largest_reading() const;
+  [[nodiscard]] double largest_displacement() const;
+};
+
+struct ReducedResult {
+  output::Dataset dataset;  ///< as of a full run, without heat and node temperatures
+  ReducedError bound;
+  long steps = 0, rate_evaluations = 0;
+};
+
+/// A machine through a reduced model of its network (thermal/reduction.h), for campaigns and for real time: what
+/// conducts is projected, frictions and losses stay exact, films are sampled.
+///
+/// Every run is made twice, with four fifths of the shapes and with all of them. The result is the finer one, and
+///
+///   bound = 2 max_t |fine − coarse| + error of the fine model in the training runs
+///
+/// for every channel: an estimate, no proof. It holds if the finer model errs no more than twice what they differ
+/// (saturation; Hain, Ohlberger, Radic & Urban, Adv. Comput. Math. 45 (2019) 2155); tests and docs/reduced_model.md
+/// compare it with full runs.
+///
+/// Refuses, with InputError that names channel, value and range, whatever lies outside the range for which it was made.
+class ReducedTwin {
+ public:
+  explicit ReducedTwin(Machine const& machine, ReducedRange const& range = {});
+
+  [[nodiscard]] ReducedResult run(scenarios::Experiment const& experiment) const;
+
+  [[nodiscard]] Machine const& machine() const { return *machine_; }
+  [[nodiscard]] thermal::ReducedNetwork const& network() const { return fine_->network; }
+  [[nodiscard]] thermal::ReducedNetwork const& coarse_network() const { return coarse_->network; }
+
+  /// Lowest and highest value of an input of the network.
+  struct Limits {
+    double low = 0.0, high = 0.0;
+  };
+  [[nodiscard]] std::vector<Limits> const& limits() const { return limits_; }
+  /// InputError when an input lies outside its limits.
+  void check_inputs(std::vector<double> const& input) const;
+
+ private:
+  /// One of the two models, with what the machine's instruments see.
+  struct Model {
+    Model(Machine const& machine, thermal::LinearPart const& linear, thermal::Subspace const& subspace);
+    thermal::ReducedNetwork network;
+    thermal::ReducedSums sums;
+  };
+  [[nodiscard]] History history_of(Model const& model, scenarios::Experiment const& experiment,
+                                   ReducedResult& result) const;
+
+  Machine const* machine_;
+  std::vector<Limits> limits_;
+  Limits initial_;  ///< of the machine's temperature at the start [K]
+  ReducedError training_error_;
+  std::unique_ptr<Model const> fine_, coarse_;
+};
+
+}  // namespace thermotwin::twin
