@@ -15,8 +15,13 @@ inline constexpr std::ptrdiff_t worth_a_thread = 65536;  ///< below this many en
 template <class Visit>
 void for_blocks(std::ptrdiff_t length, Visit const& visit) {
   std::ptrdiff_t const blocks = (length + block_length - 1) / block_length;
-#pragma omp parallel for schedule(static) if (length >= worth_a_thread)
-  for (std::ptrdiff_t b = 0; b < blocks; ++b) visit(b * block_length, std::min(length, (b + 1) * block_length));
+  auto const visit_block = [&](std::ptrdiff_t b) { visit(b * block_length, std::min(length, (b + 1) * block_length)); };
+  if (length < worth_a_thread) {
+    for (std::ptrdiff_t b = 0; b < blocks; ++b) visit_block(b);
+    return;
+  }
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t b = 0; b < blocks; ++b) visit_block(b);
 }
 
 /// Σ part(begin, end) over the blocks of [0, length).

@@ -64,12 +64,16 @@ Between between(int fine, int by, int fine_count, int coarse_count) {
 
 template <class Visit>
 void Multigrid::for_pieces(Level const& level, Visit const& visit) {
-  auto const count = std::ptrdiff_t(level.pieces.size());
-#pragma omp parallel for schedule(static) if (level.network.size() >= worth_a_thread)
-  for (std::ptrdiff_t p = 0; p < count; ++p) {
-    auto const& piece = level.pieces[std::size_t(p)];
+  auto const visit_piece = [&](Piece const& piece) {
     visit(level.network.grids[std::size_t(piece.grid)], piece.begin, piece.end);
+  };
+  if (level.network.size() < worth_a_thread) {
+    for (auto const& piece : level.pieces) visit_piece(piece);
+    return;
   }
+  auto const count = std::ptrdiff_t(level.pieces.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t p = 0; p < count; ++p) visit_piece(level.pieces[std::size_t(p)]);
 }
 
 Multigrid::Level Multigrid::level_of(ConductionLevel network) {
