@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "thermal/error.h"
+#include "thermal/fixed_blocks.h"
 
 namespace thermotwin::thermal {
 namespace {
@@ -113,7 +114,9 @@ std::span<double const> Evaluation::temperatures(double const* state, double con
   auto const& net = *network_;
   int const n = net.nodes();
   std::copy_n(input, net.given_channels(), input_.begin());
-  for (int i = 0; i < n; ++i) temperature_[std::size_t(i)] = net.temperature_of_state(i, state[i]);
+  for_blocks(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto i = begin; i < end; ++i) temperature_[std::size_t(i)] = net.temperature_of_state(int(i), state[i]);
+  });
   double* next = temperature_.data() + n;
   for (auto const& boundary : net.boundaries()) {
     *next = boundary.offset;
@@ -144,8 +147,10 @@ void Evaluation::rate(double const* state, double const* input, double* state_ra
 Energy Evaluation::rate_and_power(double const* state, double const* input, double* state_rate) {
   Energy const energy = power(state, input);
   share_averages(heat_);
-  auto const& capacity = network_->capacity();
-  for (std::size_t i = 0; i < capacity.size(); ++i) state_rate[i] = heat_[i] / capacity[i];
+  auto const* capacity = network_->capacity().data();
+  for_blocks(network_->nodes(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto i = begin; i < end; ++i) state_rate[i] = heat_[std::size_t(i)] / capacity[i];
+  });
   return energy;
 }
 
@@ -281,9 +286,15 @@ void Evaluation::rate_derivative(double const* state, double const* state_deriva
 Energy Evaluation::power(double const* state, double const* input) {
   temperatures(state, input);
   auto const& net = *network_;
-  std::fill(heat_.begin(), heat_.end(), 0.0);
+  for_blocks(std::ptrdiff_t(heat_.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::fill(heat_.begin() + begin, heat_.begin() + end, 0.0);
+  });
   Energy energy;
   for (auto const& group : net.groups()) {
+    if (group.inside) {
+      net.conduction().add_heat_flows(temperature_.data(), heat_.data());
+      continue;
+    }
     if (group.law->conservative()) {
       group.law->add_heat_flows(group.batch(), temperature_.data(), input_.data(), heat_.data());
       continue;

@@ -12,7 +12,7 @@
 namespace thermotwin::thermal {
 
 /// How the Newton systems (I − γJ)x = b are solved; `automatic` chooses by size and structure (see choose_solver).
-enum class LinearSolver { automatic, dense, sparse_direct, preconditioned_krylov };
+enum class LinearSolver { automatic, dense, sparse_direct, preconditioned_krylov, multigrid };
 
 [[nodiscard]] std::string_view name_of(LinearSolver solver);
 

@@ -87,9 +87,8 @@ int Network::index_of(Port port) const {
   return -1;
 }
 
-double Network::temperature_of_state(int node, double y) const {
+double Network::temperature_of_warm_state(int node, double y) const {
   double const slope = capacity_slope_[std::size_t(node)];
-  if (slope == 0.0) return y;
   return T20 + (std::sqrt(1.0 + 2.0 * slope * (y - T20)) - 1.0) / slope;
 }
 
@@ -124,6 +123,12 @@ void Network::build_pattern() {
         for (int b = 0; b < p; ++b)
           slots.push_back(slot(group.ports[std::size_t(e * p + a)], group.ports[std::size_t(e * p + b)]));
   }
+}
+
+void Network::find_grids() {
+  for (auto const& range : ranges_) grids_.push_back(find_grid(pattern_, range.first, range.count));
+  for (auto const& group : groups_)
+    if (group.inside) conduction_ = GridConduction(grids_, group.ports, group.coefficients);
 }
 
 Port NetworkBuilder::add_body(std::string const& name, std::vector<double> const& capacities, double capacity_slope) {
@@ -197,12 +202,26 @@ void NetworkBuilder::add(std::shared_ptr<Law const> law, int part, std::vector<P
                                  coefficients.size(), channels.size()));
   for (double c : coefficients)
     if (!std::isfinite(c)) throw InputError(fmt::format("'{}': a coefficient of '{}' is {}", owner, law->name(), c));
-  auto it = std::find_if(groups_.begin(), groups_.end(), [&](auto const& g) { return g.law == law; });
+  bool const inside = law == law_of<Conductance>() && inside_one_body(ports);
+  auto it =
+      std::find_if(groups_.begin(), groups_.end(), [&](auto const& g) { return g.law == law && g.inside == inside; });
   if (it == groups_.end()) {
-    groups_.push_back({law, {}});
+    groups_.push_back({law, inside, {}, {}, {}, {}});
     it = groups_.end() - 1;
   }
-  it->elements.push_back({part, ports, coefficients, channels});
+  it->ports.insert(it->ports.end(), ports.begin(), ports.end());
+  it->coefficients.insert(it->coefficients.end(), coefficients.begin(), coefficients.end());
+  it->channels.insert(it->channels.end(), channels.begin(), channels.end());
+  it->parts.push_back(part);
+}
+
+bool NetworkBuilder::inside_one_body(std::vector<Port> const& ports) const {
+  if (ports[0].kind != Port::Kind::node || ports[1].kind != Port::Kind::node) return false;
+  auto const& ranges = network_.ranges_;
+  auto const after = std::upper_bound(ranges.begin(), ranges.end(), ports[0].index,
+                                      [](int node, NodeRange const& range) { return node < range.first; });
+  auto const& range = *(after - 1);
+  return ports[1].index >= range.first && ports[1].index < range.first + range.count;
 }
 
 void NetworkBuilder::connect(int part, Port a, Port b, double conductance) {
@@ -245,18 +264,17 @@ Network NetworkBuilder::build() {
     if (pending.relay.enable_channel >= 0) pending.relay.enable_channel = renumber(pending.relay.enable_channel);
     network_.relays_.push_back(pending.relay);
   }
-  for (auto const& pending : groups_) {
-    ElementGroup group{pending.law, {}, {}, {}, {}};
-    for (auto const& element : pending.elements) {
-      for (Port port : element.ports) group.ports.push_back(network_.index_of(port));
-      group.coefficients.insert(group.coefficients.end(), element.coefficients.begin(), element.coefficients.end());
-      for (int c : element.channels) group.inputs.push_back(renumber(c));
-      group.parts.push_back(element.part);
-    }
+  for (auto& pending : groups_) {
+    ElementGroup group{pending.law, {}, std::move(pending.coefficients), {}, std::move(pending.parts), pending.inside};
+    group.ports.reserve(pending.ports.size());
+    for (Port port : pending.ports) group.ports.push_back(network_.index_of(port));
+    for (int c : pending.channels) group.inputs.push_back(renumber(c));
+    pending = {};
     network_.groups_.push_back(std::move(group));
   }
   network_.channels_ = std::move(ordered);
   network_.build_pattern();
+  network_.find_grids();
   groups_.clear();
   relays_.clear();
   Network result = std::move(network_);
@@ -275,13 +293,14 @@ void NetworkBuilder::check_paths() const {
   };
   for (std::size_t a = 0; a < network_.averages_.size(); ++a)
     for (int node : network_.averages_[a].nodes) partition.join(first_average + int(a), node);
-  for (auto const& group : groups_)
-    for (auto const& element : group.elements) {
-      if (!group.law->conservative()) continue;
-      bool const open = group.law != law_of<Conductance>() || element.coefficients[0] > 0.0;
-      for (std::size_t p = 1; open && p < element.ports.size(); ++p)
-        partition.join(index(element.ports[0]), index(element.ports[p]));
+  for (auto const& group : groups_) {
+    auto const p = std::size_t(group.law->ports());
+    for (std::size_t e = 0; group.law->conservative() && e < group.parts.size(); ++e) {
+      bool const open = group.law != law_of<Conductance>() || group.coefficients[e] > 0.0;
+      for (std::size_t k = 1; open && k < p; ++k)
+        partition.join(index(group.ports[e * p]), index(group.ports[e * p + k]));
     }
+  }
   for (auto const& range : network_.ranges_)
     for (int node = range.first; node < range.first + range.count; ++node)
       if (!network_.signal_[std::size_t(node)] && partition.root(node) != partition.root(outside))

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "thermal/grid_conduction.h"
 #include "thermal/law.h"
 
 namespace thermotwin::thermal {
@@ -61,6 +62,7 @@ struct ElementGroup {
   std::vector<double> coefficients;
   std::vector<int> inputs;
   std::vector<int> parts;  ///< index of the part (of the machine file) that each element belongs to
+  bool inside = false;     ///< constant conduction between nodes of one body; Network::conduction evaluates it
 
   [[nodiscard]] int count() const { return int(parts.size()); }
   [[nodiscard]] ElementBatch batch() const { return {count(), ports, coefficients, inputs}; }
@@ -115,18 +117,26 @@ class Network {
   /// Index in the temperature vector.
   [[nodiscard]] int index_of(Port port) const;
 
-  [[nodiscard]] double temperature_of_state(int node, double y) const;
+  [[nodiscard]] double temperature_of_state(int node, double y) const {
+    return capacity_slope_[std::size_t(node)] == 0.0 ? y : temperature_of_warm_state(node, y);
+  }
   [[nodiscard]] double state_of_temperature(int node, double temperature) const;
 
   /// Nonzero pattern of ∂(heat into a port)/∂(temperature of a port): square, one row per entry of the temperature
   /// vector. What an average couples is one row and one column here, however many nodes it has.
   [[nodiscard]] Eigen::SparseMatrix<double> const& port_pattern() const { return pattern_; }
+  /// Of each range, as its links form it.
+  [[nodiscard]] std::vector<Grid> const& grids() const { return grids_; }
+  /// The elements of the group that lies inside bodies.
+  [[nodiscard]] GridConduction const& conduction() const { return conduction_; }
 
  private:
   friend class NetworkBuilder;
   friend class Evaluation;
   Network() = default;
+  [[nodiscard]] double temperature_of_warm_state(int node, double y) const;
   void build_pattern();
+  void find_grids();
 
   std::vector<double> capacity_, capacity_slope_;
   std::vector<char> signal_;
@@ -138,6 +148,8 @@ class Network {
   std::vector<std::string> channels_, parts_;
   int external_channels_ = 0;
   Eigen::SparseMatrix<double> pattern_;
+  std::vector<Grid> grids_;
+  GridConduction conduction_;
   std::vector<std::vector<int>> slots_;  ///< per group: where ∂q_p/∂T_r of each element goes in the pattern's values
 };
 
@@ -185,16 +197,14 @@ class NetworkBuilder {
  private:
   void check_paths() const;
 
-  struct PendingElement {
-    int part;
-    std::vector<Port> ports;
-    std::vector<double> coefficients;
-    std::vector<int> channels;
-  };
   struct PendingGroup {
     std::shared_ptr<Law const> law;
-    std::vector<PendingElement> elements;
+    bool inside;
+    std::vector<Port> ports;
+    std::vector<double> coefficients;
+    std::vector<int> channels, parts;
   };
+  [[nodiscard]] bool inside_one_body(std::vector<Port> const& ports) const;
   struct PendingRelay {
     Relay relay;
     Port measured, reference;

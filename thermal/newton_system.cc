@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "thermal/fixed_blocks.h"
+
 namespace thermotwin::thermal {
 
 using Eigen::VectorXd;
@@ -11,14 +13,18 @@ NewtonSystem::NewtonSystem(Network const& network, LinearSolver solver)
     : network_(network),
       nodes_(network.nodes()),
       averages_(int(network.averages().size())),
-      capacity_(Eigen::Map<VectorXd const>(network.capacity().data(), nodes_)),
-      factors_(make_linear_factors(solver)) {
+      capacity_(Eigen::Map<VectorXd const>(network.capacity().data(), nodes_)) {
   for (int i = 0; i < nodes_; ++i)
     if (network.signals()[std::size_t(i)]) capacity_[i] = 0.0;
   has_heat_ = (capacity_.array() > 0.0).cast<double>();
   total_capacity_ = capacity_.sum();
   unit_capacity_ = total_capacity_ / nodes_;
-  lay_out();
+  if (solver == LinearSolver::multigrid) {
+    grids_ = std::make_unique<GridSystem>(network);
+  } else {
+    factors_ = make_linear_factors(solver);
+    lay_out();
+  }
 }
 
 void NewtonSystem::lay_out() {
@@ -69,8 +75,15 @@ void NewtonSystem::lay_out() {
 
 void NewtonSystem::linearise(Evaluation& evaluation, double const* state, double const* input) {
   evaluation.linearise(state, input, at_);
+  take_power();
+  if (grids_)
+    grids_->linearise(at_);
+  else
+    fill_matrix();
+}
+
+void NewtonSystem::fill_matrix() {
   auto const& net = network_;
-  int const first_average = nodes_ + int(net.boundaries().size());
   rate_.setZero(matrix_.nonZeros());
   fixed_.setZero(matrix_.nonZeros());
   auto const* slot = coupling_slots_.data();
@@ -81,7 +94,6 @@ void NewtonSystem::linearise(Evaluation& evaluation, double const* state, double
         rate_[*slot] +=
             it.value() * slope / (it.row() < nodes_ ? net.capacity()[std::size_t(it.row())] : unit_capacity_);
   }
-  power_ = at_.power.leftCols(nodes_);
   for (int a = 0; a < averages_; ++a) {
     auto const& nodes = net.averages()[std::size_t(a)].nodes;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -89,15 +101,33 @@ void NewtonSystem::linearise(Evaluation& evaluation, double const* state, double
       auto const& slots = weight_slots_[std::size_t(a)][i];
       fixed_[slots.mean] -= weight * at_.slope[nodes[i]];
       fixed_[slots.share] -= weight * unit_capacity_ / net.capacity()[std::size_t(nodes[i])];
-      power_.col(nodes[i]) += weight * at_.power.col(first_average + a);
     }
   }
   for (int i = nodes_; i < nodes_ + 2 * averages_; ++i) fixed_[diagonal_slots_[std::size_t(i)]] += 1.0;
-  power_ = power_ * at_.slope.asDiagonal() / total_capacity_;
+}
+
+void NewtonSystem::take_power() {
+  int const first_average = nodes_ + int(network_.boundaries().size());
+  for (int a = 0; a < averages_; ++a) {
+    auto const& nodes = network_.averages()[std::size_t(a)].nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      at_.power.col(nodes[i]) += at_.weights[std::size_t(a)][i] * at_.power.col(first_average + a);
+  }
+  power_nodes_.clear();
+  for (int i = 0; i < nodes_; ++i)
+    if (!at_.power.col(i).isZero(0.0)) power_nodes_.push_back(i);
+  power_.resize(energies, Eigen::Index(power_nodes_.size()));
+  power_of_shift_.setZero();
+  for (std::size_t k = 0; k < power_nodes_.size(); ++k) {
+    int const i = power_nodes_[k];
+    power_.col(Eigen::Index(k)) = at_.power.col(i) * at_.slope[i] / total_capacity_;
+    power_of_shift_ += has_heat_[i] * power_.col(Eigen::Index(k));
+  }
 }
 
 bool NewtonSystem::factorise(double identity, double gamma) {
   gamma_ = gamma;
+  if (grids_) return grids_->shift(identity, gamma);
   matrix_.coeffs() = fixed_ - gamma * rate_;
   for (int i = 0; i < nodes_; ++i) matrix_.valuePtr()[diagonal_slots_[std::size_t(i)]] += identity;
   return factors_->factorise(matrix_);
@@ -108,39 +138,65 @@ bool NewtonSystem::factorise(double gamma) { return factorise(1.0, gamma); }
 bool NewtonSystem::factorise_steady() { return factorise(0.0, 1.0); }
 
 bool NewtonSystem::solve_nodes(VectorXd const& b, double tolerance, VectorXd& x) {
-  VectorXd right = VectorXd::Zero(matrix_.rows()), all(matrix_.rows());
-  right.head(nodes_) = b;
-  if (!factors_->solve(right, tolerance, all)) return false;
-  x = all.head(nodes_);
+  x.resize(nodes_);
+  return solve_nodes(b.data(), tolerance, x.data());
+}
+
+bool NewtonSystem::solve_nodes(double const* b, double tolerance, double* x) {
+  if (grids_) return grids_->solve(b, tolerance, x);
+  right_.setZero(matrix_.rows());
+  right_.head(nodes_) = Eigen::Map<VectorXd const>(b, nodes_);
+  all_.resize(matrix_.rows());
+  if (!factors_->solve(right_, tolerance, all_)) return false;
+  Eigen::Map<VectorXd>(x, nodes_) = all_.head(nodes_);
   return true;
 }
 
 bool NewtonSystem::solve(std::span<double const> b, double tolerance, std::span<double> x) {
-  VectorXd const right = Eigen::Map<VectorXd const>(b.data(), Eigen::Index(b.size()));
-  Eigen::Map<VectorXd> all(x.data(), Eigen::Index(x.size()));
-  VectorXd nodes;
-  if (!solve_nodes(right.head(nodes_), tolerance, nodes)) return false;
-  all.head(nodes_) = nodes;
-  keep_balance(right, all);
+  right_side_.assign(b.begin(), b.end());  // x may be b
+  if (!solve_nodes(right_side_.data(), tolerance, x.data())) return false;
+  keep_balance(right_side_.data(), x.data());
   return true;
+}
+
+Eigen::Vector4d NewtonSystem::power_of(double const* temperature) const {
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  for (std::size_t k = 0; k < power_nodes_.size(); ++k)
+    sum += power_.col(Eigen::Index(k)) * temperature[power_nodes_[k]];
+  return sum;
 }
 
 /// Energies of x, after the uniform shift of all temperatures that makes the balance Σ Cᵢ xᵢ/ΣC + lost + withdrawn −
 /// supplied of x that of b.
-void NewtonSystem::keep_balance(Eigen::Ref<VectorXd const> const& b, Eigen::Ref<VectorXd> x) const {
-  Eigen::Index const n = capacity_.size();
+void NewtonSystem::keep_balance(double const* b, double* x) const {
   Eigen::Vector4d const sign(-1.0, 1.0, 1.0, 0.0);
-  auto temperatures = x.head(n);
-  x.tail<energies>() = b.tail<energies>() + gamma_ * (power_ * temperatures);
-  double const defect =
-      capacity_.dot(b.head(n) - temperatures) / total_capacity_ + sign.dot(b.tail<energies>() - x.tail<energies>());
-  Eigen::Vector4d const power_of_shift = power_ * has_heat_;
-  temperatures += defect / (1.0 + gamma_ * sign.dot(power_of_shift)) * has_heat_;
-  x.tail<energies>() = b.tail<energies>() + gamma_ * (power_ * temperatures);
+  Eigen::Map<Eigen::Vector4d const> const b_energies(b + nodes_);
+  Eigen::Map<Eigen::Vector4d> x_energies(x + nodes_);
+  double const missing = sum_of_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    double sum = 0.0;
+    for (auto i = begin; i < end; ++i) sum += capacity_[i] * (b[i] - x[i]);
+    return sum;
+  });
+  Eigen::Vector4d const power = power_of(x);
+  double const defect = missing / total_capacity_ - gamma_ * sign.dot(power);
+  double const shift = defect / (1.0 + gamma_ * sign.dot(power_of_shift_));
+  for_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto i = begin; i < end; ++i) x[i] += shift * has_heat_[i];
+  });
+  x_energies = b_energies + gamma_ * (power + shift * power_of_shift_);
+}
+
+/// Whether nearly all nodes stand in grids of three directions.
+bool mostly_blocks(Network const& network) {
+  int inside = 0;
+  for (auto const& grid : network.grids())
+    if (grid.n[2] > 1) inside += grid.count();
+  return inside > 0.5 * network.nodes();
 }
 
 LinearSolver choose_solver(Network const& network) {
   if (network.nodes() <= 12) return LinearSolver::dense;
+  if (network.nodes() > 2000 && mostly_blocks(network)) return LinearSolver::multigrid;
   NewtonSystem const system(network, LinearSolver::sparse_direct);
   bool const fills_in = factorisation_effort(system.pattern()) > 100.0;
   return fills_in ? LinearSolver::preconditioned_krylov : LinearSolver::sparse_direct;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "thermal/evaluation.h"
+#include "thermal/grid_system.h"
 #include "thermal/integrate.h"
 #include "thermal/linear_factors.h"
 
@@ -47,21 +48,29 @@ class NewtonSystem {
   /// The nodes alone.
   [[nodiscard]] bool solve_nodes(Eigen::VectorXd const& b, double tolerance, Eigen::VectorXd& x);
 
-  /// Pattern of the matrix that is factorised.
+  /// Pattern of the matrix that is factorised; empty with multigrid.
   [[nodiscard]] Eigen::SparseMatrix<double> const& pattern() const { return matrix_; }
 
  private:
   [[nodiscard]] bool factorise(double identity, double gamma);
+  [[nodiscard]] bool solve_nodes(double const* b, double tolerance, double* x);
   void lay_out();
-  void keep_balance(Eigen::Ref<Eigen::VectorXd const> const& b, Eigen::Ref<Eigen::VectorXd> x) const;
+  void fill_matrix();
+  void take_power();
+  [[nodiscard]] Eigen::Vector4d power_of(double const* temperature) const;
+  void keep_balance(double const* b, double* x) const;
 
   Network const& network_;
   int nodes_, averages_;
   Eigen::VectorXd capacity_, has_heat_;  ///< 0 for a controller's state
   double total_capacity_, unit_capacity_;
   Linearisation at_;
-  Eigen::Matrix<double, energies, Eigen::Dynamic> power_;  ///< P
+  std::vector<int> power_nodes_;                           ///< whose temperature changes a power
+  Eigen::Matrix<double, energies, Eigen::Dynamic> power_;  ///< P, of these
+  Eigen::Vector4d power_of_shift_;                         ///< when all that has heat becomes 1 K warmer
   double gamma_ = 0.0;
+  std::vector<double> right_side_;
+  Eigen::VectorXd right_, all_;
 
   /// I·identity + fixed − γ·rate, on the nodes, the averages' T̄ and their Q̂ = γ Q/unit_capacity.
   Eigen::SparseMatrix<double> matrix_;
@@ -72,6 +81,7 @@ class NewtonSystem {
   };
   std::vector<std::vector<WeightSlots>> weight_slots_;
   std::unique_ptr<LinearFactors> factors_;
+  std::unique_ptr<GridSystem> grids_;  ///< instead of matrix and factors
 };
 
 }  // namespace thermotwin::thermal

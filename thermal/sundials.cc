@@ -1,4 +1,4 @@
-// The only file that knows SUNDIALS.
+// The only file, with sundials_vector.cc, that knows SUNDIALS.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,14 +8,15 @@
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <nvector/nvector_serial.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 
 #include "thermal/error.h"
+#include "thermal/fixed_blocks.h"
 #include "thermal/integrate.h"
 #include "thermal/nearest_name.h"
 #include "thermal/newton_system.h"
+#include "thermal/sundials_vector.h"
 
 namespace thermotwin::thermal {
 namespace {
@@ -87,18 +88,12 @@ MatrixHandle matrix_shell(SUNContext context) {
   return MatrixHandle(matrix);
 }
 
-SolverHandle solver_shell(SUNContext context, NewtonSystem& system, bool iterative) {
+SolverHandle solver_shell(SUNContext context, bool iterative) {
   SUNLinearSolver solver = SUNLinSolNewEmpty(context);
-  solver->content = &system;
   if (iterative)
     solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_ITERATIVE; };
   else
     solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
-  solver->ops->solve = [](SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, realtype tolerance) {
-    auto const n = std::size_t(N_VGetLength(b));
-    bool const solved = static_cast<NewtonSystem*>(self->content)->solve({data(b), n}, tolerance, {data(x), n});
-    return solved ? 0 : 1;
-  };
   solver->ops->free = [](SUNLinearSolver self) {
     SUNLinSolFreeEmpty(self);
     return 0;
@@ -126,7 +121,7 @@ class Run {
  private:
   void set_up(IntegrationState const& from);
   void attach_linear_solver();
-  void set_tolerances();
+  double tolerance() const;
   void set_up_sensitivities(IntegrationState const& from);
   void leave(IntegrationState& state);
   void restart(double t);
@@ -158,6 +153,8 @@ class Run {
   static int rate(double t, N_Vector y, N_Vector ydot, void* user);
   static int newton_matrix(double t, N_Vector y, N_Vector fy, SUNMatrix, int reuse, int* current, double gamma,
                            void* user, N_Vector, N_Vector, N_Vector);
+  static int solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype tolerance);
+  static int error_weights(N_Vector y, N_Vector weights, void* user);
   static int roots(double t, N_Vector y, double* g, void* user);
   static int sensitivity_rate(int count, double t, N_Vector y, N_Vector ydot, N_Vector* s, N_Vector* sdot, void* user,
                               N_Vector, N_Vector);
@@ -171,7 +168,7 @@ class Run {
   NewtonSystem newton_;
 
   ContextHandle context_;
-  VectorHandle y_, tolerance_;
+  VectorHandle y_;
   std::vector<VectorHandle> sensitivity_;
   std::vector<N_Vector> sensitivity_view_;
   MatrixHandle matrix_;
@@ -198,7 +195,10 @@ int Run::rate(double t, N_Vector y, N_Vector ydot, void* user) {
     data(ydot)[n + 1] = power.withdrawn / unit;
     data(ydot)[n + 2] = power.lost / unit;
     data(ydot)[n + 3] = power.exchanged / unit;
-    return std::isfinite(std::accumulate(data(ydot), data(ydot) + n + NewtonSystem::energies, 0.0)) ? 0 : 1;
+    double const sum = sum_of_blocks(n + NewtonSystem::energies, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      return std::accumulate(data(ydot) + begin, data(ydot) + end, 0.0);
+    });
+    return std::isfinite(sum) ? 0 : 1;
   });
 }
 
@@ -250,28 +250,51 @@ void Run::collect_message(int code, char const*, char const* function, char* mes
   if (code < 0) self(user).message_ = fmt::format("{}: {}", function, message);
 }
 
+int Run::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype tolerance) {
+  auto& run = self(solver->content);
+  return run.guarded([&] {
+    if (run.solver_kind_ == LinearSolver::multigrid) {
+      double gamma = 0.0;
+      CVodeGetCurrentGamma(run.cvode_.get(), &gamma);
+      if (!run.newton_.factorise(gamma)) return 1;
+    }
+    auto const n = std::size_t(N_VGetLength(b));
+    return run.newton_.solve({data(b), n}, tolerance, {data(x), n}) ? 0 : 1;
+  });
+}
+
+/// Where factors cost little, they are always those of the present γ, and only the Jacobian grows old.
 void Run::attach_linear_solver() {
+  bool const cheap_factors = solver_kind_ == LinearSolver::multigrid;
+  bool const iterative = cheap_factors || solver_kind_ == LinearSolver::preconditioned_krylov;
+  void* cvode = cvode_.get();
   matrix_ = matrix_shell(context_.get());
-  solver_ = solver_shell(context_.get(), newton_, solver_kind_ == LinearSolver::preconditioned_krylov);
-  CVodeSetLinearSolver(cvode_.get(), solver_.get(), matrix_.get());
-  CVodeSetLinSysFn(cvode_.get(), newton_matrix);
+  solver_ = solver_shell(context_.get(), iterative);
+  solver_->content = this;
+  solver_->ops->solve = solve;
+  CVodeSetLinearSolver(cvode, solver_.get(), matrix_.get());
+  CVodeSetLinSysFn(cvode, newton_matrix);
+  if (!cheap_factors) return;
+  CVodeSetLinearSolutionScaling(cvode, SUNFALSE);
+  CVodeSetDeltaGammaMaxLSetup(cvode, infinity);
+  CVodeSetLSetupFrequency(cvode, 50);
 }
 
 /// Temperatures are kelvin, of which only the rise matters: the tolerance is absolute, scaled by a rise of 10 K. The
 /// energies are sums over the temperatures and need no control of their own.
-void Run::set_tolerances() {
-  int const n = network_.nodes();
-  double const tolerance = options_.absolute_tolerance + 10.0 * options_.relative_tolerance;
-  tolerance_.reset(N_VClone(y_.get()));
-  std::fill_n(data(tolerance_.get()), n, tolerance);
-  std::fill_n(data(tolerance_.get()) + n, NewtonSystem::energies, 1e6 * tolerance);
-  CVodeSVtolerances(cvode_.get(), 1e-14, tolerance_.get());
+double Run::tolerance() const { return options_.absolute_tolerance + 10.0 * options_.relative_tolerance; }
+
+int Run::error_weights(N_Vector, N_Vector weights, void* user) {
+  auto const& run = self(user);
+  N_VConst(1.0 / run.tolerance(), weights);
+  std::fill_n(data(weights) + run.network_.nodes(), NewtonSystem::energies, 1e-6 / run.tolerance());
+  return 0;
 }
 
 void Run::set_up(IntegrationState const& from) {
   t_ = from.time;
   point_.enter_piece(t_);
-  y_.reset(N_VNew_Serial(sunindextype(from.state.size()), context_.get()));
+  y_.reset(make_vector(sunindextype(from.state.size()), context_.get()));
   std::copy(from.state.begin(), from.state.end(), data(y_.get()));
   initial_ = from.start;
   for (std::size_t r = 0; r < from.relays.size(); ++r) point_.relay_state(network_.relays()[r]) = from.relays[r];
@@ -282,7 +305,7 @@ void Run::set_up(IntegrationState const& from) {
   CVodeSetErrHandlerFn(cvode, collect_message, this);
   CVodeInit(cvode, rate, t_, y_.get());
   CVodeSetUserData(cvode, this);
-  set_tolerances();
+  CVodeWFtolerances(cvode, error_weights);
   CVodeSetMaxNumSteps(cvode, 10'000'000);
   CVodeSetMinStep(cvode, 1e-9);  // less than that and a temperature runs away
   if (options_.maximum_step > 0.0) CVodeSetMaxStep(cvode, options_.maximum_step);
@@ -405,7 +428,7 @@ void Run::set_initial_step(double t) {
   evaluation_.rate(data(y_.get()), input(t), rates.data());
   double fastest = 0.0;
   for (double rate : rates) fastest = std::max(fastest, std::abs(rate));
-  CVodeSetInitStep(cvode_.get(), std::clamp(data(tolerance_.get())[0] / std::max(fastest, 1e-300), shortest, longest));
+  CVodeSetInitStep(cvode_.get(), std::clamp(tolerance() / std::max(fastest, 1e-300), shortest, longest));
 }
 
 /// Integrates to `target`, through jumps and relay switches on the way.
@@ -490,6 +513,8 @@ std::string_view name_of(LinearSolver solver) {
       return "sparse LU (KLU)";
     case LinearSolver::preconditioned_krylov:
       return "BiCGSTAB with incomplete LU";
+    case LinearSolver::multigrid:
+      return "GMRES with multigrid";
     case LinearSolver::automatic:
       break;
   }

@@ -174,7 +174,7 @@ TEST(Network, RelayStatesComeAfterWhatACourseMustGive) {
   Network const network = builder.build();
   EXPECT_EQ(network.external_channels(), 1);
   EXPECT_THAT(network.channel_names(), testing::ElementsAre("speed", "chiller.state"));
-  EXPECT_EQ(network.groups()[1].inputs, (std::vector<int>{1, 0}));
+  EXPECT_EQ(network.groups().back().inputs, (std::vector<int>{1, 0}));
 }
 
 TEST(Network, MeanOverlapIsTheOverlapAveragedOverTheCentre) {

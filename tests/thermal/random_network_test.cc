@@ -8,6 +8,8 @@ namespace thermotwin::thermal {
 namespace {
 
 std::vector<double> const times{0.0, 300.0, 1000.0, 3000.0};
+constexpr LinearSolver every_solver[] = {LinearSolver::dense, LinearSolver::sparse_direct,
+                                         LinearSolver::preconditioned_krylov, LinearSolver::multigrid};
 
 std::vector<double> input_at(Network const& network, double t) {
   std::vector<double> all(4), input;
@@ -43,7 +45,7 @@ TEST(RandomNetwork, EveryRunKeepsItsEnergy) {
 TEST(RandomNetwork, TheBalanceClosesWithEverySolverAndLooseTolerances) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     auto const random = random_network(seed);
-    for (auto solver : {LinearSolver::dense, LinearSolver::sparse_direct, LinearSolver::preconditioned_krylov}) {
+    for (auto solver : every_solver) {
       IntegrationOptions options = tight(1e-3);
       options.solver = solver;
       auto const summary = integrate(random.network, random_course(), random.start, times, options, [](auto&) {});
@@ -56,7 +58,7 @@ TEST(RandomNetwork, SolversAgree) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     auto const random = random_network(seed);
     std::vector<std::vector<double>> ends;
-    for (auto solver : {LinearSolver::dense, LinearSolver::sparse_direct, LinearSolver::preconditioned_krylov}) {
+    for (auto solver : every_solver) {
       IntegrationOptions options = tight(1e-8);
       options.solver = solver;
       integrate(random.network, random_course(), random.start, times, options, [&](Sample const& s) {
@@ -66,6 +68,7 @@ TEST(RandomNetwork, SolversAgree) {
     for (std::size_t i = 0; i < ends[0].size(); ++i) {
       ASSERT_NEAR(ends[0][i], ends[1][i], 1e-5) << "seed " << seed;
       ASSERT_NEAR(ends[0][i], ends[2][i], 1e-5) << "seed " << seed;
+      ASSERT_NEAR(ends[0][i], ends[3][i], 1e-5) << "seed " << seed;
     }
   }
 }

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace thermotwin::thermal {
+
+/// Work on long arrays, shared among threads in blocks whose bounds depend on the length alone: a sum is that of the
+/// blocks' sums in their order, so that the same bytes come out of any number of threads.
+inline constexpr std::ptrdiff_t block_length = 4096;
+inline constexpr std::ptrdiff_t worth_a_thread = 65536;  ///< below this many entries, waking threads costs more
+
+/// visit(begin, end) for each block of [0, length).
+template <class Visit>
+void for_blocks(std::ptrdiff_t length, Visit const& visit) {
+  std::ptrdiff_t const blocks = (length + block_length - 1) / block_length;
+  auto const visit_block = [&](std::ptrdiff_t b) { visit(b * block_length, std::min(length, (b + 1) * block_length)); };
+  if (length < worth_a_thread) {
+    for (std::ptrdiff_t b = 0; b < blocks; ++b) visit_block(b);
+    return;
+  }
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t b = 0; b < blocks; ++b) visit_block(b);
+}
+
+/// Σ part(begin, end) over the blocks of [0, length).
+template <class Part>
+double sum_of_blocks(std::ptrdiff_t length, Part const& part) {
+  if (length <= block_length) return length > 0 ? part(std::ptrdiff_t(0), length) : 0.0;
+  std::vector<double> sums(std::size_t((length + block_length - 1) / block_length));
+  for_blocks(length, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    sums[std::size_t(begin / block_length)] = part(begin, end);
+  });
+  double sum = 0.0;
+  for (double const s : sums) sum += s;
+  return sum;
+}
+
+}  // namespace thermotwin::thermal

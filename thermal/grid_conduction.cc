@@ -1,0 +1,40 @@
+#include "thermal/grid_conduction.h"
+
+#include <algorithm>
+
+#include "thermal/fixed_blocks.h"
+
+namespace thermotwin::thermal {
+
+GridConduction::GridConduction(std::vector<Grid> const& grids, std::span<int const> ports,
+                               std::span<double const> conductances) {
+  for (auto const& grid : grids)
+    if (grid.count() > 1) grids_.push_back(grid);
+  for (auto& links : g_) links.resize(std::size_t(grids.back().end()));
+  for (std::size_t k = 0; k < conductances.size(); ++k) {
+    int const a = std::min(ports[2 * k], ports[2 * k + 1]), b = std::max(ports[2 * k], ports[2 * k + 1]);
+    auto const after =
+        std::upper_bound(grids_.begin(), grids_.end(), a, [](int node, Grid const& grid) { return node < grid.first; });
+    int const d = after == grids_.begin() ? -1 : (after - 1)->direction(a, b - a);
+    if (d >= 0)
+      g_[std::size_t(d)][std::size_t(a)] += conductances[k];
+    else
+      others_.push_back({a, b, conductances[k]});
+  }
+}
+
+void GridConduction::add_heat_flows(double const* temperature, double* heat) const {
+  std::array<double const*, 3> const g{g_[0].data(), g_[1].data(), g_[2].data()};
+  for (auto const& grid : grids_)
+    for_blocks(grid.count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for_balances(grid, g, temperature, grid.first + int(begin), grid.first + int(end),
+                   [heat](int i, double sum) { heat[i] += sum; });
+    });
+  for (auto const& [a, b, conductance] : others_) {
+    double const into_a = conductance * (temperature[b] - temperature[a]);
+    heat[a] += into_a;
+    heat[b] -= into_a;
+  }
+}
+
+}  // namespace thermotwin::thermal
