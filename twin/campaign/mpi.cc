@@ -1,4 +1,7 @@
-// The only file that knows MPI.
+// The only file that knows MPI: its C interface.
+#define OMPI_SKIP_MPICXX 1
+#define MPICH_SKIP_MPICXX 1
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
