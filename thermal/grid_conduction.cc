@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "thermal/fixed_blocks.h"
+#include "thermal/grid_balance.h"
 
 namespace thermotwin::thermal {
 

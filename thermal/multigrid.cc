@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "thermal/fixed_blocks.h"
+#include "thermal/grid_balance.h"
 
 namespace thermotwin::thermal {
 namespace {
