@@ -73,6 +73,12 @@ std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector
   return chosen;
 }
 
+Eigen::VectorXd shorter(Eigen::VectorXd const& x, Eigen::Index gone) {
+  Eigen::VectorXd rest(x.size() - 1);
+  rest << x.head(gone), x.tail(x.size() - gone - 1);
+  return rest;
+}
+
 /// A fit with one effect more.
 struct Refit {
   Hypothesis hypothesis;
@@ -96,11 +102,17 @@ class Diagnostician {
   [[nodiscard]] std::vector<Refit> refits(Fit const& about, std::vector<std::size_t> const& chosen,
                                           std::vector<Score> const& scores) const;
   [[nodiscard]] std::vector<std::size_t> most_promising(std::vector<Score> const& scores) const;
-  [[nodiscard]] std::vector<Refit> instead_of(Refit const& best) const;
-  [[nodiscard]] Eigen::MatrixXd whitened_signatures() const;
+  [[nodiscard]] std::vector<Refit> instead_of(std::size_t effect, double strength) const;
+  [[nodiscard]] Eigen::MatrixXd whitened_signatures(std::vector<Hypothesis> const& hypotheses) const;
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
   void listen_to_noise();
-  void drop_superfluous(Estimation const& plain);
+  [[nodiscard]] double further_threshold() const {
+    return std::max(options_.further_threshold, options_.least_share * strongest_);
+  }
+  [[nodiscard]] std::vector<double> strengths_beside_others() const;
+  [[nodiscard]] Estimation with_effects(std::vector<Hypothesis> const& effects) const;
+  void drop_superfluous();
+  void exchange();
   void take_joint_estimates();
   void find_where();
   void propose();
@@ -113,6 +125,7 @@ class Diagnostician {
   Machine machine_;
   std::vector<ChannelNoise> expected_;
   std::vector<Hypothesis> hypotheses_;
+  std::optional<Estimation> plain_;  ///< without any effect
   std::optional<Estimation> estimation_;
   double strongest_ = 0.0;  ///< of the effects found so far
   Fit fit_;
@@ -132,8 +145,8 @@ void Diagnostician::listen_to_noise() {
   fit_ = estimation_->fit(fit_.x, 10);
 }
 
-Eigen::MatrixXd Diagnostician::whitened_signatures() const {
-  Eigen::MatrixXd columns = signatures(*estimation_, fit_, hypotheses_);
+Eigen::MatrixXd Diagnostician::whitened_signatures(std::vector<Hypothesis> const& hypotheses) const {
+  Eigen::MatrixXd columns = signatures(*estimation_, fit_, hypotheses);
   estimation_->whiten(columns);
   return columns;
 }
@@ -165,30 +178,25 @@ std::vector<Refit> Diagnostician::refits(Fit const& about, std::vector<std::size
   return result;
 }
 
-/// The effect that was added last, and what could stand in its place, about the fit that has it: near enough for what
-/// looks alike that the linearisation decides.
-std::vector<Refit> Diagnostician::instead_of(Refit const& best) const {
-  auto const last = fit_.x.size() - 1;
-  Fit const about = without(fit_, last);
-  Eigen::MatrixXd const columns = whitened_signatures();
-  auto const scores = score(about, columns, hypotheses_);
-  auto const of_best = [&](std::size_t k) {
-    return hypotheses_[k].label() == best.hypothesis.label() && hypotheses_[k].keys == best.hypothesis.keys;
-  };
-  double own = 0.0;
-  Eigen::VectorXd alike = Eigen::VectorXd::Ones(columns.cols());
-  for (std::size_t k = 0; k < scores.size(); ++k)
-    if (of_best(k)) {
-      own = evidence_of(scores[k], hypotheses_[k], 0.5);
-      alike = cosines(about, columns, Eigen::Index(k));
-    }
+/// An effect that was added, and what could stand in its place, about the fit that has it: near enough for what looks
+/// alike that the linearisation decides.
+std::vector<Refit> Diagnostician::instead_of(std::size_t effect, double strength) const {
+  auto const own_place = Eigen::Index(estimation_->unknowns().size() - estimation_->effects().size() + effect);
+  Hypothesis const& own = estimation_->effects()[effect];
+  Fit const about = without(fit_, own_place);
+  std::vector<Hypothesis> tried = hypotheses_;
+  tried.push_back(own);
+  Eigen::MatrixXd const columns = whitened_signatures(tried);
+  auto const scores = score(about, columns, tried);
+  Eigen::VectorXd const alike = cosines(about, columns, columns.cols() - 1);
+  double const own_evidence = evidence_of(scores.back(), own, 0.5);
   std::vector<Refit> result = {
-      {best.hypothesis, fit_.x[last], std::sqrt(fit_.covariance(last, last)), fit_.x, best.strength}};
-  for (std::size_t const k : promising(scores, hypotheses_, 0.0, INFINITY)) {
-    if (hypotheses_[k].label() == best.hypothesis.label() || std::abs(alike[Eigen::Index(k)]) < confusable) continue;
-    Refit refit{hypotheses_[k], scores[k].amplitude, 1.0 / std::sqrt(scores[k].information), fit_.x,
-                best.strength + evidence_of(scores[k], hypotheses_[k], 0.5) - own};
-    refit.x[last] = refit.amplitude;
+      {own, fit_.x[own_place], std::sqrt(fit_.covariance(own_place, own_place)), fit_.x, strength}};
+  for (std::size_t const k : promising(scores, tried, 0.0, INFINITY)) {
+    if (tried[k].label() == own.label() || std::abs(alike[Eigen::Index(k)]) < confusable) continue;
+    Refit refit{tried[k], scores[k].amplitude, 1.0 / std::sqrt(scores[k].information), fit_.x,
+                strength + evidence_of(scores[k], tried[k], 0.5) - own_evidence};
+    refit.x[own_place] = refit.amplitude;
     result.push_back(std::move(refit));
   }
   return result;
@@ -226,11 +234,10 @@ std::vector<std::size_t> Diagnostician::most_promising(std::vector<Score> const&
 /// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
 bool Diagnostician::add_effect(int round) {
   say(fmt::format("{} effects at their sites, round {}", hypotheses_.size(), round));
-  double const threshold =
-      round == 1 ? options_.threshold : std::max(options_.further_threshold, options_.least_share * strongest_);
-  auto const scores = score(fit_, whitened_signatures(), hypotheses_);
+  double const threshold = round == 1 ? options_.threshold : further_threshold();
+  auto const scores = score(fit_, whitened_signatures(hypotheses_), hypotheses_);
   auto const first = refits(fit_, most_promising(scores), scores);
-  if (first.empty() || first[0].strength < threshold) return false;
+  if (first.empty()) return false;
   Estimation const before = *estimation_;
   Fit const base = fit_;
   std::vector<Refit> all;
@@ -245,7 +252,7 @@ bool Diagnostician::add_effect(int round) {
       fit_ = former_fit;
       estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
     }
-    all = instead_of(best);
+    all = instead_of(estimation_->effects().size() - 1, best.strength);
     auto const strongest = std::max_element(all.begin(), all.end(),
                                             [](Refit const& a, Refit const& b) { return a.strength < b.strength; });
     if (strongest->strength < best.strength + 2.0 || attempt == 1) break;
@@ -265,22 +272,66 @@ bool Diagnostician::add_effect(int round) {
   return true;
 }
 
+/// The machine without any effect found, with these instead, and with the noise heard last.
+Estimation Diagnostician::with_effects(std::vector<Hypothesis> const& effects) const {
+  return plain_->with(estimation_->noise()).with(effects);
+}
+
+/// 2 ln of the evidence for each effect found, beside all the others.
+std::vector<double> Diagnostician::strengths_beside_others() const {
+  auto const effects = estimation_->effects();
+  auto const first = fit_.x.size() - Eigen::Index(effects.size());
+  std::vector<double> strengths;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    auto others = effects;
+    others.erase(others.begin() + std::ptrdiff_t(e));
+    strengths.push_back(with_effects(others).fit(shorter(fit_.x, first + Eigen::Index(e)), 10).evidence -
+                        fit_.evidence);
+  }
+  return strengths;
+}
+
 /// Backward check (physics.md 8.6): an effect that those found after it have made superfluous goes, the weakest first.
-void Diagnostician::drop_superfluous(Estimation const& plain) {
-  auto const first = diagnosis_.calibrated.x.size();
+void Diagnostician::drop_superfluous() {
   while (estimation_->effects().size() > 1) {
-    Eigen::VectorXd const square = fit_.x.tail(fit_.x.size() - first)
-                                       .cwiseAbs2()
-                                       .cwiseQuotient(fit_.covariance.diagonal().tail(fit_.x.size() - first));
-    Eigen::Index weakest = 0;
-    if (square.minCoeff(&weakest) >= options_.threshold) return;
+    auto const strengths = strengths_beside_others();
+    strongest_ = *std::max_element(strengths.begin(), strengths.end());
+    auto const weakest = std::min_element(strengths.begin(), strengths.end()) - strengths.begin();
+    for (std::size_t e = 0; e < strengths.size(); ++e) {
+      auto& alternatives = diagnosis_.explanations[e].alternatives;
+      double const change = strengths[e] - alternatives[0].strength;
+      for (auto& alternative : alternatives) alternative.strength += change;
+    }
+    if (strengths[std::size_t(weakest)] >= further_threshold()) return;
     auto effects = estimation_->effects();
     effects.erase(effects.begin() + weakest);
     diagnosis_.explanations.erase(diagnosis_.explanations.begin() + weakest);
-    Eigen::VectorXd start(fit_.x.size() - 1);
-    start << fit_.x.head(first + weakest), fit_.x.tail(fit_.x.size() - first - weakest - 1);
-    estimation_ = plain.with(estimation_->noise()).with(effects);
-    fit_ = estimation_->fit(start, 10);
+    estimation_ = with_effects(effects);
+    fit_ = estimation_->fit(shorter(fit_.x, fit_.x.size() - Eigen::Index(strengths.size()) + weakest), 10);
+  }
+}
+
+/// What was found first was found without the others: each effect is held anew against what could stand in its place.
+void Diagnostician::exchange() {
+  for (std::size_t e = 0; estimation_->effects().size() > 1 && e < estimation_->effects().size(); ++e) {
+    auto const& explanation = diagnosis_.explanations[e];
+    double strength = explanation.alternatives[0].strength;
+    auto all = instead_of(e, strength);
+    auto const best = *std::max_element(all.begin(), all.end(),
+                                        [](Refit const& a, Refit const& b) { return a.strength < b.strength; });
+    if (best.strength > strength + 2.0) {
+      auto effects = estimation_->effects();
+      effects[e] = best.hypothesis;
+      Estimation const changed = with_effects(effects);
+      Fit const fit = changed.fit(best.x, 10);
+      if (fit.evidence < fit_.evidence - 2.0) {
+        strength += fit_.evidence - fit.evidence;
+        estimation_ = changed;
+        fit_ = fit;
+        all = instead_of(e, strength);
+      }
+    }
+    diagnosis_.explanations[e] = explanation_of(all);
   }
 }
 
@@ -293,15 +344,17 @@ Diagnosis Diagnostician::operator()() {
   diagnosis_.hypotheses = hypotheses_;
   say("scanning for heat that the machine does not know");
   diagnosis_.scan = scan_for_free_heat(*estimation_, fit_);
-  Estimation const plain = *estimation_;
+  plain_ = estimation_;
   for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
-  drop_superfluous(plain);
+  drop_superfluous();
+  exchange();
+  drop_superfluous();
   if (!diagnosis_.explanations.empty()) diagnosis_.left = scan_for_free_heat(*estimation_, fit_);
   diagnosis_.faulty_sensor = faulty_sensor(runs_);
   diagnosis_.verdict = verdict();
   if (diagnosis_.verdict == Diagnosis::Verdict::none_known) {  // nothing is added to the machine
     diagnosis_.unknown_heat = diagnosis_.scan[0];
-    estimation_ = plain;
+    estimation_ = plain_;
     fit_ = diagnosis_.calibrated;
   }
   diagnosis_.amended = fit_;
@@ -314,21 +367,20 @@ Diagnosis Diagnostician::operator()() {
   return diagnosis_;
 }
 
-/// The best effect leaves heat of free course on its own body, or it took two effects on one body: the catalogue does
-/// not have what acts there.
+/// Heat of free course is still evident, or it took two effects on the body of the first, which is about heat: the
+/// catalogue does not have what acts there.
 bool Diagnostician::is_unknown() const {
   auto const& found = diagnosis_.explanations;
-  if (found.empty()) return !diagnosis_.scan.empty() && diagnosis_.scan[0].gain > options_.heat_left;
-  auto const& first = found[0].alternatives[0];
-  if (first.hypothesis.effect->changes.find("source") == std::string::npos &&
-      first.hypothesis.effect->changes.find("film") == std::string::npos &&
-      first.hypothesis.effect->changes.find("boundary") == std::string::npos)
-    return false;
-  for (auto const& left : diagnosis_.left)
-    if (left.gain > options_.heat_left && left.site.body == first.hypothesis.body) return true;
-  for (std::size_t i = 1; i < found.size(); ++i)
-    if (found[i].alternatives[0].hypothesis.body == first.hypothesis.body) return true;
-  return false;
+  auto const& left = found.empty() ? diagnosis_.scan : diagnosis_.left;
+  if (!left.empty() && left[0].gain > options_.heat_left) return true;
+  if (found.empty()) return false;
+  auto const& first = found[0].alternatives[0].hypothesis;
+  auto const about_heat = [&](std::string const& what) {
+    return first.effect->changes.find(what) != std::string::npos;
+  };
+  if (!about_heat("source") && !about_heat("film") && !about_heat("boundary")) return false;
+  return std::any_of(found.begin() + 1, found.end(),
+                     [&](Explanation const& other) { return other.alternatives[0].hypothesis.body == first.body; });
 }
 
 /// The best alternative of each explanation as the last fit has it, with all the others.
@@ -354,13 +406,12 @@ void Diagnostician::find_where() {
   };
   if (auto const& unknown = diagnosis_.unknown_heat)
     for (std::size_t r = 0; r < runs_.size(); ++r) add(unknown->site.body, mean_heat(*unknown, r, runs_[r]));
-  Machine const machine = estimation_->machine_at(fit_.x);
-  auto const& parts = machine.network().parts();
-  for (std::size_t e = 0; e < estimation_->effects().size(); ++e) {
-    auto const& effect = estimation_->effects()[e];
-    auto const it = std::find(parts.begin(), parts.end(), fmt::format("{}.diagnosed_{}", effect.effect->name, e + 1));
-    if (it == parts.end()) continue;
-    for (auto const& run : runs_) add(effect.body, LinearisedRun(machine, run).mean_heat(int(it - parts.begin())));
+  Eigen::VectorXd x = fit_.x;
+  x.tail(Eigen::Index(estimation_->effects().size())).setConstant(1e-8);  // as good as none
+  Machine const machine = estimation_->machine_at(fit_.x), plain = estimation_->machine_at(x);
+  for (auto const& run : runs_) {
+    auto const more = LinearisedRun(machine, run).more_heat_than(plain);
+    for (auto const& range : machine_.network().ranges()) add(range.name, more.at(range.name));
   }
   double largest = 0.0;
   for (auto const& [place, watts] : heat) largest = std::max(largest, watts);

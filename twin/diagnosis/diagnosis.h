@@ -35,7 +35,7 @@ struct DiagnosisOptions {
   /// quite right looks like others.
   double further_threshold = 40.0;
   double least_share = 0.04;
-  /// 2 ln of the evidence for heat of free course on the body of the effect found: beyond it, that is not what is
+  /// 2 ln of the evidence for heat of free course anywhere, beside the effects found: beyond it, they are not what is
   /// missing.
   double heat_left = 20.0;
   double indistinct = 9.0;  ///< alternatives within this of the best are told as well

@@ -85,14 +85,12 @@ bool is_read_directly(Hypothesis const& hypothesis) {
 
 }  // namespace
 
-Fit without(Fit fit, Eigen::Index first) {
-  Eigen::Index const unknowns = fit.x.size(), rows = fit.residual.size() - unknowns;
-  for (Eigen::Index u = first; u < unknowns; ++u) {
-    fit.residual -= fit.jacobian.col(u) * fit.x[u];
-    fit.residual[rows + u] = 0.0;
-    fit.jacobian.col(u).setZero();
-    fit.jacobian(rows + u, u) = 1.0;
-  }
+Fit without(Fit fit, Eigen::Index unknown) {
+  auto const prior = fit.residual.size() - fit.x.size() + unknown;
+  fit.residual -= fit.jacobian.col(unknown) * fit.x[unknown];
+  fit.residual[prior] = 0.0;
+  fit.jacobian.col(unknown).setZero();
+  fit.jacobian(prior, unknown) = 1.0;
   return fit;
 }
 
@@ -393,6 +391,7 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations, Fit const* fro
   double const log_determinant = 2.0 * information.matrixLLT().diagonal().array().log().sum();
   fit.evidence = fit.cost + log_determinant;
   for (auto const& unknown : unknowns_) fit.evidence += 2.0 * std::log(unknown.deviation);
+  for (auto const& effect : effects_) fit.evidence += effect.choice;
   for (auto const& unknown : unknowns_)
     if (unknown.kind == Unknown::Kind::amplitude && std::isfinite(unknown.lower)) fit.evidence -= 2.0 * std::log(2.0);
   return fit;

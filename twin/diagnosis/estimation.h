@@ -42,13 +42,14 @@ struct Fit {
   Eigen::MatrixXd covariance;
   bool converged = false;
 
-  /// −2 ln evidence + constant, by Laplace's method: cost + ln |JᵀJ|, the priors' volume taken off.
+  /// −2 ln evidence + constant, by Laplace's method: cost + ln |JᵀJ|, the priors' volume taken off, the choice of each
+  /// effect's site added.
   double evidence = 0.0;
 };
 
-/// A fit as if its unknowns from `first` on had been known to be zero, to first order: what their effects explained is
-/// in the residual again. The others are not at their optimum then.
-[[nodiscard]] Fit without(Fit fit, Eigen::Index first);
+/// A fit as if one of its unknowns had been known to be zero, to first order: what its effect explained is in the
+/// residual again. The others are not at their optimum then.
+[[nodiscard]] Fit without(Fit fit, Eigen::Index unknown);
 
 /// Maximum a posteriori of a machine's uncertain numbers, its instruments' offsets and lags, and the amplitudes of
 /// effects that were added to it, from several runs at once (physics.md 8.1):

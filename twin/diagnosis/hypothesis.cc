@@ -1,6 +1,7 @@
 #include "twin/diagnosis/hypothesis.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <map>
@@ -234,6 +235,9 @@ std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine
         }
       }
   }
+  std::map<Effect const*, int> count;
+  for (auto const& hypothesis : result) ++count[hypothesis.effect];
+  for (auto& hypothesis : result) hypothesis.choice = 2.0 * std::log(count[hypothesis.effect]);
   return result;
 }
 

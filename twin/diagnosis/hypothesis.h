@@ -16,6 +16,9 @@ struct Hypothesis {
   std::string site;  ///< where, as people read it: "cartridge[0 mm .. 160 mm]", "T4", "motor to column_front"
   std::string body;  ///< body, sensor or displacement channel that it acts on first
   std::vector<std::pair<std::string, std::string>> keys;  ///< of the table, but for its name and amplitude
+  /// 2 ln of the number of sites and shapes that the effect has in this machine: effects are equally likely beforehand,
+  /// and so are the sites of one. Among a hundred sites, one fits by chance.
+  double choice = 0.0;
 
   /// What is compared: entries that differ in their shape only are one effect at one place.
   [[nodiscard]] std::string label() const { return effect->name + " at " + site; }

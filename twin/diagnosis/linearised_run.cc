@@ -1,6 +1,7 @@
 #include "twin/diagnosis/linearised_run.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "thermal/error.h"
@@ -275,19 +276,28 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
   return result;
 }
 
-LinearisedRun::MeanHeat LinearisedRun::mean_heat(int part) const {
-  thermal::Evaluation evaluation(machine_->network());
-  std::vector<double> watts(machine_->network().parts().size());
-  MeanHeat mean;
+std::map<std::string, LinearisedRun::MeanHeat> LinearisedRun::more_heat_than(Machine const& other) const {
+  auto const& network = machine_->network();
+  thermal::Evaluation with(network), without(other.network());
+  std::vector<double> rate(std::size_t(network.nodes())), rate_without(rate.size());
+  std::map<std::string, MeanHeat> heat;
   double moving = 0.0, standing = 0.0;
   for (std::size_t s = 0; s < begins_.size(); ++s) {
     double const length = data_->steps[s].end - data_->steps[s].begin;
     bool const moves = is_moving(*data_->run->course, begins_[s].time);
-    evaluation.heat_of_parts(begins_[s].state.data(), begins_[s].input.data(), watts);
-    (moves ? mean.moving : mean.standing) += length * watts[std::size_t(part)];
     (moves ? moving : standing) += length;
+    with.rate(begins_[s].state.data(), begins_[s].input.data(), rate.data());
+    without.rate(begins_[s].state.data(), begins_[s].input.data(), rate_without.data());
+    for (auto const& range : network.ranges())
+      for (auto i = std::size_t(range.first); i < std::size_t(range.first + range.count); ++i)
+        (moves ? heat[range.name].moving : heat[range.name].standing) +=
+            length * network.capacity()[i] * (rate[i] - rate_without[i]);
   }
-  return {moving > 0.0 ? mean.moving / moving : 0.0, standing > 0.0 ? mean.standing / standing : 0.0};
+  for (auto& [body, mean] : heat) {
+    mean.moving /= std::max(moving, 1.0);
+    mean.standing /= std::max(standing, 1.0);
+  }
+  return heat;
 }
 
 bool is_moving(thermal::Course const& course, double time) {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "thermal/parameter_columns.h"
@@ -42,12 +44,13 @@ class LinearisedRun {
   [[nodiscard]] Eigen::MatrixXd growth(std::vector<NodeWeights> const& displacements) const;
   [[nodiscard]] BinnedRun const& data() const { return *data_; }
   [[nodiscard]] Machine const& machine() const { return *machine_; }
-  /// Mean heat [W] that one part of the network gives to bodies, while the spindle or an axis moves and while all
-  /// stands.
+  /// Mean heat [W], while the spindle or an axis moves and while all stands.
   struct MeanHeat {
     double moving = 0.0, standing = 0.0;
   };
-  [[nodiscard]] MeanHeat mean_heat(int part) const;
+  /// What every body receives more of in this machine than in another of the same nodes, at this machine's
+  /// temperatures: Σ C (dT/dt − dT/dt of the other) over the body's nodes.
+  [[nodiscard]] std::map<std::string, MeanHeat> more_heat_than(Machine const& other) const;
 
  private:
   /// One end of a step: the state there and the operating point on this side of a jump.

@@ -182,9 +182,10 @@ Eigen::VectorXd cosines(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen
 }
 
 double evidence_of(Score const& score, Hypothesis const& hypothesis, double deviation) {
-  if (score.statistic <= 0.0) return 0.0;
+  if (score.statistic <= 0.0) return -hypothesis.choice;
   double const a = score.information, b = score.amplitude * a;
-  double const gain = b * b / (a + 1.0 / (deviation * deviation)) - std::log1p(a * deviation * deviation);
+  double const gain =
+      b * b / (a + 1.0 / (deviation * deviation)) - std::log1p(a * deviation * deviation) - hypothesis.choice;
   return hypothesis.trial->either_sign ? gain : gain + 2.0 * std::log(2.0);
 }
 

@@ -1,6 +1,7 @@
 #include "twin/diagnosis/hypothesis.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <map>
@@ -72,6 +73,15 @@ TEST_P(HypothesesOf, NameSitesThatTheMachineHas) {
   for (auto const& sensor : subject.machine.sensors) names.insert(sensor.description.name);
   for (auto const& displacement : subject.machine.displacements) names.insert(displacement.name);
   for (auto const& hypothesis : subject.all) EXPECT_TRUE(names.contains(hypothesis.body)) << text_of(hypothesis);
+}
+
+/// Beforehand every effect is as likely as any other, however many sites it has.
+TEST_P(HypothesesOf, ShareTheProbabilityOfTheirEffect) {
+  Subject const subject(GetParam());
+  std::map<std::string, double> probability;
+  for (auto const& hypothesis : subject.all) probability[hypothesis.effect->name] += std::exp(-0.5 * hypothesis.choice);
+  EXPECT_GT(probability.size(), 10U);
+  for (auto const& [effect, sum] : probability) EXPECT_NEAR(sum, 1.0, 1e-12) << effect;
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, HypothesesOf, testing::Values("v450", "vmc850", "g200"),

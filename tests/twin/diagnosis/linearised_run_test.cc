@@ -1,5 +1,6 @@
 #include "twin/diagnosis/linearised_run.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
@@ -208,6 +209,24 @@ TEST(LinearisedRun, ReadsThroughTheSensorsOfAnotherMachine) {
                          channel.name == "E_Z";
     EXPECT_EQ((shown - plain).col(Index(c)).cwiseAbs().maxCoeff() > 0.0, differs) << channel.name;
   }
+}
+
+/// 80 W into the motor, 0.4 m² between two bodies: what each body receives of it, while the spindle turns and stands.
+TEST(LinearisedRun, TellsWhichBodiesReceiveMoreHeatThanInAnotherMachine) {
+  auto const with = [](double share) {
+    return Machine::build(tests::with_table(
+        v450(), fmt::format("[[heat]]\nname = \"h\"\nat = \"motor\"\npower = \"{} W\"\n"
+                            "[[radiation]]\nname = \"r\"\non = \"front_ring\"\nto = \"bed\"\narea = \"{} m^2\"\n",
+                            80.0 * share, 0.4 * share)));
+  };
+  BinnedRun const binned = bin(measured(), 300.0);
+  Machine const machine = with(1.0);
+  auto const more = LinearisedRun(machine, binned).more_heat_than(with(1e-9));
+  EXPECT_NEAR(more.at("motor").moving, 80.0, 1e-6);
+  EXPECT_NEAR(more.at("motor").standing, 80.0, 1e-6);
+  EXPECT_LT(more.at("front_ring").moving, -1.0);
+  EXPECT_NEAR(more.at("bed").moving, -more.at("front_ring").moving, 1e-9);
+  EXPECT_NEAR(more.at("column_front").moving, 0.0, 1e-9);
 }
 
 }  // namespace
