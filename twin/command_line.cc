@@ -32,6 +32,7 @@
 #include "twin/needed_solution.h"
 #include "twin/progress.h"
 #include "twin/progress_file.h"
+#include "twin/reduced_summary.h"
 #include "twin/replay.h"
 #include "twin/report/report_files.h"
 #include "twin/run.h"
@@ -48,13 +49,14 @@ struct RunCommand {
   std::string experiment, machine, dataset, fields, picture, field_interval = "15 min", checkpoint;
   std::vector<std::string> settings;
   double tolerance = 1e-6;
-  bool nodes = false, json = false, quiet = false, resume = false;
+  bool nodes = false, json = false, quiet = false, resume = false, reduced = false;
 
   void add_to(CLI::App& app);
   void operator()() const;
 
  private:
   void set_checkpoint(RunOptions& options) const;
+  void run_reduced(Machine const& machine, scenarios::Experiment const& programme, RunOptions const& options) const;
 };
 
 void RunCommand::add_to(CLI::App& app) {
@@ -72,6 +74,7 @@ void RunCommand::add_to(CLI::App& app) {
                       "simulated time after which a killed run can be taken up: \"2 h\"; needs --output");
   command->add_flag("--resume", resume, "go on from the checkpoint beside the output");
   command->add_flag("--nodes", nodes, "keep every node's temperature in the data set");
+  command->add_flag("--reduced", reduced, "through a reduced model of the machine, with a bound of what it errs by");
   command->add_flag("--json", json, "print the summary as JSON");
   command->add_flag("--quiet,-q", quiet, "print nothing but errors");
   command->callback([this] { (*this)(); });
@@ -85,6 +88,17 @@ void RunCommand::set_checkpoint(RunOptions& options) const {
   options.checkpoint_interval = checkpoint.empty() ? checkpoint_interval(*options.checkpoint)
                                                    : thermal::parse_value(checkpoint, thermal::dimension::time);
   if (options.checkpoint_interval <= 0.0) throw thermal::InputError("--checkpoint is a time above 0");
+}
+
+void RunCommand::run_reduced(Machine const& machine, scenarios::Experiment const& programme,
+                             RunOptions const& options) const {
+  if (options.fields || options.picture || options.node_temperatures || options.checkpoint)
+    throw thermal::InputError("--reduced gives readings and displacements: no fields, picture, nodes or checkpoint");
+  ReducedTwin const twin(machine);
+  auto result = twin.run(programme);
+  for (auto const& [key, text] : options.provenance) result.dataset.provenance[key] = text;
+  if (options.dataset) output::write(result.dataset, *options.dataset);
+  if (!quiet) fmt::print("{}", reduced_table(twin, result));
 }
 
 void RunCommand::operator()() const {
@@ -108,6 +122,15 @@ void RunCommand::operator()() const {
   options.node_temperatures = nodes;
   options.provenance = origin(path, experiment_path, fmt::format("{}", fmt::join(settings, "\n")), programme);
   set_checkpoint(options);
+  if (reduced) {
+    try {
+      return run_reduced(built, programme, options);
+    } catch (FileError const&) {
+      throw;
+    } catch (thermal::InputError const& error) {
+      throw located_in(experiment_document, error);
+    }
+  }
   options.stop = &stop_requested;
   std::optional<Progress> progress;
   if (!quiet) {

@@ -9,6 +9,7 @@
 #include "thermal/course_inputs.h"
 #include "thermal/error.h"
 #include "thermal/reduced_integration.h"
+#include "thermal/units.h"
 #include "twin/run.h"
 #include "twin/version.h"
 
@@ -80,10 +81,11 @@ void widen(thermal::Network const& network, thermal::Course const& course, doubl
   }
 }
 
-/// How the data set's inputs are shown is the full run's business: only readings and displacements are here.
-output::Dataset head_of(Machine const& machine, scenarios::Experiment const& experiment) {
+output::Dataset head_of(Machine const& machine, scenarios::Experiment const& experiment,
+                        scenarios::ExperimentCourse const& course) {
   output::Dataset head;
   head.title = fmt::format("{}: {}", machine.name, experiment.title);
+  head.inputs = input_channels(course);
   for (auto const& sensor : machine.sensors)
     head.readings.push_back({sensor.description.name, "degC", sensor.description.title, {}});
   head.displacements = displacement_channels(machine);
@@ -183,10 +185,23 @@ ReducedError difference(History const& fine, History const& coarse) {
   return bound;
 }
 
-void keep(History const& history, output::Dataset& dataset) {
-  auto const rows = Eigen::Index(history.time.size());
-  output::resize_rows(dataset, rows);
-  for (Eigen::Index r = 0; r < rows; ++r) {
+void keep_inputs(scenarios::ExperimentCourse const& course, output::Dataset& dataset) {
+  std::vector<std::size_t> place;
+  for (auto const& shown : dataset.inputs)
+    for (std::size_t i = 0; i < course.channels().size(); ++i)
+      if (course.channels()[i].name == shown.name) place.push_back(i);
+  std::vector<double> values(course.channels().size());
+  for (Eigen::Index r = 0; r < dataset.time_s.size(); ++r) {
+    course.evaluate(dataset.time_s[r], values);
+    for (std::size_t k = 0; k < place.size(); ++k) {
+      auto& channel = dataset.inputs[k];
+      channel.values[r] = channel.unit == "1" ? values[place[k]] : thermal::to_unit(values[place[k]], channel.unit);
+    }
+  }
+}
+
+void keep_truth(History const& history, output::Dataset& dataset) {
+  for (Eigen::Index r = 0; r < dataset.time_s.size(); ++r) {
     auto const row = std::size_t(r);
     dataset.time_s[r] = history.time[row];
     for (std::size_t s = 0; s < dataset.truth_readings.size(); ++s)
@@ -248,8 +263,7 @@ void ReducedTwin::check_inputs(std::vector<double> const& input) const {
 }
 
 History ReducedTwin::history_of(Model const& model, scenarios::Experiment const& experiment,
-                                ReducedResult& result) const {
-  scenarios::ExperimentCourse const course(experiment, machine_->limits);
+                                scenarios::ExperimentCourse const& course, ReducedResult& result) const {
   auto const start = initial_temperatures(*machine_, experiment, course);
   HistoryRecorder recorder(*machine_, course, model.sums);
   auto const summary =
@@ -270,14 +284,19 @@ ReducedResult ReducedTwin::run(scenarios::Experiment const& experiment) const {
         "initial_temperature: {:.6g} °C; the reduced model of '{}' was made for {:.6g} to {:.6g} °C",
         *experiment.initial_temperature - 273.15, machine_->name, initial_.low - 273.15, initial_.high - 273.15));
   ReducedResult result;
-  auto const history = history_of(*fine_, experiment, result);
-  result.bound = difference(history, history_of(*coarse_, experiment, result));
+  scenarios::ExperimentCourse const course(experiment, machine_->limits);
+  auto const history = history_of(*fine_, experiment, course, result);
+  result.bound = difference(history, history_of(*coarse_, experiment, course, result));
   for (std::size_t s = 0; s < result.bound.readings.size(); ++s)
     result.bound.readings[s] = safety * result.bound.readings[s] + training_error_.readings[s];
   result.bound.displacements = safety * result.bound.displacements + training_error_.displacements;
-  result.dataset = head_of(*machine_, experiment);
-  keep(history, result.dataset);
-  measure(history, experiment, result.dataset);
+  auto& dataset = result.dataset = head_of(*machine_, experiment, course);
+  output::resize_rows(dataset, Eigen::Index(history.time.size()));
+  keep_truth(history, dataset);
+  keep_inputs(course, dataset);
+  measure(history, experiment, dataset);
+  dataset.provenance["reduced.bound_K"] = thermal::format_number(result.bound.largest_reading());
+  dataset.provenance["reduced.bound_um"] = thermal::format_number(result.bound.largest_displacement());
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "output/dataset.h"
+#include "scenarios/course.h"
 #include "scenarios/experiment.h"
 #include "thermal/reduced_network.h"
 #include "thermal/reduced_sums.h"
@@ -26,7 +27,8 @@ struct ReducedError {
 };
 
 struct ReducedResult {
-  output::Dataset dataset;  ///< as of a full run, without heat and node temperatures
+  output::Dataset
+      dataset;  ///< as of a full run, without heat and node temperatures; the largest bounds are in its provenance
   ReducedError bound;
   long steps = 0, rate_evaluations = 0;
 };
@@ -69,7 +71,7 @@ class ReducedTwin {
     thermal::ReducedSums sums;
   };
   [[nodiscard]] History history_of(Model const& model, scenarios::Experiment const& experiment,
-                                   ReducedResult& result) const;
+                                   scenarios::ExperimentCourse const& course, ReducedResult& result) const;
 
   Machine const* machine_;
   std::vector<Limits> limits_;
