@@ -90,7 +90,7 @@ void UntunedCvodeKlu24h(benchmark::State& state) {
     loop.end = loop.course.next_jump(0.0);
     for (double const out : scenarios::sample_times(problem.experiment))
       while (t < out) {
-        if (std::isfinite(loop.end)) CVodeSetStopTime(cvode, loop.end);
+        CVodeSetStopTime(cvode, std::min(loop.end, 1e9));
         if (CVode(cvode, std::min(out, loop.end), y, &t, CV_NORMAL) < 0) return state.SkipWithError("CVODES gave up");
         if (t < loop.end) continue;
         loop.end = loop.course.next_jump(t);

@@ -35,6 +35,9 @@ struct CampaignParameter {
   /// The value at a share of the range, or the k-th.
   [[nodiscard]] Setting at(double share) const;
   [[nodiscard]] Setting value(std::int64_t k) const;
+
+ private:
+  [[nodiscard]] Setting set_to(double number) const;
 };
 
 struct CampaignExperiment {

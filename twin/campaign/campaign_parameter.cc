@@ -6,16 +6,21 @@
 
 namespace thermotwin::twin {
 
-Setting CampaignParameter::at(double share) const {
-  double const number =
-      logarithmic ? from * std::pow(to / from, share) : (1.0 - share) * from + share * to;  // exact at both ends
+Setting CampaignParameter::set_to(double number) const {
   auto const digits = thermal::format_number(number);
   return {path, unit.empty() ? digits : digits + " " + unit};
 }
 
+Setting CampaignParameter::at(double share) const {
+  return set_to(logarithmic ? from * std::pow(to / from, share) : from + share * (to - from));
+}
+
+/// Of whole numbers between whole numbers, whole numbers.
 Setting CampaignParameter::value(std::int64_t k) const {
   if (!values.empty()) return {path, values[std::size_t(k)]};
-  return at(count > 1 ? double(k) / double(count - 1) : 0.0);
+  if (count == 1) return set_to(from);
+  if (logarithmic) return at(double(k) / double(count - 1));
+  return set_to((from * double(count - 1 - k) + to * double(k)) / double(count - 1));
 }
 
 }  // namespace thermotwin::twin

@@ -185,6 +185,7 @@ CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& opt
 }
 
 bool finish_campaign(Campaign const& campaign, fs::path const& folder) {
+  if (!fs::exists(folder / "manifest.json")) return false;
   output::LockedFile const lock(folder / "lock", output::LockedFile::Busy::wait);
   std::vector<output::CampaignPartFile> parts;
   for (std::int64_t part = 0; part < campaign.parts(); ++part) {
