@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace thermotwin::output {
@@ -33,6 +34,9 @@ class ReportPage {
 
   /// The kind names the drawer.
   void add_section(std::string_view kind, Json const& section);
+
+  /// In place of the first title, once it is known what the page shows.
+  void set_title(std::string title) { title_ = std::move(title); }
 
   /// For a page that a program serves and renews: from this revision on it asks `document?after=REVISION` for news, and
   /// may connect to where it comes from, to nothing else. 0: it stands for itself.

@@ -80,9 +80,19 @@ Json placement_json(Json placement, fs::path const& machine, ReportPage& page) {
   return placement;
 }
 
+std::string title_of(std::string_view kind, Json const& answer, fs::path const& file) {
+  if (kind == "study" || kind == "progress") return answer["title"].get<std::string>();
+  if (kind == "placement") return fmt::format("Sensors on {}", answer["machine"].get<std::string>());
+  if (kind == "volumetric") {
+    auto const travel = answer["travel_mm"].get<std::array<double, 3>>();
+    return fmt::format("Volume of {:.0f} × {:.0f} × {:.0f} mm", travel[0], travel[1], travel[2]);
+  }
+  return file.stem().string();
+}
+
 }  // namespace
 
-void add_answer(fs::path const& file, fs::path const& machine, ReportPage& page) {
+std::string add_answer(fs::path const& file, fs::path const& machine, ReportPage& page) {
   try {
     Json const answer = Json::parse(text_of_file(file));
     auto const kind = kind_of(answer);
@@ -99,6 +109,7 @@ void add_answer(fs::path const& file, fs::path const& machine, ReportPage& page)
           fmt::format("{}: a report takes data sets, and what `diagnose --json`, `study`, `place --json` and "
                       "`volumetric --json` write; this is none of them",
                       file.string()));
+    return title_of(kind, answer, file);
   } catch (Json::exception const& error) {
     throw thermal::InputError(fmt::format("{}: damaged, or no answer of thermotwin: {}", file.string(), error.what()));
   }

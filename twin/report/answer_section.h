@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "output/report_page.h"
 
@@ -12,7 +13,8 @@ namespace thermotwin::twin {
 /// The document is the command's own, with what people need besides: a diagnosis its sentence (diagnosis_section.h), a
 /// study without the values of each repetition, a placement the machine with the map of informative places when the
 /// answer holds it. The machine of a placement is `machine`, or else the shipped one that it names. InputError when the
-/// file is no such answer, or damaged.
-void add_answer(std::filesystem::path const& file, std::filesystem::path const& machine, output::ReportPage& page);
+/// file is no such answer, or damaged. Returns what the page can be called by.
+[[nodiscard]] std::string add_answer(std::filesystem::path const& file, std::filesystem::path const& machine,
+                                     output::ReportPage& page);
 
 }  // namespace thermotwin::twin

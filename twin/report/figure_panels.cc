@@ -123,7 +123,9 @@ Figure courses(std::vector<ShownRun> const& runs, Channels channels, std::string
           runs.size() > 1 ? fmt::format("{}, {}", channel.name, runs[r].path.stem().string()) : channel.name;
       auto& line = figure.add(name, runs[r].data.time_s, channel.values);
       output::set_style(line, i);
-      if (r > 0) line.dashes = dashes[r % dashes.size()];
+      if (runs.size() > 1 && i >= 7)  // dashes tell runs apart here: later channels are pale
+        for (double& part : line.colour) part = 1.0 - 0.5 * (1.0 - part);
+      if (runs.size() > 1) line.dashes = dashes[r % dashes.size()];
     }
   return figure.take();
 }

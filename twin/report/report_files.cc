@@ -21,9 +21,10 @@ namespace fs = std::filesystem;
 using output::Json;
 using output::ReportPage;
 
-std::string title_of(ReportFiles const& files, std::vector<ShownRun> const& runs) {
+std::string title_of(ReportFiles const& files, std::vector<ShownRun> const& runs,
+                     std::vector<std::string> const& answers) {
   if (runs.size() == 1 && !runs[0].data.title.empty()) return runs[0].data.title;
-  return names_of(files.data);
+  return runs.empty() && answers.size() == 1 ? answers[0] : names_of(files.data);
 }
 
 /// The run that the machine's picture shows: the first with all its nodes, or else the first whose machine is known.
@@ -87,12 +88,15 @@ bool is_answer(fs::path const& file) { return file.extension() == ".json"; }
 }  // namespace
 
 BuiltReport build_report(ReportFiles const& files) {
+  BuiltReport report{ReportPage("", fmt::format("ThermoTwin {} ({})", version(), commit())), {}};
   std::vector<ShownRun> runs;
+  std::vector<std::string> answers;
   for (auto const& file : files.data)
-    if (!is_answer(file)) runs.push_back(read_shown_run(file));
-  BuiltReport report{ReportPage(title_of(files, runs), fmt::format("ThermoTwin {} ({})", version(), commit())), {}};
-  for (auto const& file : files.data)
-    if (is_answer(file)) add_answer(file, files.machine, report.page);
+    if (is_answer(file))
+      answers.push_back(add_answer(file, files.machine, report.page));
+    else
+      runs.push_back(read_shown_run(file));
+  report.page.set_title(title_of(files, runs, answers));
   if (runs.empty()) return report;
   Json const section = runs_json(runs, files.machine, report.page);
   report.page.add_section("runs", section);

@@ -1,5 +1,5 @@
 import {dot, type Camera, type Vec} from './camera';
-import {css, viridis} from './colours';
+import {css, viridisLines} from './colours';
 import {make} from './dom';
 import {turntable} from './turntable';
 
@@ -66,7 +66,7 @@ export class ArrowView {
     context.lineWidth = 1.8;
     for (const {at, along, length} of [...arrows].sort((a, b) => dot(a.at, towards) - dot(b.at, towards))) {
       const tip = at.map((x, i) => x + magnification * along[i]!) as Vec;
-      context.strokeStyle = context.fillStyle = css(viridis(length / longest));
+      context.strokeStyle = context.fillStyle = css(viridisLines(length / longest));
       paintArrow(context, camera.project(at, width, height), camera.project(tip, width, height));
     }
   }

@@ -16,6 +16,9 @@ function through(anchors: string): ColourMap {
 export const viridis = through('440154 482475 414487 355f8d 2a788e 21918c 22a884 44bf70 7ad151 bddf26 fde725');
 export const cividis = through('00224e 123570 3b496c 575d6d 707173 8a8678 a59c74 c3b369 e1cc55 fee838');
 
+/** Of viridis what is seen as a thin line on white and on dark ground. */
+export const viridisLines: ColourMap = (share) => viridis(0.3 + 0.67 * Math.min(1, Math.max(0, share)));
+
 export function css([r, g, b]: Rgb, alpha = 1): string {
   return `rgba(${Math.round(r)},${Math.round(g)},${Math.round(b)},${alpha})`;
 }

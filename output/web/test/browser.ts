@@ -28,7 +28,7 @@ export async function open(browser: Browser, file: string, width: number, theme:
   });
   await page.goto(`file://${file}`);
   await page.locator('#page[data-ready]').waitFor({timeout: 60_000});
-  if (await page.locator('.stage').count()) await page.locator('.stage .caption:not(:empty)').waitFor();
+  if (await page.locator('.stage').count()) await page.locator('.stage .caption:not(:empty)').first().waitFor();
   await settled(page);
   return {page, complaints};
 }

@@ -1,7 +1,7 @@
 // Reports as their readers open them: from disk, in Chromium. Pictures of them go to the folder in PICTURES.
 import assert from 'node:assert/strict';
-import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, statSync} from 'node:fs';
+import {execFileSync, spawn} from 'node:child_process';
+import {copyFileSync, mkdtempSync, readFileSync, renameSync, rmSync, statSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
@@ -11,6 +11,26 @@ import {colours, launch, open, photograph, settled} from './browser';
 const program = process.env.THERMOTWIN_PROGRAM!, pictures = process.env.PICTURES!;
 const diagnosis = process.env.EXAMPLE_DIAGNOSIS!;
 let folder: string, browser: Browser;
+
+/** Two selections, two models, and a claim, on two short runs. */
+const small_study = `
+title = "Two rules on one spindle"
+seeds = 5
+folds = 0
+selections = ["all", "forward 3"]
+models = ["linear", "ridge_distributed_lag"]
+[[world]]
+name = "v450"
+machine = "v450"
+error = "E_Z"
+train = ["golden_b_4000"]
+test = ["golden_b_6000"]
+[[claim]]
+says = "three sensors are enough"
+combination = "forward 3 + linear"
+than = "all + linear"
+figure = "cross.rmse"
+`;
 
 function thermotwin(...args: string[]): string {
   return execFileSync(program, args, {cwd: folder, encoding: 'utf8'});
@@ -28,6 +48,13 @@ before(async () => {
   thermotwin('report', 'feed.h5', '-o', 'feed.html');
   thermotwin('report', 'other.h5', 'run.h5', '-o', 'two.html');
   thermotwin('report', diagnosis, '-o', 'diagnosis.html');
+  writeFileSync(at('two_rules.toml'), small_study);
+  thermotwin('study', 'two_rules.toml', '-o', 'study', '--json');
+  thermotwin('report', 'study/study.json', '-o', 'study.html');
+  thermotwin('place', 'v450', '-k', '4', '--members', '4', '--unseen', '2', '--report', 'place', '--json');
+  copyFileSync(at('place/report.html'), at('placement.html'));
+  writeFileSync(at('volumetric.json'), thermotwin('volumetric', 'mill200', '--json'));
+  thermotwin('report', 'volumetric.json', '-o', 'volumetric.html');
   browser = await launch();
 });
 
@@ -36,7 +63,7 @@ after(async () => {
   rmSync(folder, {recursive: true, force: true});
 });
 
-for (const kind of ['run', 'feed', 'two', 'diagnosis'])
+for (const kind of ['run', 'feed', 'two', 'diagnosis', 'study', 'placement', 'volumetric'])
   for (const [width, theme] of [[1440, 'light'], [390, 'dark']] as const)
     test(`${kind} at ${width}: whole, quiet, nothing cut off`, async () => {
       const {page, complaints} = await open(browser, at(`${kind}.html`), width, theme);
@@ -194,6 +221,96 @@ test('a diagnosis names the effect, its rivals and its evidence', async () => {
   assert.ok(await page.locator('.heat-map .cell').count() > 40);
   assert.equal(await page.locator('[data-panel="unaccounted_heat"] .chip').count(), 3);
   await page.close();
+});
+
+test('a study ranks its combinations, best first, and judges its claims', async () => {
+  const {page} = await open(browser, at('study.html'), 1440);
+  const answer = JSON.parse(readFileSync(at('study/study.json'), 'utf8')) as {verdict: string[]; combinations: {selection: string; model: string;
+    figures: Record<string, {mean: number}>}[]};
+  assert.equal(await page.locator('.verdict h2').textContent(), answer.verdict[0]!.replace(/ um$/, ' µm'));
+  assert.equal(await page.locator('h1').textContent(), 'Two rules on one spindle');
+  const ranked = page.locator('[data-panel="ranking_v450"] .rank-row'), first = ranked.first();
+  const best = [...answer.combinations].sort((a, b) => a.figures['cross.rmse']!.mean - b.figures['cross.rmse']!.mean)[0]!;
+  assert.equal(await ranked.count(), 4);
+  assert.equal(await first.locator('span').first().textContent(), `${best.selection} + ${best.model}`.replaceAll('_', ' '));
+  assert.ok((await first.locator('.number').textContent())!.startsWith(best.figures['cross.rmse']!.mean.toFixed(2)));
+  await page.locator('[data-panel="ranking_v450"] [data-figure="cross.r_squared"]').click();
+  const values = await page.locator('[data-panel="ranking_v450"] .rank-row .number').allTextContents();
+  assert.deepEqual(values.map(parseFloat), values.map(parseFloat).sort((a, b) => b - a));
+  assert.equal(await page.locator('.claims .answer').count(), 1);
+  await page.close();
+});
+
+test('a placement shows its map in colours, and another beside the recommended sensors', async () => {
+  const {page, complaints} = await open(browser, at('placement.html'), 1440);
+  assert.equal(await page.locator('[data-panel="sensors"] tr').count(), 5);
+  const alone = await colours(page, '.stage');
+  assert.ok(alone.size > 200, `${alone.size} colours`);
+  await page.getByRole('button', {name: 'Beside the recommended'}).click();
+  await settled(page);
+  assert.match((await page.locator('.stage .caption').textContent())!, /one more sensor/);
+  const beside = await colours(page, '.stage');
+  assert.ok([...beside.keys()].filter((c) => !alone.has(c)).length > 50, 'the map looks the same');
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test('the error in the volume is drawn as arrows, which turn together', async () => {
+  const {page, complaints} = await open(browser, at('volumetric.html'), 1440);
+  const pictures = page.locator('.stage.arrows');
+  assert.equal(await pictures.count(), 2);
+  const first = await colours(page, '.stage.arrows >> nth=1');
+  assert.ok(first.size > 100, `${first.size} colours`);
+  await pictures.first().press('ArrowLeft');
+  await settled(page);
+  assert.notDeepEqual(await colours(page, '.stage.arrows >> nth=1'), first);
+  const answer = JSON.parse(readFileSync(at('volumetric.json'), 'utf8')) as {before: {grid_largest_um: number}; field: {points: number[]}};
+  assert.ok((await page.locator('.verdict h2').textContent())!.includes(`from ${answer.before.grid_largest_um.toFixed(1)} to`));
+  const waiting = page.waitForEvent('download');
+  await page.getByRole('button', {name: 'Download Error field as CSV'}).click();
+  const rows = readFileSync(await (await waiting).path(), 'utf8').trim().split('\n');
+  assert.equal(rows.length, 1 + answer.field.points.reduce((a, b) => a * b, 1));
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test('a served page renews itself and keeps what the reader has chosen', async () => {
+  const served = spawn(program, ['view', 'live.h5'], {cwd: folder});
+  const address = await new Promise<string>((found) => served.stdout.on('data', (text) => found(/http:\S+/.exec(String(text))![0])));
+  const complaints: string[] = [];
+  try {
+    const page = await browser.newPage({viewport: {width: 1440, height: 900}});
+    page.on('request', (request) => {
+      if (!request.url().startsWith(address) && !request.url().startsWith('blob:')) complaints.push(request.url());
+    });
+    page.on('pageerror', (error) => complaints.push(error.message));
+    await page.goto(address);
+    await page.getByText('Nothing is in').waitFor();
+    const put = (name: string): void => {
+      copyFileSync(at(name), at('live.tmp'));
+      renameSync(at('live.tmp'), at('live.h5'));
+    };
+    put('other.h5');
+    await page.locator('.stage .caption:not(:empty)').waitFor({timeout: 20_000});
+    await slider(page).fill('7200');
+    await page.locator('button.chip[data-channel="T8"]').click();
+    const value = page.locator('[data-panel="sensor_temperatures_degC"] [data-channel="T1"] .value');
+    const before = await value.textContent();
+    put('run.h5');
+    await page.waitForFunction((old) => {
+      const now = document.querySelector('[data-panel="sensor_temperatures_degC"] [data-channel="T1"] .value')?.textContent;
+      return now && now !== old;
+    }, before, {timeout: 20_000});
+    assert.equal(await page.locator('.time-bar .time').textContent(), '2 h 00 min');
+    assert.equal(await page.locator('button.chip[data-channel="T8"]').getAttribute('aria-pressed'), 'true');
+    assert.equal(await page.locator('.connection').textContent(), 'live');
+    served.kill('SIGINT');
+    await page.getByText('no longer answers').waitFor({timeout: 20_000});
+    assert.deepEqual(complaints, []);
+    await page.close();
+  } finally {
+    served.kill('SIGKILL');
+  }
 });
 
 test('a page is small', () => {

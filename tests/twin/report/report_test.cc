@@ -173,6 +173,54 @@ TEST_F(Report, NamesWhatADiagnosisFound) {
   EXPECT_EQ(found["effects"][1]["text"], "-0.892 um (-1.19 um to -0.595 um)");
 }
 
+/// A map of 1, 2, 3, … over the machine's nodes, and twice that beside the recommended sensors.
+std::string placement_of(std::string const& machine, Eigen::Index nodes) {
+  std::vector<double> alone, beside;
+  for (Eigen::Index i = 1; i <= nodes; ++i) {
+    alone.push_back(double(i));
+    beside.push_back(2.0 * double(i));
+  }
+  nlohmann::json json = {
+      {"machine", machine}, {"candidates", 200}, {"map", {{"alone_um", alone}, {"beside_um", beside}}}};
+  json["recommended"]["sensors"] = {{{"name", "air"}, {"at", {"ambient"}}, {"position_m", {0, 0, 0}}},
+                                    {{"name", "motor"}, {"at", {"motor"}}, {"position_m", {0, 0.1, 0.2}}}};
+  return json.dump();
+}
+
+TEST_F(Report, PaintsWhereSensorsTellMost) {
+  auto const built = Machine::read(machine_file("v450"));
+  auto const page = report({text("placement.json", placement_of("v450", built.network().nodes()))});
+  auto const& found = section(page, "placement");
+  EXPECT_FALSE(found.contains("map"));
+  auto const& shape = found["shape"];
+  ASSERT_EQ(shape["sensors"].size(), 1U);
+  EXPECT_EQ(shape["sensors"][0]["name"], "2");
+  auto const start = page.numbers<float>(shape["field"]["start"]);
+  auto const change = page.numbers<std::int16_t>(shape["field"]["temperature"]);
+  double const scale = shape["field"]["temperature"]["scales"][0];
+  ASSERT_EQ(start.size(), change.size());
+  for (std::size_t p = 0; p < start.size(); ++p)  // beside = 2 alone, so that the change is the start again
+    EXPECT_NEAR(scale * change[p], start[p], 0.01);
+}
+
+TEST_F(Report, SaysWhyNoMapIsDrawn) {
+  auto const remark = [&](std::string const& placement) {
+    return section(report({text("placement.json", placement)}), "placement")["remarks"].dump();
+  };
+  EXPECT_NE(remark(placement_of("nobody", 3)).find("--machine"), std::string::npos);
+  EXPECT_NE(remark(placement_of("v450", 3)).find("3 numbers for the"), std::string::npos);
+  EXPECT_NE(remark(R"({"recommended": {"sensors": []}, "candidates": 4, "machine": "v450"})").find("--report"),
+            std::string::npos);
+}
+
+TEST_F(Report, ShowsAStudyWithoutTheValuesOfEachRepetition) {
+  auto const page = report({text("study.json", R"({"title": "two", "worlds": [], "claims": [], "selections": [],
+    "combinations": [{"figures": {"cross.rmse": {"mean": 2.5, "half_width_95": 0.5, "values": [2, 3]}}}]})")});
+  auto const& figure = section(page, "study")["combinations"][0]["figures"]["cross.rmse"];
+  EXPECT_EQ(figure["mean"], 2.5);
+  EXPECT_FALSE(figure.contains("values"));
+}
+
 TEST_F(Report, TakesNoOtherJson) {
   EXPECT_THROW(report({text("other.json", "{\"verdict\": 3}")}), thermal::InputError);
   EXPECT_THROW(report({text("broken.json", "{")}), thermal::InputError);

@@ -10,7 +10,7 @@ export function placementSection(section: PlacementSection, numbers: Numbers, pa
   const bound = section.all_sets_looked_at ? `No set of ${best.sensors.length} is better: all were looked at.`
     : `No set of ${best.sensors.length} leaves less than ${short(section.bound_um)} µm.`;
   return make('section', {class: 'placement', 'data-kind': 'placement'},
-    card('Placement', 'nothing', `${best.sensors.length} sensors of ${section.candidates} sites on ${section.machine} leave ${short(left)} % of the tool's error unknown.`, [
+    card('Placement', 'nothing', `${best.sensors.length} sensors of ${section.candidates} sites on ${section.machine} leave ${short(left)} % of the tool’s error unknown.`, [
       ['no sensor', `${short(section.no_sensor_um)} µm`], ['recommended', `${short(best.model_um)} µm`],
       ['every site', `${short(section.all_candidates_um)} µm`]], remark(bound)),
     make('div', {class: section.shape ? 'split' : 'whole'},
@@ -55,7 +55,7 @@ function sensorsPanel(section: PlacementSection): HTMLElement {
     ...['x', 'y', 'z'].map((axis, i) => ({name: `${axis}_m`, values: sensors.map((s) => s.position_m[i]!)})),
     {name: 'cost', values: sensors.map((s) => s.cost)}, {name: 'error_without_um', values: sensors.map((s) => s.error_without_um)},
   ], make('div', {class: 'scroll'}, make('table', {}, make('tr', {}, make('th', {}), make('th', {}, 'site'),
-    make('th', {class: 'number'}, 'x, y, z / mm'), make('th', {}), make('th', {class: 'number'}, 'error without it')), ...rows)));
+    make('th', {class: 'number'}, 'x, y, z / mm'), make('th', {class: 'wide'}), make('th', {class: 'number'}, 'error without it')), ...rows)));
 }
 
 function setsPanel(section: PlacementSection): HTMLElement {
@@ -68,7 +68,7 @@ function setsPanel(section: PlacementSection): HTMLElement {
   return panel('What sets leave of the error', 'sets', () => [
     {name: 'set', values: sets.map(([name]) => name)}, {name: 'model_um', values: sets.map(([, s]) => s.model_um)},
     {name: 'predicted_um', values: sets.map(([, s]) => s.predicted_um)}, {name: 'unseen_rms_um', values: sets.map(([, s]) => s.unseen_rms_um)},
-  ], make('div', {class: 'scroll'}, make('table', {}, make('tr', {}, make('th', {}, 'set'), make('th', {}),
+  ], make('div', {class: 'scroll'}, make('table', {}, make('tr', {}, make('th', {}, 'set'), make('th', {class: 'wide'}),
     ...['model / µm', 'predicted 1σ / µm', 'unseen RMS / µm'].map((t) => make('th', {class: 'number'}, t))),
   cells('no sensor', section.no_sensor_um, none), ...sets.map(([name, s]) => cells(name, s.model_um, [s.predicted_um, s.unseen_rms_um])),
   cells(`all ${section.candidates}`, section.all_candidates_um, none))));

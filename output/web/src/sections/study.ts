@@ -17,7 +17,7 @@ export function studySection(section: StudySection): HTMLElement {
   const worlds = [...new Set(section.combinations.map((c) => c.world))];
   const several = worlds.includes('mean of worlds');
   const ordered = several ? ['mean of worlds', ...worlds.filter((w) => w !== 'mean of worlds')] : worlds;
-  const [first, ...others] = section.verdict;
+  const [first, ...others] = section.verdict.map(inMicrometres);
   return make('section', {class: 'study', 'data-kind': 'study'},
     card('Study', '', first ?? section.title, [
       ['combinations', String(new Set(section.combinations.map((c) => name(c))).size)],
@@ -29,6 +29,9 @@ export function studySection(section: StudySection): HTMLElement {
       ...section.worlds.map((world) => selectionsPanel(section, world.name))),
     ...section.remarks.map(remark));
 }
+
+/** The program writes µm without its letter. */
+const inMicrometres = (text: string): string => text.replace(/(\d) um\b/g, '$1 µm').replaceAll(' -', ' −');
 
 const name = (row: StudyCombination): string => `${row.selection} + ${row.model}`;
 
@@ -48,7 +51,7 @@ function claimsPanel(section: StudySection): HTMLElement {
     {name: 'words', values: section.claims.map((c) => c.words)},
   ], make('ul', {class: 'claims'}, ...section.claims.map((claim) => make('li', {},
     make('span', {class: `answer ${look[claim.answer] ?? ''}`}, claim.answer), make('span', {}, `“${claim.says}”`),
-    make('p', {class: 'words'}, claim.words)))));
+    make('p', {class: 'words'}, inMicrometres(claim.words))))));
 }
 
 /** A row per combination, best first: the mean over the seeds, with its 95 % interval. */

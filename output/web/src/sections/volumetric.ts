@@ -1,7 +1,7 @@
 import {ArrowView, type Arrow} from '../arrow_view';
 import {Camera, type Vec} from '../camera';
 import {Chart} from '../chart';
-import {gradient, setColours, viridis} from '../colours';
+import {gradient, setColours, viridisLines} from '../colours';
 import {extent} from '../course';
 import {colourBar, make, panel} from '../dom';
 import type {Components, VolumetricSection} from '../data';
@@ -19,7 +19,7 @@ export function volumetricSection(section: VolumetricSection, state: PageState):
       `Compensation takes the largest error in the volume from ${short(before.grid_largest_um)} to ${short(after.grid_largest_um)} µm.`, [
         ['RMS before', `${short(before.grid_rms_um)} µm`], ['RMS after', `${short(after.grid_rms_um)} µm`],
         ['largest, less by', `${(100 * section.reduction).toFixed(0)} %`]], ...section.remarks.map(remark)),
-    section.field ? fieldPanel(section, section.field, state) : remark('No field is drawn: this file holds none.'),
+    section.field ? fieldPanel(section.field, state) : remark('No field is drawn: this file holds none.'),
     make('div', {class: 'flow'}, diagonalsPanel(section), ...(section.functions ?? []).map((f) => functionsPanel(f, state)),
       section.drift.length > 0 && driftPanel(section, state), predictionsPanel(section)));
 }
@@ -36,7 +36,7 @@ function arrowsOf(places: Components, vectors: Components, points: [number, numb
   })));
 }
 
-function fieldPanel(section: VolumetricSection, field: NonNullable<VolumetricSection['field']>, state: PageState): HTMLElement {
+function fieldPanel(field: NonNullable<VolumetricSection['field']>, state: PageState): HTMLElement {
   const camera = new Camera([0, 0, 1]), span = axes.map((axis) => extent([field.position_mm[axis]]));
   const box = {low: span.map(([low]) => low) as Vec, high: span.map(([, high]) => high) as Vec};
   const sets = [field.before_um, field.after_um].map((v) => arrowsOf(field.position_mm, v, field.points));
@@ -52,14 +52,14 @@ function fieldPanel(section: VolumetricSection, field: NonNullable<VolumetricSec
     ...axes.map((a) => ({name: `${a}_mm`, values: at[a]})), ...axes.map((a) => ({name: `e${a}_before_um`, values: was[a]})),
     ...axes.map((a) => ({name: `e${a}_after_um`, values: is[a]})),
   ], make('div', {class: 'two-stages'}, ...views.map((view) => view.element)),
-  colourBar(gradient(viridis), ticks, 'Error / µm'),
+  colourBar(gradient(viridisLines), ticks, 'Error / µm'),
   make('p', {class: 'words'}, `True error of the tool against the workpiece, without the rigid motion that fits it best; ${grouped(1e3 * magnification)} times as long as it is${
     sets[0]!.length < at.x.length ? `; ${sets[0]!.length} of ${grouped(at.x.length)} arrows, the CSV has all` : ''}.`));
 }
 
 function diagonalsPanel({before, after}: VolumetricSection): HTMLElement {
   const rows: [string, number, number][] = [...Object.entries(before.diagonals_um).map(([name, x]): [string, number, number] => [`diagonal ${name}`, x, after.diagonals_um[name]!]),
-    ['volume, largest', before.grid_largest_um, after.grid_largest_um], ['volume, RMS', before.grid_rms_um, after.grid_rms_um]];
+    ['volume', before.grid_largest_um, after.grid_largest_um], ['volume, RMS', before.grid_rms_um, after.grid_rms_um]];
   const ticks = roundTicks(0, Math.max(...rows.flatMap(([, a, b]) => [a, b]))), highest = ticks[ticks.length - 1]!;
   const at = (x: number): string => `${(100 * x) / highest}%`;
   return panel('Largest error before and after', 'diagonals', () => [

@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "output/dataset_file.h"
+#include "tests/output/temporary_directory.h"
+#include "thermal/error.h"
+#include "twin/report/figure_files.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using tests::TemporaryDirectory;
+
+/// Three hours, a row a minute; `shift` moves T1.
+output::Dataset warm_up(double shift) {
+  output::Dataset data;
+  data.title = "warm-up";
+  data.time_s = Eigen::VectorXd::LinSpaced(181, 0.0, 10800.0);
+  Eigen::VectorXd const rise = (1.0 - (-data.time_s.array() / 3600.0).exp()).matrix();
+  Eigen::VectorXd const zero = Eigen::VectorXd::Zero(181);
+  data.inputs = {{"spindle.speed", "rpm", "", 4000.0 * (data.time_s.array() < 7200.0).cast<double>().matrix()},
+                 {"ambient.gradient", "K/m", "", zero}};
+  data.readings = {{"T1", "degC", "nose", (20.0 + shift + 10.0 * rise.array()).matrix()},
+                   {"T2", "degC", "motor", (20.0 + 25.0 * rise.array()).matrix()}};
+  data.displacements = {{"E_Z", "um", "", 40.0 * rise}, {"A", "urad", "", -9.0 * rise}};
+  data.heat = {{"bearing", "W", "", 100.0 * rise}, {"idle", "W", "", zero}};
+  return data;
+}
+
+std::vector<std::string> names_of(std::vector<FigurePanel> const& panels) {
+  std::vector<std::string> names;
+  for (auto const& panel : panels) names.push_back(panel.name);
+  return names;
+}
+
+output::Figure const& panel(std::vector<FigurePanel> const& panels, std::string const& name) {
+  return std::find_if(panels.begin(), panels.end(), [&](auto const& p) { return p.name == name; })->figure;
+}
+
+class FigurePanels : public testing::Test {
+ protected:
+  std::filesystem::path written(std::string const& name, double shift) const {
+    output::write(warm_up(shift), folder / name);
+    return folder / name;
+  }
+  std::string refusal(FigureFiles const& files) const {
+    try {
+      (void)write_figure_files(files);
+    } catch (thermal::InputError const& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
+
+  TemporaryDirectory folder;
+};
+
+TEST_F(FigurePanels, AreThoseOfThePage) {
+  EXPECT_THAT(names_of(figure_panels({written("a.h5", 0.0)})),
+              ElementsAre("input_rpm", "sensor_temperatures_degC", "displacements_um", "tilt_urad", "heat"));
+  EXPECT_THAT(names_of(figure_panels({folder / "a.h5", written("b.h5", 1.0)})),
+              ElementsAre("input_rpm", "sensor_temperatures_degC", "residual_sensor_temperatures_degC",
+                          "displacements_um", "residual_displacements_um", "tilt_urad", "residual_tilt_urad", "heat"));
+}
+
+TEST_F(FigurePanels, HoldTheNumbersOfTheDataSet) {
+  auto const data = warm_up(0.0);
+  auto const panels = figure_panels({written("a.h5", 0.0)});
+  auto const& figure = panel(panels, "sensor_temperatures_degC");
+  ASSERT_EQ(figure.lines.size(), 2U);
+  EXPECT_EQ(figure.x_label, "Time / h");
+  EXPECT_EQ(figure.y_label, "Temperature / °C");
+  EXPECT_TRUE(figure.lines[1].x.isApprox(data.time_s / 3600.0, 1e-12));
+  EXPECT_TRUE(figure.lines[1].y.isApprox(data.readings[1].values, 1e-12));
+  EXPECT_EQ(panel(panels, "heat").lines.size(), 1U);
+}
+
+TEST_F(FigurePanels, ResidualIsTheFirstLessTheOther) {
+  auto const panels = figure_panels({written("a.h5", 0.0), written("b.h5", 1.5)});
+  auto const& lines = panel(panels, "residual_sensor_temperatures_degC").lines;
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_TRUE((lines[0].y.array() + 1.5).abs().maxCoeff() < 1e-9);
+  EXPECT_LT(lines[1].y.cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST_F(FigurePanels, OfAnUnknownHeatTheBandHolds95Percent) {
+  tests::put(folder / "d.json", R"({"verdict": "none_known", "heat": {"body": "motor", "watts": 10, "runs": [
+    {"time_s": [0, 3600, 7200], "watts": [0, 10, 20], "standard_error": [1, 2, 3]}]}})");
+  auto const panels = figure_panels({folder / "d.json"});
+  auto const& figure = panel(panels, "unknown_heat");
+  ASSERT_EQ(figure.bands.size(), 1U);
+  EXPECT_NEAR(figure.bands[0].high[2], 20.0 + 1.96 * 3.0, 1e-9);
+  EXPECT_NEAR(figure.bands[0].low[0], -1.96, 1e-9);
+}
+
+TEST_F(FigurePanels, RankingHasTheBestFirst) {
+  tests::put(folder / "study.json", R"({"worlds": [{"name": "w", "unit": "um"}], "combinations": [
+    {"world": "w", "selection": "all", "model": "linear", "figures": {"cross.rmse": {"mean": 3, "half_width_95": 1}}},
+    {"world": "w", "selection": "two", "model": "linear", "figures": {"cross.rmse": {"mean": 1, "half_width_95": 0.5}}},
+    {"world": "w", "selection": "no", "model": "linear", "figures": {}}]})");
+  auto const panels = figure_panels({folder / "study.json"});
+  auto const& rows = panel(panels, "ranking_w").rows;
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].name, "two + linear");
+  EXPECT_EQ(rows[0].low, 0.5);
+}
+
+TEST_F(FigurePanels, AreChosenByNameAndTheirCurves) {
+  auto const path = written("a.h5", 0.0);
+  EXPECT_THAT(write_figure_files({{path}, "", {}, ""}), HasSubstr("sensor_temperatures_degC           T1, T2"));
+  EXPECT_THAT(write_figure_files({{path}, "heat", {}, folder / "heat.pdf"}), HasSubstr("84 mm by 56 mm"));
+  EXPECT_THAT(refusal({{path}, "heats", {}, folder / "x.svg"}), HasSubstr("they have input_rpm, sensor_"));
+  EXPECT_THAT(refusal({{path}, "heat", {"T1"}, folder / "x.svg"}), HasSubstr("no curve 'T1'"));
+  EXPECT_THAT(refusal({{path}, "heat", {}, path}), HasSubstr("a.h5"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.svg"));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
