@@ -1,4 +1,5 @@
-// 50 sensors at 100 Hz through a real broker, which is killed and restarted: what gets lost, and how long decisions take.
+// 50 sensors at 100 Hz through a real broker, which is killed and restarted: what gets lost, and how long decisions
+// take.
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <chrono>
@@ -108,7 +109,7 @@ void BM_FiftySensorsAtHundredHertz(benchmark::State& state) {
   }
 }
 // Seconds; 600 for the ten minutes of the issue: --benchmark_filter=Fifty.*600
-BENCHMARK(BM_FiftySensorsAtHundredHertz)->Arg(60)->Arg(600)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK(BM_FiftySensorsAtHundredHertz)->Arg(20)->Arg(60)->Arg(600)->Iterations(1)->Unit(benchmark::kSecond);
 
 }  // namespace
 }  // namespace thermotwin

@@ -78,7 +78,8 @@ struct CampaignDescription {
     f("title", &CampaignDescription::title, "one line for people");
     f("experiments", &CampaignDescription::experiments, "files, or names of the catalogue");
     f("machine", &CampaignDescription::machine, "file or name; default: the one that the first experiment names");
-    f.choice("model", &CampaignDescription::model, {"full"}, "of the machine: all its nodes");
+    f.choice("model", &CampaignDescription::model, {"full", "reduced"},
+             "of the machine: all its nodes, or few shapes of them, whose bound is kept of each run");
     f("set", &CampaignDescription::set, "parameters changed in every run, as run --set has them");
     f("grid", &CampaignDescription::grid, "parameters of which every value meets every other");
     f("latin_hypercube", &CampaignDescription::latin_hypercube, "parameters drawn together from ranges");

@@ -164,6 +164,9 @@ void CampaignForm::add_variables() {
            {"figure", "displacement"});
     }
   }
+  if (campaign_.description.model != "reduced") return;
+  keep("bound/readings", "K", "of the difference from a full run", {"reading"});
+  keep("bound/displacements", "um", "of the difference from a full run; of rotations: urad", {"displacement"});
 }
 
 std::vector<float> CampaignForm::kept(output::Dataset const& dataset) const {
@@ -182,6 +185,15 @@ std::vector<float> CampaignForm::kept(output::Dataset const& dataset) const {
       append_summary(numbers, find(dataset.displacements, displacements_));
     }
   }
+  return numbers;
+}
+
+std::vector<float> CampaignForm::kept(ReducedResult const& result) const {
+  auto numbers = kept(result.dataset);
+  numbers.insert(numbers.end(), result.bound.readings.begin(), result.bound.readings.end());
+  auto const& displacements = result.bound.displacements;
+  numbers.insert(numbers.end(), displacements.begin(), displacements.end());
+  numbers.resize(numbers_, missing);  // the probes of a nest have no bound of their own
   return numbers;
 }
 

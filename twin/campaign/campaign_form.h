@@ -8,6 +8,7 @@
 #include "output/dataset.h"
 #include "twin/campaign/campaign.h"
 #include "twin/machine.h"
+#include "twin/reduced_twin.h"
 
 namespace thermotwin::twin {
 
@@ -33,6 +34,8 @@ class CampaignForm {
 
   /// What is kept of a data set. InputError when its channels are not those of the nominal machine.
   [[nodiscard]] std::vector<float> kept(output::Dataset const& dataset) const;
+  /// The same of a reduced run, and its bounds.
+  [[nodiscard]] std::vector<float> kept(ReducedResult const& result) const;
   /// All results of a part, in order.
   [[nodiscard]] output::CampaignPart part(std::vector<CampaignResult> const& results) const;
 

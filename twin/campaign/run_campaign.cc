@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <omp.h>
+#include <optional>
 
 #include "output/atomic_file.h"
 #include "output/campaign_file.h"
@@ -17,6 +18,7 @@
 #include "twin/campaign/campaign_form.h"
 #include "twin/campaign/campaign_parts.h"
 #include "twin/diagnosis/run_files.h"
+#include "twin/reduced_twin.h"
 #include "twin/replay.h"
 #include "twin/run.h"
 #include "twin/version.h"
@@ -68,11 +70,39 @@ void claim(Campaign const& campaign, fs::path const& folder) {
                       folder.string(), key));
 }
 
+/// Settings of the machine, not of the experiment.
+std::vector<Setting> machine_settings(CampaignRun const& order) {
+  std::vector<Setting> settings;
+  for (auto const& setting : order.settings)
+    if (!setting.of_experiment()) settings.push_back(setting);
+  return settings;
+}
+
+/// The nominal machine through a reduced model, for all threads.
+struct ReducedMachine {
+  explicit ReducedMachine(Campaign const& campaign)
+      : machine(Machine::build(campaign.machine(campaign.nominal(0)))),
+        twin(machine),
+        settings(machine_settings(campaign.nominal(0))) {}
+
+  [[nodiscard]] ReducedResult run(Campaign const& campaign, CampaignRun const& order) const {
+    if (machine_settings(order) != settings)
+      throw thermal::InputError(
+          "a reduced model is of one machine: with model = \"reduced\" only experiments may vary");
+    return twin.run(campaign.experiment(order));
+  }
+
+  Machine machine;
+  ReducedTwin twin;
+  std::vector<Setting> settings;
+};
+
 /// Makes runs one by one, and keeps the machine while it stays the same.
 class RunMaker {
  public:
-  RunMaker(Campaign const& campaign, CampaignForm const& form, std::atomic<bool> const* stop)
-      : campaign_(campaign), form_(form) {
+  RunMaker(Campaign const& campaign, CampaignForm const& form, ReducedMachine const* reduced,
+           std::atomic<bool> const* stop)
+      : campaign_(campaign), form_(form), reduced_(reduced) {
     options_.integration.relative_tolerance = campaign.description.tolerance;
     options_.integration.absolute_tolerance = campaign.description.tolerance;
     options_.stop = stop;
@@ -83,6 +113,12 @@ class RunMaker {
     result.number = number;
     try {
       auto const order = campaign_.run(number);
+      if (reduced_) {
+        auto const seen = reduced_->run(campaign_, order);
+        result.numbers = form_.kept(seen);
+        result.rows = std::int64_t(seen.dataset.time_s.size());
+        return result;
+      }
       set_machine(order);
       auto const dataset = run(*machine_, campaign_.experiment(order), options_).dataset;
       result.numbers = form_.kept(dataset);
@@ -100,9 +136,7 @@ class RunMaker {
 
  private:
   void set_machine(CampaignRun const& order) {
-    std::vector<Setting> settings;
-    for (auto const& setting : order.settings)
-      if (!setting.of_experiment()) settings.push_back(setting);
+    auto settings = machine_settings(order);
     if (machine_ && settings == settings_) return;
     machine_.reset();
     machine_ = std::make_unique<Machine const>(Machine::build(campaign_.machine(order)));
@@ -111,6 +145,7 @@ class RunMaker {
 
   Campaign const& campaign_;
   CampaignForm const& form_;
+  ReducedMachine const* reduced_;
   RunOptions options_;
   std::unique_ptr<Machine const> machine_;
   std::vector<Setting> settings_;
@@ -148,6 +183,8 @@ CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& opt
   claim(campaign, options.folder);
   CampaignForm const form(campaign, Machine::build(campaign.machine(campaign.nominal(0))));
   CampaignParts parts(campaign, form, options.folder, options.share);
+  std::optional<ReducedMachine> reduced;
+  if (campaign.description.model == "reduced") reduced.emplace(campaign);
   Stopper stopper(options.stop);
   CampaignReport report;
   auto const start = Clock::now();
@@ -155,7 +192,7 @@ CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& opt
   {
 #pragma omp single
     report.threads = omp_get_num_threads();
-    RunMaker make(campaign, form, options.stop);
+    RunMaker make(campaign, form, reduced ? &*reduced : nullptr, options.stop);
     double in_runs = 0.0;
     std::int64_t made = 0;
     try {

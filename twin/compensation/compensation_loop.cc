@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t most_reasons = 100;
 constexpr std::size_t most_pending = 100'000;  ///< between two decisions
-constexpr double furthest_time = 1e11;         ///< so that seconds and their fractions are still numbers [s]
+constexpr double never = -std::numeric_limits<double>::infinity();
+constexpr double furthest_time = 1e11;  ///< so that seconds and their fractions are still numbers [s]
 
 void require(bool holds, char const* what, double value) {
   if (!holds) throw thermal::InputError(fmt::format("{} of {:g}: it must be positive", what, value));
@@ -25,7 +26,7 @@ CompensationLoop::CompensationLoop(Compensator compensator, LoopSettings const& 
     : compensator_(std::move(compensator)),
       settings_(settings),
       clock_(settings.speed, settings.tolerance),
-      read_(compensator_.inputs().size(), -std::numeric_limits<double>::infinity()) {
+      read_(compensator_.inputs().size(), never) {
   require(settings.cycle > 0, "a cycle", settings.cycle);
   require(settings.speed > 0, "a speed", settings.speed);
   for (std::size_t i = 0; i < compensator_.inputs().size(); ++i) input_of_[topics.of(compensator_.inputs()[i])] = i;
@@ -59,37 +60,42 @@ void CompensationLoop::keep(std::string const& topic, std::string_view payload, 
   pending_.push_back(reading);
 }
 
-/// Whether every input that is not at fault has been read for this cycle.
-bool CompensationLoop::complete(double now) const {
-  bool one = false;
+/// Until when every input that is not at fault has been read, if that is far enough for this cycle.
+std::optional<double> CompensationLoop::complete_until(double now) const {
+  std::optional<double> until;
   for (std::size_t i = 0; i < read_.size(); ++i) {
-    bool const is_read = read_[i] >= due_;
-    if (!is_read && compensator_.fault(i, now) == SensorFault::none) return false;
-    if (!is_read && compensator_.last_time(i) == -std::numeric_limits<double>::infinity()) return false;
-    one = one || is_read;
+    bool const given_up = compensator_.last_time(i) > never && compensator_.fault(i, now) != SensorFault::none;
+    if (read_[i] >= due_)
+      until = std::min(until.value_or(read_[i]), read_[i]);
+    else if (!given_up)
+      return std::nullopt;
   }
-  return one;
+  return until;
 }
 
-Decision CompensationLoop::decide(double now) {
+/// `done`: until when this decision has seen the readings; the next one is due at the next cycle.
+Decision CompensationLoop::decide(double now, double done) {
   auto const decision = compensator_.step(now, pending_);
   for (auto const& sentence : decision.refused) refuse(sentence);
   pending_.clear();
-  due_ += settings_.cycle * (1.0 + std::floor(std::max(0.0, now - due_) / settings_.cycle));
+  due_ += settings_.cycle * (1.0 + std::floor(std::max(0.0, done - due_) / settings_.cycle));
   return decision;
 }
 
 std::optional<Decision> CompensationLoop::take(std::string const& topic, std::string_view payload, double wall) {
   keep(topic, payload, wall);
-  return idle(wall);
+  return due_decision(wall, std::max(settings_.tolerance, settings_.cycle));
 }
 
-std::optional<Decision> CompensationLoop::idle(double wall) {
+std::optional<Decision> CompensationLoop::idle(double wall) { return due_decision(wall, settings_.cycle); }
+
+std::optional<Decision> CompensationLoop::due_decision(double wall, double patience) {
   if (!clock_.started()) return std::nullopt;
   double const now = clock_.now(wall);
   if (!running_) due_ = now;
   running_ = true;
-  if (complete(now) || now >= due_ + settings_.cycle) return decide(now);
+  if (auto const until = complete_until(now)) return decide(now, *until);
+  if (now >= due_ + settings_.cycle + patience) return decide(now, now - settings_.cycle);
   return std::nullopt;
 }
 

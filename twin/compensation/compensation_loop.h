@@ -27,7 +27,7 @@ struct Topics {
 struct LoopSettings {
   double cycle = 10.0;       ///< between two decisions, on the senders' clock [s]
   double speed = 1.0;        ///< of the senders' clock
-  double tolerance = 30.0;   ///< by which the clocks of senders may differ [s]
+  double tolerance = 30.0;   ///< by which senders' clocks may differ and messages be late [s]
   double start_time = 30.0;  ///< within which every input must have been read, on our clock [s]
 };
 
@@ -35,7 +35,7 @@ struct LoopSettings {
 /// obeys the limits of AxisShift with the time that passes on our own clock.
 ///
 /// A decision is made as soon as every input that is not at fault has been read for this cycle; at the latest when the
-/// next cycle begins, messages or not.
+/// next one has ended and nothing waits to be read, or `tolerance` after.
 class CompensationLoop {
  public:
   CompensationLoop(Compensator compensator, LoopSettings const& settings, Topics topics = {});
@@ -59,8 +59,9 @@ class CompensationLoop {
  private:
   void refuse(std::string const& reason);
   void keep(std::string const& topic, std::string_view payload, double wall);
-  [[nodiscard]] bool complete(double now) const;
-  Decision decide(double now);
+  [[nodiscard]] std::optional<double> complete_until(double now) const;
+  Decision decide(double now, double done);
+  std::optional<Decision> due_decision(double wall, double patience);
 
   Compensator compensator_;
   LoopSettings settings_;

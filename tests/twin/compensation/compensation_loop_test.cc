@@ -69,6 +69,16 @@ TEST_F(PaperLoop, DecidesOncePerCycleWithEveryReadingOfIt) {
   EXPECT_NEAR(last, duty_->time_s[duty_->time_s.size() - 1], 0.1);
 }
 
+TEST_F(PaperLoop, DecidesForEveryCycleOfABacklog) {
+  auto compensation = loop();
+  auto source = machine();
+  int decisions = 0;
+  for (std::size_t row = 0; row < 5; ++row)
+    for (auto const& [topic, payload] : source.begin(row))
+      decisions += compensation.take(topic, payload, row < 2 ? source.time(row) : 45.0).has_value();
+  EXPECT_EQ(decisions, 5);
+}
+
 /// Each fault of each sensor, from its begin to the end of the duty or for half an hour.
 struct FaultCase {
   char const* name;
