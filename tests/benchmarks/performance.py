@@ -114,9 +114,9 @@ def main():
           f"{MOVED_PER_STEP} bytes per cell and step takes {least:.2f} s: {100 * least / large.seconds:.0f} % of ours.")
 
     print("\n| machine, 8 h of spectrum | time (median) | with 40 sensitivities | times the run without |\n|---|---|---|---|")
-    times = bench("^Spectrum/", runs)
-    for name in ("v450", "vmc850", "g200"):
-        plain, more = times[f"Spectrum/{name}"], times.get(f"Spectrum/{name}/sensitivities")
+    times = bench("^Spectrum", runs)
+    for name in ("v450", "vmc850", "g200", "v450_fine"):
+        plain, more = times[f"Spectrum/{name}"], times.get(f"SpectrumWithSensitivities/{name}")
         print(f"| `{name}` | {plain * 1e3:.2f} ms | " + (f"{more * 1e3:.1f} ms | {more / plain:.1f} |" if more else " | |"))
     print()
     subprocess.run([sys.executable, str(pathlib.Path(__file__).parent / "v450_spectrum.py")], check=True)

@@ -48,7 +48,8 @@ int rate(double, N_Vector y, N_Vector ydot, void* user) {
         double sum = 0.0;
         for (std::size_t d = 0; d < 3; ++d) {
           sum += place[d] > 0 ? block.rate[d] * (T[node - stride[d]] - T[node]) : -block.outer[d] * T[node];
-          sum += place[d] + 1 < block.n[d] ? block.rate[d] * (T[node + stride[d]] - T[node]) : -block.outer[d] * T[node];
+          sum +=
+              place[d] + 1 < block.n[d] ? block.rate[d] * (T[node + stride[d]] - T[node]) : -block.outer[d] * T[node];
         }
         f[node] = sum;
       }
@@ -87,7 +88,8 @@ int run(int argc, char** argv) {
     long taken = 0;
     CVodeGetNumSteps(cvode, &taken);
     steps += taken;
-    file.write(reinterpret_cast<char const*>(N_VGetArrayPointer(y)), std::streamsize(std::size_t(count) * sizeof(double)));
+    file.write(reinterpret_cast<char const*>(N_VGetArrayPointer(y)),
+               std::streamsize(std::size_t(count) * sizeof(double)));
   }
   std::chrono::duration<double> const taken = std::chrono::steady_clock::now() - begin;
   rusage usage{};
