@@ -16,6 +16,7 @@
 #include "thermal/integrate.h"
 #include "thermal/nearest_name.h"
 #include "thermal/newton_system.h"
+#include "thermal/sensitivity_rates.h"
 #include "thermal/sundials_vector.h"
 
 namespace thermotwin::thermal {
@@ -171,6 +172,7 @@ class Run {
   VectorHandle y_;
   std::vector<VectorHandle> sensitivity_;
   std::vector<N_Vector> sensitivity_view_;
+  std::unique_ptr<SensitivityRates> sensitivity_rates_;  ///< none where a parameter has no column
   MatrixHandle matrix_;
   SolverHandle solver_;
   Handle<void*, free_cvode> cvode_;
@@ -237,10 +239,18 @@ int Run::sensitivity_rate(int count, double t, N_Vector y, N_Vector, N_Vector* s
   return self(user).guarded([&] {
     auto& run = self(user);
     double const* input = run.input(t);
+    std::vector<double const*> from;
+    std::vector<double*> to;
     for (int k = 0; k < count; ++k) {
-      run.evaluation_.rate_derivative(data(y), data(s[k]), run.options_.parameters[std::size_t(k)], input,
-                                      data(sdot[k]));
-      std::fill_n(data(sdot[k]) + run.network_.nodes(), NewtonSystem::energies, 0.0);
+      from.push_back(data(s[k]));
+      to.push_back(data(sdot[k]));
+      std::fill_n(to.back() + run.network_.nodes(), NewtonSystem::energies, 0.0);
+    }
+    if (run.sensitivity_rates_) {
+      run.sensitivity_rates_->evaluate(run.evaluation_, data(y), input, from, to);
+    } else {
+      for (std::size_t k = 0; k < from.size(); ++k)
+        run.evaluation_.rate_derivative(data(y), from[k], run.options_.parameters[k], input, to[k]);
     }
     return 0;
   });
@@ -317,6 +327,8 @@ void Run::set_up(IntegrationState const& from) {
 void Run::set_up_sensitivities(IntegrationState const& from) {
   auto const& parameters = options_.parameters;
   if (parameters.empty()) return;
+  if (std::none_of(parameters.begin(), parameters.end(), has_no_column))
+    sensitivity_rates_ = std::make_unique<SensitivityRates>(network_, parameters);
   int const n = network_.nodes();
   for (auto const& parameter : parameters) {
     auto& s = sensitivity_.emplace_back(N_VClone(y_.get()));

@@ -189,7 +189,7 @@ def main():
         subprocess.run(run, check=True)
         with h5py.File(pathlib.Path(folder) / "run.h5") as data:
             final = data["nodes/temperature"][-1]
-    bench = [str(ROOT / "build/thermotwin_bench"), "--benchmark_filter=V450Spectrum", "--benchmark_repetitions=5",
+    bench = [str(ROOT / "build/thermotwin_bench"), "--benchmark_filter=^Spectrum/v450$", "--benchmark_repetitions=5",
              "--benchmark_report_aggregates_only", "--benchmark_format=json"]
     results = json.loads(subprocess.run(bench, check=True, capture_output=True, text=True).stdout)["benchmarks"]
     our_time = next(r["real_time"] for r in results if r.get("aggregate_name") == "median") * 1e-3
