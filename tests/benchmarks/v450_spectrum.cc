@@ -71,7 +71,7 @@ scenarios::Experiment experiment_on(Machine const& machine) {
   } else {
     auto& axis = experiment.axes.emplace_back();
     axis.duty = 0.88;
-    for (auto const& [share, duration] : spectrum) axis.blocks.push_back({duration, 0.27 * share});
+    for (auto const& [share, duration] : spectrum) axis.blocks.push_back({duration, 0.27 * share, {}});
   }
   return experiment;
 }

@@ -72,9 +72,10 @@ TEST(Documentation, NamesCommandsAndOptionsThatThereAre) {
       if (command.starts_with('-') || !std::isalpha(static_cast<unsigned char>(command[0]))) continue;
       if (!help.contains(command)) help[command] = tests::answer(program + " " + command + " --help");
       ++seen;
-      while (words >> word)
-        if (word.starts_with("--"))
-          EXPECT_THAT(help[command], HasSubstr(word.substr(0, word.find('=')))) << page << ": " << line;
+      while (words >> word) {
+        if (!word.starts_with("--")) continue;
+        EXPECT_THAT(help[command], HasSubstr(word.substr(0, word.find('=')))) << page << ": " << line;
+      }
     }
   }
   EXPECT_GT(seen, 50);
