@@ -1,25 +1,42 @@
 #include "output/display.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <fmt/core.h>
+#include <thread>
 
 #include "output/error.h"
 
 namespace thermotwin::output {
+namespace {
 
-void expect_display() {
-  constexpr char const* advice = "run under xvfb-run, for example: xvfb-run -a thermotwin run … --picture machine.png";
+constexpr int attempts = 11;
+constexpr std::chrono::milliseconds between_attempts(50);
+
+constexpr char const* advice = "run under xvfb-run, for example: xvfb-run -a thermotwin run … --picture machine.png";
+
+}  // namespace
+
+DisplayConnection::DisplayConnection() {
   char const* const name = std::getenv("DISPLAY");
   if (!name || !*name) throw OutputError(fmt::format("a picture needs a display and DISPLAY is not set; {}", advice));
-  void* const library = dlopen("libX11.so.6", RTLD_LAZY);
-  if (!library) return;
-  auto const open = reinterpret_cast<void* (*)(char const*)>(dlsym(library, "XOpenDisplay"));
-  auto const close = reinterpret_cast<int (*)(void*)>(dlsym(library, "XCloseDisplay"));
-  void* const display = open(nullptr);
-  if (display) close(display);
-  dlclose(library);
-  if (!display) throw OutputError(fmt::format("a picture needs a display and '{}' does not answer; {}", name, advice));
+  library_ = dlopen("libX11.so.6", RTLD_LAZY);
+  if (!library_) return;
+  auto const open = reinterpret_cast<void* (*)(char const*)>(dlsym(library_, "XOpenDisplay"));
+  for (int i = 0; i < attempts && !connection_; ++i) {
+    if (i > 0) std::this_thread::sleep_for(between_attempts);
+    connection_ = open(nullptr);
+  }
+  if (connection_) return;
+  dlclose(library_);
+  throw OutputError(fmt::format("a picture needs a display and '{}' does not answer; {}", name, advice));
+}
+
+DisplayConnection::~DisplayConnection() {
+  if (!library_) return;
+  reinterpret_cast<int (*)(void*)>(dlsym(library_, "XCloseDisplay"))(connection_);
+  dlclose(library_);
 }
 
 }  // namespace thermotwin::output

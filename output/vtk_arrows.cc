@@ -171,7 +171,7 @@ void write_arrows(ArrowField const& field, std::filesystem::path const& path) {
 
 void render_arrows(ArrowField const& field, std::filesystem::path const& path, ArrowPictureOptions const& options) {
   check(field);
-  expect_display();
+  DisplayConnection const display;
   double longest = 0.0;
   for (auto const& name : options.shown)
     longest = std::max(longest, vectors_of(field, name).colwise().norm().maxCoeff());

@@ -186,7 +186,7 @@ void render_picture(thermal::Geometry const& geometry, Frame const& frame, std::
   if (mesh.elements().empty())
     throw thermal::InputError("a picture needs bodies with a place in space; the machine has none");
   check(frame, mesh.n_nodes());
-  expect_display();
+  DisplayConnection const display;
   Skin const skin(mesh, frame);
   double const magnification = magnification_for(skin, options);
   auto const ticks = ticks_for(mesh, frame);
