@@ -10,6 +10,7 @@
 #include "thermal/error.h"
 #include "thermal/reduced_integration.h"
 #include "thermal/units.h"
+#include "twin/edge_unit.h"
 #include "twin/run.h"
 #include "twin/version.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double step_tolerance = 3e-4;  // [K]
+constexpr double fine_step = 5e-5, coarse_step = 5e-4;  // [K]: tolerance of one step in time
 constexpr double safety = 2.0;
 constexpr double watched_reading = 0.01 /* K */, watched_displacement = 1e-7 /* m, rad */;
 
@@ -79,6 +80,15 @@ void widen(thermal::Network const& network, thermal::Course const& course, doubl
     }
     see(t);
   }
+}
+
+/// In which unit people see each input of the network.
+std::vector<std::string> edge_units(thermal::Network const& network, thermal::Course const& course) {
+  std::vector<std::string> units(std::size_t(network.external_channels()), "1");
+  for (auto const& channel : course.channels())
+    for (std::size_t i = 0; i < units.size(); ++i)
+      if (network.channel_names()[i] == channel.name) units[i] = edge_unit(channel);
+  return units;
 }
 
 output::Dataset head_of(Machine const& machine, scenarios::Experiment const& experiment,
@@ -236,6 +246,7 @@ ReducedTwin::ReducedTwin(Machine const& machine, ReducedRange const& range) : ma
     widen(machine.network(), course, experiment.duration, limits_);
     task.training.push_back({&course, initial_temperatures(machine, experiment, course), experiment.duration});
   }
+  units_ = edge_units(machine.network(), *courses.front());
   task.watched = tolerated(machine);
   task.initial_rises = initial_rises(machine);
   auto const reduction = thermal::reduce(machine.network(), task);
@@ -255,20 +266,23 @@ void ReducedTwin::check_inputs(std::vector<double> const& input) const {
   for (std::size_t i = 0; i < limits_.size(); ++i) {
     double const slack = 1e-9 * (1.0 + std::abs(limits_[i].low) + std::abs(limits_[i].high));
     if (input[i] >= limits_[i].low - slack && input[i] <= limits_[i].high + slack) continue;
-    throw thermal::InputError(
-        fmt::format("the input '{}' is {:.6g}; the reduced model of '{}' was made for {:.6g} to {:.6g} "
-                    "[SI]: run in full, or reduce for a wider range",
-                    machine_->network().channel_names()[i], input[i], machine_->name, limits_[i].low, limits_[i].high));
+    auto const& unit = units_[i];
+    auto const shown = [&](double value) { return unit == "1" ? value : thermal::to_unit(value, unit); };
+    throw thermal::InputError(fmt::format(
+        "the input '{}' is {:.5g} {}; the reduced model of '{}' was made for {:.5g} to {:.5g} {}: run in full",
+        machine_->network().channel_names()[i], shown(input[i]), unit, machine_->name, shown(limits_[i].low),
+        shown(limits_[i].high), unit));
   }
 }
 
 History ReducedTwin::history_of(Model const& model, scenarios::Experiment const& experiment,
-                                scenarios::ExperimentCourse const& course, ReducedResult& result) const {
+                                scenarios::ExperimentCourse const& course, double tolerance,
+                                ReducedResult& result) const {
   auto const start = initial_temperatures(*machine_, experiment, course);
   HistoryRecorder recorder(*machine_, course, model.sums);
   auto const summary =
       thermal::integrate(model.network, course, model.network.state_of(start), scenarios::sample_times(experiment),
-                         step_tolerance, [&](thermal::ReducedSample const& sample) {
+                         tolerance, [&](thermal::ReducedSample const& sample) {
                            check_inputs(sample.input);
                            recorder(sample);
                          });
@@ -285,8 +299,8 @@ ReducedResult ReducedTwin::run(scenarios::Experiment const& experiment) const {
         *experiment.initial_temperature - 273.15, machine_->name, initial_.low - 273.15, initial_.high - 273.15));
   ReducedResult result;
   scenarios::ExperimentCourse const course(experiment, machine_->limits);
-  auto const history = history_of(*fine_, experiment, course, result);
-  result.bound = difference(history, history_of(*coarse_, experiment, course, result));
+  auto const history = history_of(*fine_, experiment, course, fine_step, result);
+  result.bound = difference(history, history_of(*coarse_, experiment, course, coarse_step, result));
   for (std::size_t s = 0; s < result.bound.readings.size(); ++s)
     result.bound.readings[s] = safety * result.bound.readings[s] + training_error_.readings[s];
   result.bound.displacements = safety * result.bound.displacements + training_error_.displacements;

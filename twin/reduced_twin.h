@@ -36,7 +36,8 @@ struct ReducedResult {
 /// A machine through a reduced model of its network (thermal/reduction.h), for campaigns and for real time: what
 /// conducts is projected, frictions and losses stay exact, films are sampled.
 ///
-/// Every run is made twice, with four fifths of the shapes and with all of them. The result is the finer one, and
+/// Every run is made twice: with four fifths of the shapes and ten times the tolerance in time, so that both errors
+/// show in the difference, and with all of them. The result is the finer one, and
 ///
 ///   bound = 2 max_t |fine − coarse| + error of the fine model in the training runs
 ///
@@ -71,11 +72,13 @@ class ReducedTwin {
     thermal::ReducedSums sums;
   };
   [[nodiscard]] History history_of(Model const& model, scenarios::Experiment const& experiment,
-                                   scenarios::ExperimentCourse const& course, ReducedResult& result) const;
+                                   scenarios::ExperimentCourse const& course, double tolerance,
+                                   ReducedResult& result) const;
 
   Machine const* machine_;
   std::vector<Limits> limits_;
-  Limits initial_;  ///< of the machine's temperature at the start [K]
+  std::vector<std::string> units_;  ///< in which people see each input
+  Limits initial_;                  ///< of the machine's temperature at the start [K]
   ReducedError training_error_;
   std::unique_ptr<Model const> fine_, coarse_;
 };
