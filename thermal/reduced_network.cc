@@ -7,6 +7,7 @@
 
 #include "thermal/error.h"
 #include "thermal/physical_constant.h"
+#include "thermal/threaded_product.h"
 
 namespace thermotwin::thermal {
 namespace {
@@ -21,9 +22,11 @@ constexpr double T20 = 293.15;
 MatrixXd orthonormal(MatrixXd shapes, VectorXd const& capacity) {
   for (int pass = 0; pass < 2; ++pass) {
     for (Index k = 0; k < shapes.cols(); ++k) shapes.col(k) /= std::sqrt(shapes.col(k).cwiseAbs2().dot(capacity));
-    Eigen::SelfAdjointEigenSolver<MatrixXd> const solver(shapes.transpose() * capacity.asDiagonal() * shapes);
+    MatrixXd const heat = capacity.asDiagonal() * shapes;
+    Eigen::SelfAdjointEigenSolver<MatrixXd> const solver(threaded_product(shapes.transpose(), heat));
     if (!(solver.eigenvalues()[0] > 1e-13)) throw InputError("the shapes of a reduced network depend on each other");
-    shapes = shapes * solver.eigenvectors() * solver.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+    MatrixXd const turn = solver.eigenvectors() * solver.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+    shapes = threaded_product(shapes, turn);
   }
   return shapes;
 }
@@ -52,10 +55,10 @@ void ReducedNetwork::project(LinearPart const& linear, MatrixXd const& shapes) {
   Eigen::Map<VectorXd const> const capacity(network_->capacity().data(), network_->nodes());
   MatrixXd const basis = orthonormal(shapes, capacity);
   MatrixXd const flow = linear.conductance * basis;
-  MatrixXd const conductance = basis.transpose() * flow;
+  MatrixXd const conductance = threaded_product(basis.transpose(), flow);
   Eigen::SelfAdjointEigenSolver<MatrixXd> const solver(0.5 * (conductance + conductance.transpose()));
   decay_ = solver.eigenvalues().cwiseMax(0.0);
-  shapes_ = basis * solver.eigenvectors();
+  shapes_ = threaded_product(basis, solver.eigenvectors());
 
   // Boundaries are linear in the inputs: T_b − T₂₀ = (offset − T₂₀) + Σ weight · u.
   auto const& boundaries = network_->boundaries();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <exception>
 #include <fmt/format.h>
+#include <numeric>
 #include <set>
 
 #include "thermal/course_inputs.h"
@@ -16,6 +17,7 @@
 #include "thermal/reduced_integration.h"
 #include "thermal/reduced_sums.h"
 #include "thermal/sparse_cubature.h"
+#include "thermal/threaded_product.h"
 
 namespace thermotwin::thermal {
 namespace {
@@ -44,6 +46,15 @@ void for_all(int count, Work const& work) {
   }
   for (auto const& failure : failures)
     if (failure) std::rethrow_exception(failure);
+}
+
+/// The runs' numbers, longest first: so the threads end together.
+std::vector<int> by_length(std::vector<TrainingRun> const& runs) {
+  std::vector<int> order(runs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return runs[std::size_t(a)].duration > runs[std::size_t(b)].duration; });
+  return order;
 }
 
 std::vector<double> output_times(TrainingRun const& run) {
@@ -182,13 +193,14 @@ MatrixXd Reducer::independent(MatrixXd columns) const {
     kept.push_back(k);
   }
   MatrixXd const some = columns(Eigen::all, kept);
-  MatrixXd const gram = some.transpose() * capacity_.asDiagonal() * some;
-  Eigen::SelfAdjointEigenSolver<MatrixXd> const solver(gram);
+  MatrixXd const stored = capacity_.asDiagonal() * some;
+  Eigen::SelfAdjointEigenSolver<MatrixXd> const solver(threaded_product(some.transpose(), stored));
   Index const first = std::count_if(solver.eigenvalues().begin(), solver.eigenvalues().end(),
                                     [](double value) { return value < 1e-9; });
   Index const count = some.cols() - first;
-  return some * solver.eigenvectors().rightCols(count) *
-         solver.eigenvalues().tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
+  MatrixXd const turn =
+      solver.eigenvectors().rightCols(count) * solver.eigenvalues().tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
+  return threaded_product(some, turn);
 }
 
 /// Beside each other.
@@ -214,7 +226,9 @@ Snapshots Reducer::train(MatrixXd const& shapes, double tolerance) const {
   ReducedNetwork const reduced(network_, linear_, shapes, nonlinear_);
   auto const runs = task_.training.size();
   std::vector<MatrixXd> states(runs), rests(runs);
-  for_all(int(runs), [&](int i) {
+  auto const order = by_length(task_.training);
+  for_all(int(runs), [&](int k) {
+    int const i = order[std::size_t(k)];
     auto const& run = task_.training[std::size_t(i)];
     auto const times = output_times(run);
     auto& own = states[std::size_t(i)];
@@ -324,20 +338,29 @@ std::vector<double> Reducer::error_of(Subspace const& subspace, ReducedNetwork c
   std::vector<ReducedSums::Weights> weights;
   for (auto const& sum : task_.watched) weights.push_back(sum.weights);
   ReducedSums const own(reduced, weights), expected(larger, weights);
-  std::vector<double> worst(weights.size(), 0.0);
-  Index column = 0;
-  VectorXd a, b;
+  std::vector<Index> first_column;
+  Index columns = 0;
   for (auto const& run : task_.training) {
-    auto const times = output_times(run);
-    integrate(reduced, *run.course, reduced.state_of(run.initial_temperatures), times, training_tolerance,
+    first_column.push_back(columns);
+    columns += Index(output_times(run).size());
+  }
+  MatrixXd gaps = MatrixXd::Zero(Index(weights.size()), Index(task_.training.size()));
+  auto const order = by_length(task_.training);
+  for_all(int(order.size()), [&](int k) {
+    auto const i = std::size_t(order[std::size_t(k)]);
+    auto const& run = task_.training[i];
+    auto gap = gaps.col(Index(i));
+    Index column = first_column[i];
+    VectorXd a, b;
+    integrate(reduced, *run.course, reduced.state_of(run.initial_temperatures), output_times(run), training_tolerance,
               [&](ReducedSample const& sample) {
                 own.evaluate(sample.state, a);
                 expected.evaluate(states.col(column++), b);
-                for (std::size_t i = 0; i < worst.size(); ++i)
-                  worst[i] = std::max(worst[i], std::abs(a[Index(i)] - b[Index(i)]));
+                gap = gap.cwiseMax((a - b).cwiseAbs());
               });
-  }
-  return worst;
+  });
+  VectorXd const worst = gaps.rowwise().maxCoeff();
+  return {worst.begin(), worst.end()};
 }
 
 Reduction Reducer::operator()() {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+
+namespace thermotwin::thermal {
+
+/// A B of tall dense matrices, on all threads: in fixed blocks of columns, so that the bytes do not depend on how many
+/// threads there are.
+template <class Left, class Right>
+[[nodiscard]] Eigen::MatrixXd threaded_product(Left const& a, Right const& b) {
+  constexpr Eigen::Index block = 32;
+  Eigen::MatrixXd result(a.rows(), b.cols());
+  Eigen::Index const blocks = (b.cols() + block - 1) / block;
+#pragma omp parallel for schedule(dynamic)
+  for (Eigen::Index k = 0; k < blocks; ++k) {
+    Eigen::Index const first = k * block, count = std::min(block, b.cols() - first);
+    result.middleCols(first, count).noalias() = a * b.middleCols(first, count);
+  }
+  return result;
+}
+
+}  // namespace thermotwin::thermal
