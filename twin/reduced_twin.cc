@@ -37,6 +37,12 @@ std::vector<NodeWeights> watched_sums(Machine const& machine) {
   return sums;
 }
 
+double sum_of_sizes(NodeWeights const& weights) {
+  double sum = 0.0;
+  for (auto const& [node, weight] : weights) sum += std::abs(weight);
+  return sum;
+}
+
 std::vector<thermal::WatchedSum> tolerated(Machine const& machine) {
   std::vector<thermal::WatchedSum> watched;
   for (auto const& sensor : machine.sensors)
@@ -253,13 +259,15 @@ ReducedTwin::ReducedTwin(Machine const& machine, ReducedRange const& range) : ma
   thermal::LinearPart const linear(machine.network(), reduction.reference);
   fine_ = std::make_unique<Model const>(machine, linear, reduction.fine);
   coarse_ = std::make_unique<Model const>(machine, linear, reduction.coarse);
-  training_error_.readings.assign(machine.sensors.size(), 0.0);
-  training_error_.displacements = VectorXd::Zero(Eigen::Index(displacement_channels(machine).size()));
+  least_error_.readings.assign(machine.sensors.size(), 0.0);
+  least_error_.displacements = VectorXd::Zero(Eigen::Index(displacement_channels(machine).size()));
   std::size_t next = 0;
   for (std::size_t s = 0; s < machine.sensors.size(); ++s)
-    if (!machine.sensors[s].weights.empty()) training_error_.readings[s] = reduction.training_error[next++];
+    if (auto const& weights = machine.sensors[s].weights; !weights.empty())
+      least_error_.readings[s] = reduction.training_error[next++] + coarse_step * sum_of_sizes(weights);
   for (std::size_t c = 0; c < machine.displacements.size(); ++c)
-    training_error_.displacements[Eigen::Index(c)] = 1e6 * reduction.training_error[next++];
+    least_error_.displacements[Eigen::Index(c)] =
+        1e6 * (reduction.training_error[next++] + coarse_step * sum_of_sizes(machine.displacements[c].weights));
 }
 
 void ReducedTwin::check_inputs(std::vector<double> const& input) const {
@@ -302,8 +310,8 @@ ReducedResult ReducedTwin::run(scenarios::Experiment const& experiment) const {
   auto const history = history_of(*fine_, experiment, course, fine_step, result);
   result.bound = difference(history, history_of(*coarse_, experiment, course, coarse_step, result));
   for (std::size_t s = 0; s < result.bound.readings.size(); ++s)
-    result.bound.readings[s] = safety * result.bound.readings[s] + training_error_.readings[s];
-  result.bound.displacements = safety * result.bound.displacements + training_error_.displacements;
+    result.bound.readings[s] = safety * result.bound.readings[s] + least_error_.readings[s];
+  result.bound.displacements = safety * result.bound.displacements + least_error_.displacements;
   auto& dataset = result.dataset = head_of(*machine_, experiment, course);
   output::resize_rows(dataset, Eigen::Index(history.time.size()));
   keep_truth(history, dataset);

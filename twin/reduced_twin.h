@@ -39,7 +39,7 @@ struct ReducedResult {
 /// Every run is made twice: with four fifths of the shapes and ten times the tolerance in time, so that both errors
 /// show in the difference, and with all of them. The result is the finer one, and
 ///
-///   bound = 2 max_t |fine − coarse| + error of the fine model in the training runs
+///   bound = 2 max_t |fine − coarse| + error of the fine model in the training runs + what one coarse step may err by
 ///
 /// for every channel: an estimate, no proof. It holds if the finer model errs no more than twice what they differ
 /// (saturation; Hain, Ohlberger, Radic & Urban, Adv. Comput. Math. 45 (2019) 2155); tests and docs/reduced_model.md
@@ -79,7 +79,7 @@ class ReducedTwin {
   std::vector<Limits> limits_;
   std::vector<std::string> units_;  ///< in which people see each input
   Limits initial_;                  ///< of the machine's temperature at the start [K]
-  ReducedError training_error_;
+  ReducedError least_error_;
   std::unique_ptr<Model const> fine_, coarse_;
 };
 
