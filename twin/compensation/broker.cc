@@ -85,6 +85,7 @@ class Broker::Client {
  private:
   void connect(mqtt::connect_options options);
   void on_connected();
+  void announce();
   void keep(mqtt::const_message_ptr const& message);
 
   mqtt::async_client client_;
@@ -117,6 +118,7 @@ Broker::Client::Client(BrokerOptions const& options, std::vector<std::string> co
   connect(settings);
   if (!topics.empty() && !client_.subscribe(topics_, qualities_)->wait_for(patience_at_start))
     throw thermal::InputError(fmt::format("the broker {} does not answer a subscription", url_));
+  announce();  // whoever is told that we are here is heard
 }
 
 Broker::Client::~Client() {
@@ -143,11 +145,16 @@ void Broker::Client::connect(mqtt::connect_options options) {
 /// A broker that lost its sessions does not know what we are waiting for.
 void Broker::Client::on_connected() {
   try {
-    if (++connections_ > 1 && !topics_->empty()) client_.subscribe(topics_, qualities_);
-    if (!status_topic_.empty()) client_.publish(status_topic_, online, at_least_once, true);
+    if (++connections_ == 1) return;
+    if (!topics_->empty()) client_.subscribe(topics_, qualities_);
+    announce();
   } catch (mqtt::exception const&) {
     // the connection broke again: the next one will do
   }
+}
+
+void Broker::Client::announce() {
+  if (!status_topic_.empty()) publish(status_topic_, online, true);
 }
 
 void Broker::Client::keep(mqtt::const_message_ptr const& message) {
