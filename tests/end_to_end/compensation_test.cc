@@ -51,7 +51,7 @@ class LiveCompensation : public testing::Test {
 
   /// The duty with somebody who compensates. What `play` and `compensate` print.
   std::array<std::string, 2> played(std::vector<std::string> const& with, std::string const& run = "duty.h5",
-                                    std::string const& speed = "1500") {
+                                    std::string const& speed = "3000") {
     std::vector<std::string> command{program,   "compensate", "--broker", broker_.url(), "--speed", speed,
                                      "--cycle", "30 s",       "--stale",  "5 min",       "--stuck", "8 min"};
     command.insert(command.end(), with.begin(), with.end());
@@ -99,7 +99,26 @@ TEST_F(LiveCompensation, IsNeverWorseThanNothingWithAFaultySensor) {
     auto const [play, compensate] = played({"--model", at("model.toml")}, "faulty.h5", "6000");
     EXPECT_THAT(compensate, HasSubstr(report));
     EXPECT_LE(figure(play, "instant"), 1.0) << report << "\n" << play << compensate;
+    RecordProperty(report, play);
   }
+}
+
+/// T2 is played by a machine of its own, which ends after a third of the duty.
+TEST_F(LiveCompensation, IsNeverWorseThanNothingWithASilentSensor) {
+  auto others = output::read(at("duty.h5"));
+  auto alone = others;
+  std::erase_if(others.readings, [](auto const& channel) { return channel.name == "T2"; });
+  std::erase_if(alone.readings, [](auto const& channel) { return channel.name != "T2"; });
+  alone.inputs.clear();
+  output::resize_rows(alone, alone.time_s.size() / 3);
+  output::write(others, at("others.h5"));
+  output::write(alone, at("alone.h5"));
+  Child sensor({program, "play", at("alone.h5"), "-q", "--speed", "6000", "--broker", broker_.url()}, at("sensor"));
+  auto const [play, compensate] = played({"--model", at("model.toml")}, "others.h5", "6000");
+  EXPECT_EQ(sensor.wait(), 0);
+  EXPECT_THAT(compensate, HasSubstr("held; T2 stale"));
+  EXPECT_LE(figure(play, "instant"), 1.0) << play << compensate;
+  RecordProperty("T2 stale", play);
 }
 
 TEST_F(LiveCompensation, SaysWhichInputsDoNotCome) {
