@@ -76,6 +76,20 @@ TEST_F(Report, CarriesEveryCourseOfARun) {
   }
 }
 
+/// Another day at the same speed has a residual; a day at another speed has none.
+TEST_F(Report, ComparesOnlyWhatWentThroughTheSame) {
+  auto slightly = dataset, otherwise = dataset;
+  for (auto& input : slightly.inputs)
+    if (input.name == "spindle.speed") input.values *= 1.05;
+  for (auto& input : otherwise.inputs)
+    if (input.name == "spindle.speed") input.values *= 1.5;
+  auto const page = report({written("run.h5"), written("tuesday.h5", slightly), written("faster.h5", otherwise)});
+  auto const& runs = section(page, "runs");
+  EXPECT_TRUE(runs["sets"][1]["compared"]);
+  EXPECT_FALSE(runs["sets"][2]["compared"]);
+  EXPECT_THAT(runs["remarks"].dump(), testing::HasSubstr("faster.h5 was driven otherwise than run.h5"));
+}
+
 TEST_F(Report, TellsAnInputThatNeverChangesAsOneNumber) {
   auto const page = report({written("run.h5")});
   for (auto const& input : section(page, "runs")["sets"][0]["inputs"])
