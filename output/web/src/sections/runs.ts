@@ -36,7 +36,7 @@ export function runsSection(section: RunsSection, numbers: Numbers, state: PageS
   const inputs = [...byUnit(shownInputs(reference, numbers))].map(([unit, channels]) => coursesPanel({
     title: inputTitles[unit] ?? channels[0]!.name, file: `input_${unit.replace(/\W/g, '_')}`,
     quantity: unit === 'degC' ? 'Air' : quantities[unit] ?? 'Value', runs: [{name: reference.name, channels}], kind: null, state, range,
-    height: 138,
+    height: 152,
   }));
   const side = make('div', {class: 'side'}, ...machineParts(section, numbers, runs, state));
   const courses = make('div', {class: 'courses'}, ...inputs,
