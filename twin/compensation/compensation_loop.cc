@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::size_t most_reasons = 100;
 constexpr std::size_t most_pending = 100'000;  ///< between two decisions
-constexpr double hesitation = 0.1;  ///< by which processes may be late before that is taken for silence [s, our clock]
+constexpr double hesitation = 0.5;  ///< by which processes may be late before that is taken for silence [s, our clock]
+constexpr std::size_t most_early = 1000;
+constexpr double round_off = 1e-3;  ///< of a cycle
 constexpr double never = -std::numeric_limits<double>::infinity();
 constexpr double furthest_time = 1e11;  ///< so that seconds and their fractions are still numbers [s]
 
@@ -58,11 +60,12 @@ void CompensationLoop::keep(std::string const& topic, std::string_view payload, 
   auto const& reading = std::get<Reading>(message);
   if (reading.name != expected) return refuse(expected + ": another name than its topic's");
   if (!(std::abs(reading.time) <= furthest_time)) return refuse(expected + ": no such time");
-  if (pending_.size() + early_.size() >= most_pending) return refuse("more messages than can be taken");
+  if (pending_.size() >= most_pending || early_.size() >= most_early) return refuse("more messages than can be taken");
   early_.push_back({input->second, clock_.lead(reading.time, wall), reading});
-  auto const news = clock_.hear(input->second, early_.back().lead) ? early_.begin() : std::prev(early_.end());
-  auto const believed =
-      std::stable_partition(news, early_.end(), [&](auto const& e) { return !clock_.believes(e.lead); });
+  clock_.hear(input->second, early_.back().lead);
+  auto const believed = std::stable_partition(early_.begin(), early_.end(), [&](auto const& message) {
+    return !clock_.believes(message.lead) && message.reading.time > newest_;
+  });
   for (auto it = believed; it != early_.end(); ++it) admit(*it, wall);
   early_.erase(believed, early_.end());
 }
@@ -71,7 +74,7 @@ void CompensationLoop::admit(Early& message, double wall) {
   double const time = message.reading.time;
   if (decided_wall_ == never) decided_wall_ = wall;
   if (decided_ == never) due_ = due_ == never ? time : std::min(due_, time);
-  clock_.follow(message.lead, wall);
+  if (clock_.believes(message.lead)) clock_.follow(message.lead, wall);
   read_[message.input] = std::max(read_[message.input], time);
   newest_ = std::max(newest_, time);
   pending_.push_back(std::move(message.reading));
@@ -82,7 +85,7 @@ std::optional<double> CompensationLoop::complete_until(double now) const {
   std::optional<double> until;
   for (std::size_t i = 0; i < read_.size(); ++i) {
     bool const given_up = compensator_.last_time(i) > never && compensator_.fault(i, now) != SensorFault::none;
-    if (read_[i] >= due_)
+    if (read_[i] >= due_ - round_off * settings_.cycle)
       until = std::min(until.value_or(read_[i]), read_[i]);
     else if (!given_up)
       return std::nullopt;
@@ -100,7 +103,7 @@ Decision CompensationLoop::decide(double now, double done, double wall) {
   pending_.clear();
   decided_ = now;
   decided_wall_ = std::max(decided_wall_, wall);
-  due_ += settings_.cycle * (1.0 + std::floor(std::max(0.0, done - due_) / settings_.cycle));
+  due_ += settings_.cycle * (1.0 + std::floor(std::max(0.0, done - due_) / settings_.cycle + round_off));
   return decision;
 }
 
@@ -114,10 +117,10 @@ std::optional<Decision> CompensationLoop::take(std::string const& topic, std::st
 
 std::optional<Decision> CompensationLoop::idle(double wall) {
   if (!clock_.started()) return std::nullopt;
-  double const now = std::max(newest_, clock_.now(wall));
+  double const now = std::max(newest_, clock_.now(wall) - hesitation * settings_.speed);
   if (now <= decided_) return std::nullopt;
-  if (auto const until = complete_until(now)) return decide(now, *until, wall);
-  if (now < due_ + settings_.cycle + std::max(hesitation * settings_.speed, settings_.cycle)) return std::nullopt;
+  if (auto const until = complete_until(newest_)) return decide(now, *until, wall);
+  if (now < due_ + 2.0 * settings_.cycle) return std::nullopt;
   return decide(now, now - settings_.cycle, wall);
 }
 

@@ -36,7 +36,7 @@ struct LoopSettings {
 ///
 /// A decision is made as soon as every input that is not at fault has been read for this cycle, at the time of the
 /// newest reading, however late that comes; when an input is missing, `tolerance` after the end of the next cycle; when
-/// none comes, at the end of the next one.
+/// none comes, half a second of ours after the end of the next one: a process may be late, and that is no silence.
 class CompensationLoop {
  public:
   CompensationLoop(Compensator compensator, LoopSettings const& settings, Topics topics = {});

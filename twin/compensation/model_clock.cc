@@ -14,19 +14,17 @@ constexpr double drift = 1e-3;
 ModelClock::ModelClock(double speed, double tolerance, std::size_t senders)
     : speed_(speed), tolerance_(tolerance), leads_(senders, {never, never}), most_have_(never), ahead_(never) {}
 
-bool ModelClock::hear(std::size_t sender, double lead) {
+void ModelClock::hear(std::size_t sender, double lead) {
   auto& [last, largest] = leads_[sender];
   double const confirmed = last == never ? lead : std::min(lead, last);
   last = lead;
-  if (confirmed <= largest) return false;
+  if (confirmed <= largest) return;
   largest = confirmed;
   std::vector<double> all;
   for (auto const& leads : leads_) all.push_back(leads.largest);
   auto const median = all.begin() + std::ptrdiff_t(all.size() - 1) / 2;
   std::nth_element(all.begin(), median, all.end());
-  bool const moved = *median > most_have_;
   most_have_ = *median;
-  return moved;
 }
 
 bool ModelClock::heard(std::size_t sender) const { return leads_[sender].last > never; }

@@ -21,8 +21,8 @@ class ModelClock {
   ModelClock(double speed, double tolerance, std::size_t senders);
 
   [[nodiscard]] double lead(double stamp, double wall) const { return stamp - speed_ * wall; }
-  /// That sender's message has this lead. True when that moves what most of them have.
-  bool hear(std::size_t sender, double lead);
+  /// That sender's message has this lead.
+  void hear(std::size_t sender, double lead);
   [[nodiscard]] bool heard(std::size_t sender) const;
   /// False before most senders have been heard.
   [[nodiscard]] bool believes(double lead) const { return lead <= most_have_ + tolerance_; }

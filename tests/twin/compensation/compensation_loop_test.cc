@@ -105,6 +105,45 @@ TEST_F(PaperLoop, ALateProcessLosesAndRefusesNothing) {
   EXPECT_EQ(last_time, source.time(source.rows() - 1));
 }
 
+/// Half a row comes, then the sender is late by as much as 50 min of its own time: no sensor is called silent.
+TEST_F(PaperLoop, ALateProcessIsNotSilence) {
+  constexpr double speed = 6000.0, late_by = 0.4;
+  CompensationLoop loop({SavedModel(*model_), settings()}, {10.0, speed, 30.0, 30.0});
+  auto source = machine();
+  double wall = 0.0;
+  for (std::size_t row = 0; row < 100; ++row) {
+    auto const messages = source.begin(row);
+    for (std::size_t m = 0; m < messages.size(); ++m) {
+      if (row == 50 && m == 2) wall += late_by;
+      EXPECT_FALSE(m == 2 && loop.idle(wall));
+      auto const decision = loop.take(messages[m].first, messages[m].second, wall);
+      EXPECT_TRUE(!decision || decision->faults.empty());
+    }
+    wall += 10.0 / speed;
+  }
+  EXPECT_TRUE(loop.refusals().empty());
+  auto const silent = loop.idle(wall + 1.0);
+  ASSERT_TRUE(silent);
+  EXPECT_EQ(silent->faults.size(), key_sensors.size());
+}
+
+/// The first two of a row come in time, the others and all later ones 0.05 s after: those two are not from the future.
+TEST_F(PaperLoop, WhoIsSoonerThanTheOthersIsNotFromTheFuture) {
+  constexpr double speed = 6000.0;
+  CompensationLoop loop({SavedModel(*model_), settings()}, {10.0, speed, 30.0, 30.0});
+  auto source = machine();
+  int decisions = 0;
+  for (std::size_t row = 0; row < 100; ++row) {
+    auto const messages = source.begin(row);
+    for (std::size_t m = 0; m < messages.size(); ++m) {
+      double const wall = source.time(row) / speed + (row == 0 && m < 2 ? 0.0 : 0.05);
+      decisions += loop.take(messages[m].first, messages[m].second, wall).has_value();
+    }
+  }
+  EXPECT_EQ(decisions, 100);
+  EXPECT_TRUE(loop.refusals().empty());
+}
+
 TEST_F(PaperLoop, StampsFromTheFutureOfOneSensorAreRefusedAndHarmNothing) {
   auto compensation = loop();
   auto const played =
@@ -237,6 +276,16 @@ class Hostile {
 
   std::mt19937_64 random_;
 };
+
+TEST(CompensationLoop, MissesNoCycleByRounding) {
+  models::LinearForm form;
+  form.coefficients = Eigen::MatrixXd::Ones(1, 1);
+  CompensationLoop loop({SavedModel({"linear", {"T1"}, 0.0, 1.0, form, ""}), {}}, {0.01, 1.0, 15.0, 30.0});
+  for (int i = 0; i < 10'000; ++i) {
+    double const time = 0.01 * i;
+    ASSERT_TRUE(loop.take("thermotwin/sensor/T1", payload_of({"T1", 20.0, "degC", time, "good"}), time)) << i;
+  }
+}
 
 TEST(CompensationLoop, KeepsItsLimitsWhateverComes) {
   ShiftLimits const limits{1.0, 1.0, 0.5, 20.0};
