@@ -69,7 +69,11 @@ class LiveCompensation : public testing::Test {
 TemporaryDirectory* LiveCompensation::directory_ = nullptr;
 
 TEST_F(LiveCompensation, BringsTheDiameterBelow10WithAModelOfAnotherDuty) {
-  auto const [play, compensate] = played({"--model", at("model.toml")});
+  auto const [play, compensate] = played({"--model", at("model.toml"), "--record", at("live.h5")});
+  auto const record = output::read(at("live.h5"));
+  EXPECT_EQ(record.readings.size(), 5U);
+  EXPECT_GT(record.time_s.size(), 100);
+  for (auto const& channel : record.displacements) EXPECT_GT(channel.values.cwiseAbs().maxCoeff(), 20.0);
   EXPECT_GT(figure(play, "uncompensated"), 25.0);
   EXPECT_LE(2.0 * figure(play, "compensated"), 10.0) << play << compensate;
   EXPECT_THAT(play, HasSubstr("at the worst instant 0.00 um worse"));

@@ -63,6 +63,7 @@ class Compensator {
   /// Inputs that have not been read yet.
   [[nodiscard]] std::vector<std::string> unread() const;
   [[nodiscard]] SensorFault fault(std::size_t input, double now) const { return watches_[input].fault(now); }
+  [[nodiscard]] double value(std::size_t input) const { return watches_[input].value(); }  ///< the last one believed
   [[nodiscard]] double last_time(std::size_t input) const { return watches_[input].last_time(); }
 
  private:

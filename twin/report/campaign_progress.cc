@@ -90,7 +90,8 @@ output::Json campaign_progress(fs::path const& folder) {
       continue;
     }
     made += end - first + 1;
-    parts.push_back(step(fmt::format("part {} is whole: runs {} to {}", part, first, end), moment(file)));
+    auto const which = first == end ? fmt::format("run {}", first) : fmt::format("runs {} to {}", first, end);
+    parts.push_back(step(fmt::format("part {} is whole: {}", part, which), moment(file)));
   }
   std::sort(parts.begin(), parts.end(), [](auto const& a, auto const& b) { return a["at_s"] < b["at_s"]; });
   if (parts.size() > parts_shown) parts.erase(parts.begin(), parts.end() - parts_shown);

@@ -6,7 +6,6 @@
 
 #include "output/report_page.h"
 #include "thermal/error.h"
-#include "twin/diagnosis/run_files.h"
 #include "twin/report/campaign_progress.h"
 #include "twin/report/report_files.h"
 #include "twin/version.h"
@@ -50,15 +49,16 @@ LivePage::Paths files_of(fs::path const& folder) {
 }
 
 struct Found {
-  LivePage::Paths files, campaigns, missing;
+  LivePage::Paths files, missing;
 
   /// Everything that a page of it rests on.
   [[nodiscard]] LivePage::Paths stamped() const {
-    auto all = files;
-    for (auto const& folder : campaigns) {
-      auto const inside = campaign_files(folder);
-      all.insert(all.end(), inside.begin(), inside.end());
-    }
+    LivePage::Paths all;
+    for (auto const& path : files)
+      if (is_campaign(path))
+        for (auto const& inside : campaign_files(path)) all.push_back(inside);
+      else
+        all.push_back(path);
     return all;
   }
 };
@@ -68,7 +68,7 @@ Found look(LivePage::Paths const& watched) {
   std::error_code ignored;
   for (auto const& path : watched) {
     if (is_campaign(path)) {
-      found.campaigns.push_back(path);
+      found.files.push_back(path);
       continue;
     }
     auto const here = fs::is_directory(path, ignored) ? files_of(path) : LivePage::Paths{newest(path)};
@@ -83,11 +83,10 @@ output::Json notice(std::string const& text) {
   return {{"title", text}, {"steps", output::Json::array()}, {"done", false}};
 }
 
-/// The page of files and campaigns. InputError when one of them cannot be read.
+/// InputError when one of them cannot be read.
 output::ReportPage built_page(Found const& found, fs::path const& machine) {
   auto page = build_report({found.files, machine, {}}).page;
-  for (auto const& folder : found.campaigns) page.add_section("progress", campaign_progress(folder));
-  if (found.files.empty()) page.set_title(found.campaigns.empty() ? "Waiting" : names_of(found.campaigns));
+  if (found.files.empty()) page.set_title("Waiting");
   for (auto const& path : found.missing)
     page.add_section("progress", notice(fmt::format("Nothing is in {} yet.", path.string())));
   return page;

@@ -95,8 +95,6 @@ Json runs_json(std::vector<ShownRun> const& runs, fs::path const& machine_file, 
   return json;
 }
 
-bool is_answer(fs::path const& file) { return file.extension() == ".json"; }
-
 }  // namespace
 
 BuiltReport build_report(ReportFiles const& files) {
