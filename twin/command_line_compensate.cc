@@ -151,6 +151,7 @@ void PlayCommand::operator()(std::atomic<bool> const& stop) const {
   settings.limits.slew = um_per_m * parse_value(slew, dimension::speed);
   PlayOptions options{broker, topics, speed, 10.0, {}, {}};
   options.broker.client = fmt::format("thermotwin-play-{}-{}-{}", topics.prefix, axis, ::getpid());
+  options.broker.repeat = 1.0;
   options.say = [](std::string const& line) { fmt::print(stderr, "{}\n", line); };
   std::optional<Progress> bar;
   if (!quiet) {

@@ -36,6 +36,13 @@ double figure(std::string const& text, std::string const& word) {
   return std::regex_search(text, match, std::regex("\\b" + word + " +([0-9.]+)")) ? std::stod(match[1]) : -1.0;
 }
 
+BrokerOptions named(std::string const& url, std::string const& client) {
+  BrokerOptions options;
+  options.url = url;
+  options.client = client;
+  return options;
+}
+
 // --- the loop --------------------------------------------------------------------------------------------------------
 
 class LiveCompensation : public testing::Test {
@@ -163,13 +170,6 @@ TEST_F(LiveCompensation, RefusesWhatItCannotDo) {
 
 // --- the connection --------------------------------------------------------------------------------------------------
 
-BrokerOptions named(std::string const& url, std::string const& client) {
-  BrokerOptions options;
-  options.url = url;
-  options.client = client;
-  return options;
-}
-
 /// Whether a message gets from one client to another.
 bool passes(BrokerOptions options) {
   options.client = "receiver";
@@ -241,14 +241,16 @@ TEST(BrokerConnection, LosesNothingWhenTheBrokerIsKilledAndComesBack) {
   TemporaryDirectory const directory;
   BrokerProcess broker(directory.path().string());
   Broker receiver(named(broker.url(), "receiver"), {"count"});
-  Broker sender(named(broker.url(), "sender"), {});
+  auto sending = named(broker.url(), "sender");
+  sending.repeat = 1.0;
+  Broker sender(sending, {});
   std::this_thread::sleep_for(1200ms);  // the broker has written down who listens
-  constexpr int messages = 2000;
+  constexpr int messages = 10'000;
   for (int i = 0; i < messages; ++i) {
     if (i == messages / 4) broker.kill();
     if (i == messages / 2) broker.start();
     EXPECT_TRUE(sender.publish("count", std::to_string(i)));
-    std::this_thread::sleep_for(500us);
+    std::this_thread::sleep_for(100us);
   }
   std::vector<bool> seen(messages);
   auto const until = std::chrono::steady_clock::now() + 15s;
