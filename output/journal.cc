@@ -4,6 +4,7 @@
 #include <boost/crc.hpp>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 
 namespace thermotwin::output {
 namespace {
@@ -31,6 +32,20 @@ Journal::Journal(std::filesystem::path const& path) : file_(path, LockedFile::Bu
     records_.push_back(std::move(record));
   }
   if (good < bytes.size()) file_.shorten(good);
+}
+
+std::int64_t Journal::count(std::filesystem::path const& path) {
+  std::error_code gone;
+  std::uint64_t const size = std::filesystem::file_size(path, gone);
+  std::ifstream file(path, std::ios::binary);
+  std::int64_t records = 0;
+  Head head;
+  for (std::uint64_t at = 0; !gone && file.read(reinterpret_cast<char*>(head.data()), sizeof head); ++records) {
+    at += sizeof head;
+    if (head[0] > size - at) break;
+    file.seekg(std::streamoff(at += head[0]));
+  }
+  return records;
 }
 
 void Journal::append(std::string_view record) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -20,6 +21,9 @@ class Journal {
 
   /// What was in the file when it was opened; empty when taken a second time.
   [[nodiscard]] std::vector<std::string> take_records() { return std::move(records_); }
+
+  /// Whole records of a file that another process may be writing, by their lengths alone; 0 when it is not there.
+  [[nodiscard]] static std::int64_t count(std::filesystem::path const& path);
 
   void append(std::string_view record);
   void remove() const { file_.remove(); }

@@ -12,6 +12,7 @@
 #include "thermal/error.h"
 #include "thermal/units.h"
 #include "twin/compensation/compensate.h"
+#include "twin/compensation/compensation_record.h"
 #include "twin/compensation/play.h"
 #include "twin/error_model_file.h"
 #include "twin/fit_error_model.h"
@@ -52,7 +53,7 @@ void ConnectionArguments::add_to(CLI::App& command) {
 }
 
 struct CompensateCommand : ConnectionArguments {
-  std::string model, machine;
+  std::string model, machine, record;
   std::string cycle = "10 s", resolution = "1 um", dead_band = "1 um", slew = "1 um/s", largest = "50 um";
   std::string stale = "60 s", stuck = "10 min", jump = "0.3 K", fastest = "0.02 K/s";
   std::string lowest = "-20 degC", highest = "120 degC", hold = "10 min", fade = "10 min", start = "30 s";
@@ -72,6 +73,7 @@ void CompensateCommand::add_to(CLI::App& command) {
   auto const option = [&](char const* name, std::string& value, char const* meaning) {
     command.add_option(name, value, meaning)->capture_default_str();
   };
+  command.add_option("--record", record, "data set (HDF5) of readings, errors and offsets, for `thermotwin view`");
   option("--cycle", cycle, "between two decisions");
   option("--resolution", resolution, "of the controller's origin shift");
   option("--dead-band", dead_band, "smaller changes are not followed");
@@ -110,12 +112,20 @@ CompensationSettings CompensateCommand::settings() const {
 
 void CompensateCommand::operator()(std::atomic<bool> const& stop) const {
   auto const set = settings();
-  CompensateOptions options{broker, topics, axis, {}, {}};
+  CompensateOptions options{broker, topics, axis, {}, {}, {}};
   options.broker.client = fmt::format("thermotwin-compensate-{}-{}", topics.prefix, axis);
   options.loop = {parse_value(cycle, dimension::time), speed, 0.5 * set.watch.stale_time,
                   parse_value(start, dimension::time)};
   options.say = [](std::string const& line) { fmt::print(stderr, "{}\n", line); };
-  fmt::print("{}", summary_text(compensate(Compensator(live_model(), set), options, stop)));
+  Compensator compensator(live_model(), set);
+  std::optional<CompensationRecord> recorded;
+  if (!record.empty()) {
+    recorded.emplace(record, compensator.inputs(), axis);
+    options.record = [&](Decision const& decision, Compensator const& now) { recorded->add(decision, now); };
+  }
+  auto const summary = compensate(std::move(compensator), options, stop);
+  if (recorded) recorded->finish();
+  fmt::print("{}", summary_text(summary));
 }
 
 struct PlayCommand : ConnectionArguments {
@@ -141,6 +151,7 @@ void PlayCommand::operator()(std::atomic<bool> const& stop) const {
   settings.limits.slew = um_per_m * parse_value(slew, dimension::speed);
   PlayOptions options{broker, topics, speed, 10.0, {}, {}};
   options.broker.client = fmt::format("thermotwin-play-{}-{}-{}", topics.prefix, axis, ::getpid());
+  options.broker.repeat = 1.0;
   options.say = [](std::string const& line) { fmt::print(stderr, "{}\n", line); };
   std::optional<Progress> bar;
   if (!quiet) {

@@ -36,6 +36,13 @@ double figure(std::string const& text, std::string const& word) {
   return std::regex_search(text, match, std::regex("\\b" + word + " +([0-9.]+)")) ? std::stod(match[1]) : -1.0;
 }
 
+BrokerOptions named(std::string const& url, std::string const& client) {
+  BrokerOptions options;
+  options.url = url;
+  options.client = client;
+  return options;
+}
+
 // --- the loop --------------------------------------------------------------------------------------------------------
 
 class LiveCompensation : public testing::Test {
@@ -51,7 +58,7 @@ class LiveCompensation : public testing::Test {
 
   /// The duty with somebody who compensates. What `play` and `compensate` print.
   std::array<std::string, 2> played(std::vector<std::string> const& with, std::string const& run = "duty.h5",
-                                    std::string const& speed = "1500") {
+                                    std::string const& speed = "3000") {
     std::vector<std::string> command{program,   "compensate", "--broker", broker_.url(), "--speed", speed,
                                      "--cycle", "30 s",       "--stale",  "5 min",       "--stuck", "8 min"};
     command.insert(command.end(), with.begin(), with.end());
@@ -69,7 +76,11 @@ class LiveCompensation : public testing::Test {
 TemporaryDirectory* LiveCompensation::directory_ = nullptr;
 
 TEST_F(LiveCompensation, BringsTheDiameterBelow10WithAModelOfAnotherDuty) {
-  auto const [play, compensate] = played({"--model", at("model.toml")});
+  auto const [play, compensate] = played({"--model", at("model.toml"), "--record", at("live.h5")});
+  auto const record = output::read(at("live.h5"));
+  EXPECT_EQ(record.readings.size(), 5U);
+  EXPECT_GT(record.time_s.size(), 100);
+  for (auto const& channel : record.displacements) EXPECT_GT(channel.values.cwiseAbs().maxCoeff(), 20.0);
   EXPECT_GT(figure(play, "uncompensated"), 25.0);
   EXPECT_LE(2.0 * figure(play, "compensated"), 10.0) << play << compensate;
   EXPECT_THAT(play, HasSubstr("at the worst instant 0.00 um worse"));
@@ -99,7 +110,26 @@ TEST_F(LiveCompensation, IsNeverWorseThanNothingWithAFaultySensor) {
     auto const [play, compensate] = played({"--model", at("model.toml")}, "faulty.h5", "6000");
     EXPECT_THAT(compensate, HasSubstr(report));
     EXPECT_LE(figure(play, "instant"), 1.0) << report << "\n" << play << compensate;
+    RecordProperty(report, play);
   }
+}
+
+/// T2 is played by a machine of its own, which ends after a third of the duty.
+TEST_F(LiveCompensation, IsNeverWorseThanNothingWithASilentSensor) {
+  auto others = output::read(at("duty.h5"));
+  auto alone = others;
+  std::erase_if(others.readings, [](auto const& channel) { return channel.name == "T2"; });
+  std::erase_if(alone.readings, [](auto const& channel) { return channel.name != "T2"; });
+  alone.inputs.clear();
+  output::resize_rows(alone, alone.time_s.size() / 3);
+  output::write(others, at("others.h5"));
+  output::write(alone, at("alone.h5"));
+  Child sensor({program, "play", at("alone.h5"), "-q", "--speed", "6000", "--broker", broker_.url()}, at("sensor"));
+  auto const [play, compensate] = played({"--model", at("model.toml")}, "others.h5", "6000");
+  EXPECT_EQ(sensor.wait(), 0);
+  EXPECT_THAT(compensate, HasSubstr("held; T2 stale"));
+  EXPECT_LE(figure(play, "instant"), 1.0) << play << compensate;
+  RecordProperty("T2 stale", play);
 }
 
 TEST_F(LiveCompensation, SaysWhichInputsDoNotCome) {
@@ -139,13 +169,6 @@ TEST_F(LiveCompensation, RefusesWhatItCannotDo) {
 }
 
 // --- the connection --------------------------------------------------------------------------------------------------
-
-BrokerOptions named(std::string const& url, std::string const& client) {
-  BrokerOptions options;
-  options.url = url;
-  options.client = client;
-  return options;
-}
 
 /// Whether a message gets from one client to another.
 bool passes(BrokerOptions options) {
@@ -218,14 +241,16 @@ TEST(BrokerConnection, LosesNothingWhenTheBrokerIsKilledAndComesBack) {
   TemporaryDirectory const directory;
   BrokerProcess broker(directory.path().string());
   Broker receiver(named(broker.url(), "receiver"), {"count"});
-  Broker sender(named(broker.url(), "sender"), {});
+  auto sending = named(broker.url(), "sender");
+  sending.repeat = 1.0;
+  Broker sender(sending, {});
   std::this_thread::sleep_for(1200ms);  // the broker has written down who listens
-  constexpr int messages = 2000;
+  constexpr int messages = 10'000;
   for (int i = 0; i < messages; ++i) {
     if (i == messages / 4) broker.kill();
     if (i == messages / 2) broker.start();
     EXPECT_TRUE(sender.publish("count", std::to_string(i)));
-    std::this_thread::sleep_for(500us);
+    std::this_thread::sleep_for(100us);
   }
   std::vector<bool> seen(messages);
   auto const until = std::chrono::steady_clock::now() + 15s;

@@ -34,8 +34,10 @@ TEST(Journal, CutAnywhereKeepsTheWholeRecordsBeforeTheCut) {
   auto const whole = contents(written(directory));
   for (std::size_t size : {0, 1, 15, 16, 20, 21, 22, 39, 40, 55, 56, 57, 72, 73, 5000, 10'071}) {
     put(directory / "cut", whole.substr(0, size));
+    auto const counted = Journal::count(directory / "cut");
     std::size_t fit = 0, end = 0;
     while (fit < records.size() && end + 16 + records[fit].size() <= size) end += 16 + records[fit++].size();
+    EXPECT_EQ(counted, fit) << size;
     Records expected(records.begin(), records.begin() + std::ptrdiff_t(fit));
     {
       Journal cut(directory / "cut");

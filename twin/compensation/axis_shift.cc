@@ -29,15 +29,15 @@ AxisShift::AxisShift(ShiftLimits const& limits)
 double AxisShift::move_to(double target, double elapsed) {
   if (std::isfinite(target)) {
     double const wanted = std::clamp(target, -largest_, largest_);
-    if (std::abs(wanted - goal_) >= limits_.dead_band || wanted == 0.0) goal_ = wanted;
+    if (std::abs(wanted - goal_) >= limits_.dead_band || wanted == 0.0) goal_ = to_step(wanted);
   }
   double const reach = limits_.slew * std::max(0.0, elapsed);
   ramp_ += std::clamp(goal_ - ramp_, -reach, reach);
   return offset();
 }
 
-double AxisShift::offset() const {
-  return std::clamp(limits_.resolution * std::round(ramp_ / limits_.resolution), -largest_, largest_);
-}
+double AxisShift::offset() const { return std::clamp(to_step(ramp_), -largest_, largest_); }
+
+double AxisShift::to_step(double shift) const { return limits_.resolution * std::round(shift / limits_.resolution); }
 
 }  // namespace thermotwin::twin

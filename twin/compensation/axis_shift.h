@@ -11,11 +11,11 @@ struct ShiftLimits {
 
 /// The origin shift of one axis, in steps of the controller's resolution:
 ///
-///   g ← target, if |target − g| ≥ dead band or target = 0;   r ← r + clamp(g − r, ± slew · elapsed)
-///   offset = resolution · round(r / resolution),   |offset| ≤ largest
+///   g ← resolution · round(target / resolution), if |target − g| ≥ dead band or target = 0
+///   r ← r + clamp(g − r, ± slew · elapsed),   offset = resolution · round(r / resolution),   |offset| ≤ largest
 ///
-/// Whatever the targets, |offset| ≤ largest and |Δoffset| ≤ slew · elapsed + resolution. A target that is not finite is
-/// not followed.
+/// So at rest |offset − target| is below the dead band, or half a step where that is more. Whatever the targets,
+/// |offset| ≤ largest and |Δoffset| ≤ slew · elapsed + resolution. A target that is not finite is not followed.
 class AxisShift {
  public:
   /// InputError unless all limits are positive (the dead band may be 0) and `largest` is at least one step.
@@ -28,6 +28,8 @@ class AxisShift {
   [[nodiscard]] ShiftLimits const& limits() const { return limits_; }
 
  private:
+  [[nodiscard]] double to_step(double shift) const;
+
   ShiftLimits limits_;
   double largest_;  ///< a whole number of steps
   double goal_ = 0.0, ramp_ = 0.0;

@@ -85,12 +85,20 @@ class Broker::Client {
  private:
   void connect(mqtt::connect_options options);
   void on_connected();
+  void on_lost();
+  void repeat_doubtful();
+  bool hand_over(std::string const& topic, std::string const& payload, bool retained);
+  void announce();
   void keep(mqtt::const_message_ptr const& message);
 
   mqtt::async_client client_;
   std::string url_, status_topic_;
   mqtt::const_string_collection_ptr topics_;
   mqtt::iasync_client::qos_collection qualities_;
+  std::chrono::duration<double> repeat_;
+  std::mutex doubtful_mutex_;
+  std::deque<BrokerMessage> doubtful_;  ///< with the time at which it was published
+  std::atomic<bool> lost_ = false;
   std::atomic<int> connections_ = 0;
   std::mutex mutex_;
   std::condition_variable arrived_;
@@ -105,18 +113,21 @@ Broker::Client::Client(BrokerOptions const& options, std::vector<std::string> co
       url_(options.url),
       status_topic_(options.status_topic),
       topics_(mqtt::string_collection::create(topics)),
-      qualities_(topics.size(), at_least_once) {
+      qualities_(topics.size(), at_least_once),
+      repeat_(options.repeat) {
   auto settings = connection(options);
   settings.set_clean_session(true);  // forget what an earlier session left behind
   connect(settings);
   client_.disconnect()->wait();
   client_.set_message_callback([this](mqtt::const_message_ptr const& message) { keep(message); });
   client_.set_connected_handler([this](std::string const&) { on_connected(); });
+  client_.set_connection_lost_handler([this](std::string const&) { on_lost(); });
   settings.set_clean_session(false);
   settings.set_automatic_reconnect(1s, 30s);
   connect(settings);
   if (!topics.empty() && !client_.subscribe(topics_, qualities_)->wait_for(patience_at_start))
     throw thermal::InputError(fmt::format("the broker {} does not answer a subscription", url_));
+  announce();  // whoever is told that we are here is heard
 }
 
 Broker::Client::~Client() {
@@ -143,11 +154,17 @@ void Broker::Client::connect(mqtt::connect_options options) {
 /// A broker that lost its sessions does not know what we are waiting for.
 void Broker::Client::on_connected() {
   try {
-    if (++connections_ > 1 && !topics_->empty()) client_.subscribe(topics_, qualities_);
-    if (!status_topic_.empty()) client_.publish(status_topic_, online, at_least_once, true);
+    if (++connections_ == 1) return;
+    if (!topics_->empty()) client_.subscribe(topics_, qualities_);
+    announce();
+    repeat_doubtful();
   } catch (mqtt::exception const&) {
     // the connection broke again: the next one will do
   }
+}
+
+void Broker::Client::announce() {
+  if (!status_topic_.empty()) publish(status_topic_, online, true);
 }
 
 void Broker::Client::keep(mqtt::const_message_ptr const& message) {
@@ -159,7 +176,30 @@ void Broker::Client::keep(mqtt::const_message_ptr const& message) {
   arrived_.notify_one();
 }
 
+/// From now on what is published waits in the client and is safe.
+void Broker::Client::on_lost() { lost_ = true; }
+
+void Broker::Client::repeat_doubtful() {
+  std::deque<BrokerMessage> doubtful;
+  {
+    std::lock_guard const lock(doubtful_mutex_);
+    doubtful.swap(doubtful_);
+    lost_ = false;
+  }
+  for (auto const& message : doubtful) hand_over(message.topic, message.payload, false);
+}
+
 bool Broker::Client::publish(std::string const& topic, std::string const& payload, bool retained) {
+  if (repeat_ > 0s && !retained && !lost_) {
+    auto const now = std::chrono::steady_clock::now();
+    std::lock_guard const lock(doubtful_mutex_);
+    doubtful_.push_back({topic, payload, now});
+    while (doubtful_.front().arrived < now - repeat_) doubtful_.pop_front();
+  }
+  return hand_over(topic, payload, retained);
+}
+
+bool Broker::Client::hand_over(std::string const& topic, std::string const& payload, bool retained) {
   try {
     client_.publish(topic, payload, at_least_once, retained);
     return true;

@@ -99,6 +99,7 @@ void Session::turn() {
     publish(*decision);
     if (message) summary_.latency.add(duration<double>(Clock::now() - message->arrived).count());
     report(*decision);
+    if (options_.record) options_.record(*decision, loop_.compensator());
   }
   if (first_message_) loop_.require_inputs(duration<double>(Clock::now() - *first_message_).count());
   if (loop_.refusals().size() > said_refusals_) {

@@ -28,7 +28,8 @@ struct CompensateOptions {
   Topics topics;
   std::string axis = "X";
   LoopSettings loop;
-  std::function<void(std::string const&)> say;  ///< what happens, one line each
+  std::function<void(std::string const&)> say;                      ///< what happens, one line each
+  std::function<void(Decision const&, Compensator const&)> record;  ///< every decision, after it was published
 };
 
 struct CompensationSummary {

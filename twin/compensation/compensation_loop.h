@@ -27,15 +27,16 @@ struct Topics {
 struct LoopSettings {
   double cycle = 10.0;       ///< between two decisions, on the senders' clock [s]
   double speed = 1.0;        ///< of the senders' clock
-  double tolerance = 30.0;   ///< by which senders' clocks may differ and messages be late [s]
+  double tolerance = 30.0;   ///< by which senders' clocks may differ and one of them be late [s]
   double start_time = 30.0;  ///< within which every input must have been read, on our clock [s]
 };
 
 /// From messages to decisions: everything but the broker. Whatever topic and payload, it throws nothing, and the offset
 /// obeys the limits of AxisShift with the time that passes on our own clock.
 ///
-/// A decision is made as soon as every input that is not at fault has been read for this cycle; at the latest when the
-/// next one has ended and nothing waits to be read, or `tolerance` after.
+/// A decision is made as soon as every input that is not at fault has been read for this cycle, at the time of the
+/// newest reading, however late that comes; when an input is missing, `tolerance` after the end of the next cycle; when
+/// none comes, half a second of ours after the end of the next one: a process may be late, and that is no silence.
 class CompensationLoop {
  public:
   CompensationLoop(Compensator compensator, LoopSettings const& settings, Topics topics = {});
@@ -45,7 +46,7 @@ class CompensationLoop {
 
   /// A message came at `wall` [s, steady].
   std::optional<Decision> take(std::string const& topic, std::string_view payload, double wall);
-  /// Nothing came, but time passed.
+  /// Nothing waits to be read.
   std::optional<Decision> idle(double wall);
 
   /// Messages that were not taken, by the reason; at most a hundred reasons, the others count as "others".
@@ -57,20 +58,28 @@ class CompensationLoop {
   void require_inputs(double waited) const;
 
  private:
+  /// A reading that leads the senders' time, as far as that is known.
+  struct Early {
+    std::size_t input;
+    double lead;
+    Reading reading;
+  };
   void refuse(std::string const& reason);
   void keep(std::string const& topic, std::string_view payload, double wall);
+  void admit(Early& message, double wall);
   [[nodiscard]] std::optional<double> complete_until(double now) const;
-  Decision decide(double now, double done);
-  std::optional<Decision> due_decision(double wall, double patience);
+  [[nodiscard]] std::vector<std::string> unread() const;
+  Decision decide(double now, double done, double wall);
 
   Compensator compensator_;
   LoopSettings settings_;
   ModelClock clock_;
   std::map<std::string, std::size_t> input_of_;  ///< by topic
-  std::vector<double> read_;                     ///< per input: time of its last message
-  std::vector<Reading> pending_;
-  double due_ = 0.0;
-  bool running_ = false;
+  std::vector<Early> early_;
+  std::vector<Reading> pending_;  ///< for the next decision
+  std::vector<double> read_;      ///< per input: time of its newest reading
+  double newest_, decided_;       ///< time of the newest reading of all; of the last decision
+  double decided_wall_, due_;
   std::map<std::string, long> refusals_;
   long messages_ = 0;
 };

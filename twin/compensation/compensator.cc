@@ -109,16 +109,15 @@ double Compensator::supported_target(double time, Decision& decision) {
   return -error;
 }
 
-Decision Compensator::step(double time, std::span<Reading const> readings) {
+Decision Compensator::step(double time, std::span<Reading const> readings, double elapsed) {
   Decision decision{time, shift_.offset(), error_, Support::waiting, {}, {}};
   for (auto const& reading : readings) take(reading, time, decision);
   find_faults(time, decision);
   if (!started_ && unread().empty()) started_ = true;
-  if (!started_) return last_step_ = time, decision;
+  if (!started_) return decision;
   double const target = supported_target(time, decision);
   decision.error = error_;
-  decision.offset = shift_.move_to(target, time - last_step_);
-  last_step_ = time;
+  decision.offset = shift_.move_to(target, elapsed);
   return decision;
 }
 

@@ -55,13 +55,15 @@ class Compensator {
   Compensator(LiveModel model, CompensationSettings const& settings);
 
   /// `time` [s] never goes back; readings may be as old as they are, but not from later than `time`. A reading of an
-  /// unknown name or of another unit, or one not newer than the last, is refused and has no effect.
-  Decision step(double time, std::span<Reading const> readings);
+  /// unknown name or of another unit, or one not newer than the last, is refused and has no effect. `elapsed` [s] is
+  /// what the offset may move in.
+  Decision step(double time, std::span<Reading const> readings, double elapsed);
 
   [[nodiscard]] std::vector<ModelInput> const& inputs() const;
   /// Inputs that have not been read yet.
   [[nodiscard]] std::vector<std::string> unread() const;
   [[nodiscard]] SensorFault fault(std::size_t input, double now) const { return watches_[input].fault(now); }
+  [[nodiscard]] double value(std::size_t input) const { return watches_[input].value(); }  ///< the last one believed
   [[nodiscard]] double last_time(std::size_t input) const { return watches_[input].last_time(); }
 
  private:
@@ -83,7 +85,7 @@ class Compensator {
   std::deque<Target> good_targets_;  ///< as far back as a sensor can be stuck unseen
   Target held_{0.0, 0.0};
   bool started_ = false, failed_ = false;
-  double last_step_ = 0.0, error_ = 0.0;
+  double error_ = 0.0;
 };
 
 }  // namespace thermotwin::twin

@@ -1,44 +1,46 @@
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
+#include <vector>
 
 namespace thermotwin::twin {
 
-/// The senders' time, told from our own w [s, steady]:
+/// The senders' time, learnt from the stamps t of their messages and our own w [s, steady] when those came. A stamp
+/// leads our clock by m = t − speed · w, the more the less its message was delayed:
 ///
-///   t(w) = c + speed · w,   c ← max(c, stamp − speed · w)
+///   c_i ← max(c_i, min(m, m before))   of sender i,      b = median of c_i   (the lower of two)
+///   t(w) = c + speed · w,              c ← max(c, m)     for every m ≤ b + tolerance
 ///
-/// so that the message with the least delay sets it, and no accepted message comes from the future. All messages
-/// together can push it ahead of the first one's by `tolerance` and a thousandth of the time that has passed, by which
-/// it also falls back when they lag; one that would push further is refused.
+/// So messages may be as late as they will, the first ones too: those that come sooner set it right. A lead beyond the
+/// tolerance is not believed until most senders have it, twice in a row; a stamp from the future alone moves nothing.
+/// Where the senders' clocks go slower than ours, c falls by up to a thousandth of the time that passes.
 class ModelClock {
  public:
   /// `speed`: seconds of the senders' time per second; above 1 where a recorded run is played faster.
-  ModelClock(double speed, double tolerance) : speed_(speed), tolerance_(tolerance) {}
+  /// `tolerance`: by which the senders' clocks may differ [s].
+  ModelClock(double speed, double tolerance, std::size_t senders);
 
-  /// A message with that time came at `wall`. False: it is refused.
-  bool follow(double stamp, double wall) {
-    double const now = speed_ * wall;
-    if (!started_) {
-      start_ = wall_ = wall;
-      first_ = ahead_ = stamp - now;
-      started_ = true;
-    }
-    if (stamp > now + first_ + tolerance_ + drift * (wall - start_) * speed_) return false;
-    ahead_ = std::max(ahead_ - drift * (wall - wall_) * speed_, stamp - now);
-    wall_ = wall;
-    return true;
-  }
+  [[nodiscard]] double lead(double stamp, double wall) const { return stamp - speed_ * wall; }
+  /// That sender's message has this lead.
+  void hear(std::size_t sender, double lead);
+  [[nodiscard]] bool heard(std::size_t sender) const;
+  /// False before most senders have been heard.
+  [[nodiscard]] bool believes(double lead) const { return lead <= most_have_ + tolerance_; }
+  /// A lead that it believes, heard by `wall`.
+  void follow(double lead, double wall);
 
-  [[nodiscard]] bool started() const { return started_; }
+  [[nodiscard]] bool started() const;
   [[nodiscard]] double now(double wall) const { return ahead_ + speed_ * wall; }
 
  private:
-  static constexpr double drift = 1e-3;
+  struct Leads {
+    double last, largest;
+  };
   double speed_, tolerance_;
-  double start_ = 0.0, wall_ = 0.0;   ///< of the first message, and of the last [s]
-  double first_ = 0.0, ahead_ = 0.0;  ///< c then and now
-  bool started_ = false;
+  std::vector<Leads> leads_;  ///< per sender
+  double most_have_;          ///< b
+  double ahead_;              ///< c
+  double wall_ = 0.0;         ///< of what was followed last [s]
 };
 
 }  // namespace thermotwin::twin

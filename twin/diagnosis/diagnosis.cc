@@ -9,7 +9,6 @@
 #include "thermal/error.h"
 #include "twin/diagnosis/excitation.h"
 #include "twin/diagnosis/expected_noise.h"
-#include "twin/diagnosis/faulty_sensor.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -115,6 +114,8 @@ class Diagnostician {
   void exchange();
   void take_joint_estimates();
   void find_where();
+  using HeatAt = std::map<std::pair<std::string, std::string>, double>;  ///< body and regime, watts
+  void tell_where(HeatAt const& heat);
   void propose();
   [[nodiscard]] bool is_unknown() const;
   [[nodiscard]] Diagnosis::Verdict verdict() const;
@@ -350,18 +351,14 @@ Diagnosis Diagnostician::operator()() {
   exchange();
   drop_superfluous();
   if (!diagnosis_.explanations.empty()) diagnosis_.left = scan_for_free_heat(*estimation_, fit_);
-  diagnosis_.faulty_sensor = faulty_sensor(runs_);
+  diagnosis_.faulty_sensor = faulty_sensor(machine_, runs_);
   diagnosis_.verdict = verdict();
-  if (diagnosis_.verdict == Diagnosis::Verdict::none_known) {  // nothing is added to the machine
-    diagnosis_.unknown_heat = diagnosis_.scan[0];
-    estimation_ = plain_;
-    fit_ = diagnosis_.calibrated;
-  }
+  if (diagnosis_.verdict == Diagnosis::Verdict::none_known) diagnosis_.unknown_heat = diagnosis_.scan[0];
   diagnosis_.amended = fit_;
   diagnosis_.effects = estimation_->effects();
   diagnosis_.unknowns = estimation_->unknowns();
   diagnosis_.document = estimation_->document_at(fit_.x);
-  if (diagnosis_.verdict != Diagnosis::Verdict::none_known) take_joint_estimates();
+  take_joint_estimates();
   find_where();
   if (diagnosis_.verdict == Diagnosis::Verdict::either) propose();
   return diagnosis_;
@@ -395,17 +392,19 @@ void Diagnostician::take_joint_estimates() {
   }
 }
 
-/// Bodies and regimes that receive the heat that is missing: those above a fifth of the largest.
+/// Bodies and regimes that receive the heat that is missing.
 void Diagnostician::find_where() {
-  std::map<std::pair<std::string, std::string>, double> heat;
+  HeatAt heat;
   auto const add = [&](std::string const& body, LinearisedRun::MeanHeat const& mean) {
     auto& while_moving = heat[{body, "moving"}];
     auto& while_standing = heat[{body, "standing"}];
     while_moving = std::max(while_moving, std::abs(mean.moving));
     while_standing = std::max(while_standing, std::abs(mean.standing));
   };
-  if (auto const& unknown = diagnosis_.unknown_heat)
+  if (auto const& unknown = diagnosis_.unknown_heat) {
     for (std::size_t r = 0; r < runs_.size(); ++r) add(unknown->site.body, mean_heat(*unknown, r, runs_[r]));
+    return tell_where(heat);
+  }
   Eigen::VectorXd x = fit_.x;
   x.tail(Eigen::Index(estimation_->effects().size())).setConstant(1e-8);  // as good as none
   Machine const machine = estimation_->machine_at(fit_.x), plain = estimation_->machine_at(x);
@@ -413,6 +412,11 @@ void Diagnostician::find_where() {
     auto const more = LinearisedRun(machine, run).more_heat_than(plain);
     for (auto const& range : machine_.network().ranges()) add(range.name, more.at(range.name));
   }
+  tell_where(heat);
+}
+
+/// Those above a fifth of the largest.
+void Diagnostician::tell_where(HeatAt const& heat) {
   double largest = 0.0;
   for (auto const& [place, watts] : heat) largest = std::max(largest, watts);
   for (auto const& [place, watts] : heat)
@@ -436,7 +440,7 @@ void Diagnostician::propose() {
 
 Diagnosis::Verdict Diagnostician::verdict() const {
   using Verdict = Diagnosis::Verdict;
-  if (!diagnosis_.faulty_sensor.empty() && diagnosis_.explanations.empty()) return Verdict::sensor;
+  if (diagnosis_.faulty_sensor && diagnosis_.explanations.empty()) return Verdict::sensor;
   if (diagnosis_.explanations.empty()) return Verdict::nothing;
   if (is_unknown()) return Verdict::none_known;
   bool const sensors =

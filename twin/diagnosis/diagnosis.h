@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "twin/diagnosis/estimation.h"
+#include "twin/diagnosis/faulty_sensor.h"
 #include "twin/diagnosis/free_heat.h"
 #include "twin/diagnosis/remedy.h"
 #include "twin/diagnosis/score.h"
@@ -52,20 +53,20 @@ struct Diagnosis {
     none_known,  ///< heat that no effect of the catalogue explains
   };
   Verdict verdict = Verdict::nothing;
-  std::vector<Explanation> explanations;  ///< of `none_known`: the nearest in the catalogue, which do not suffice
+  std::vector<Explanation> explanations;  ///< of `none_known`: what stands in for it, and does not suffice
   /// Bodies that the missing heat enters, and whether it does so while the spindle turns or while it stands.
   std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`
   std::vector<Remedy> proposals;         ///< of `either`: experiments that would tell the first one apart, best first
-  std::string faulty_sensor;             ///< a sensor that shows nothing, or jumps about; empty: none
-  std::vector<FreeHeat> scan;            ///< before any effect was added, best first
-  std::vector<FreeHeat> left;            ///< with the effects, best first
-  std::vector<Hypothesis> hypotheses;    ///< those that were tried
-  Fit calibrated;                        ///< without any effect
-  Fit amended;                           ///< with those found, the best alternative of each
-  std::vector<Hypothesis> effects;       ///< of `amended`
-  std::vector<Unknown> unknowns;         ///< of `amended`
-  Value document;                        ///< the machine as amended: calibrated values and the effects
+  std::optional<FaultySensor> faulty_sensor;
+  std::vector<FreeHeat> scan;          ///< before any effect was added, best first
+  std::vector<FreeHeat> left;          ///< with the effects, best first
+  std::vector<Hypothesis> hypotheses;  ///< those that were tried
+  Fit calibrated;                      ///< without any effect
+  Fit amended;                         ///< with those found, the best alternative of each
+  std::vector<Hypothesis> effects;     ///< of `amended`
+  std::vector<Unknown> unknowns;       ///< of `amended`
+  Value document;                      ///< the machine as amended: calibrated values and the effects
 };
 
 [[nodiscard]] std::string name_of(Diagnosis::Verdict verdict);

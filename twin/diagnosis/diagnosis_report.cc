@@ -109,12 +109,25 @@ std::string words_of_proposal(Diagnosis const& diagnosis) {
   return text + "\n\n";
 }
 
+std::string words_of_heat(Diagnosis const& diagnosis) {
+  if (!diagnosis.unknown_heat) return "";
+  auto const& all = *diagnosis.unknown_heat;
+  std::string text =
+      fmt::format("Were it one heat of free course: {:.1f} W on average into {}.\n", all.mean[0], all.site.body);
+  if (!diagnosis.left.empty())
+    text += fmt::format("Beside what stands in for it, still: {:.1f} W on average into {}.\n",
+                        diagnosis.left[0].mean[0], diagnosis.left[0].site.body);
+  return text + "\n";
+}
+
 std::string headline(Diagnosis const& diagnosis) {
   switch (diagnosis.verdict) {
     case Diagnosis::Verdict::nothing:
       return "Nothing is missing: the machine explains these data to within their noise.";
     case Diagnosis::Verdict::none_known:
-      return "Something is missing that no effect of the catalogue explains.";
+      return diagnosis.explanations.empty()
+                 ? "Something is missing that no effect of the catalogue explains."
+                 : "Something is missing that no effect of the catalogue explains. What stands in for it:";
     case Diagnosis::Verdict::sensor:
       return "An instrument is at fault, not the machine.";
     case Diagnosis::Verdict::effect:
@@ -135,7 +148,7 @@ std::string report_json(DiagnosisReport const& report) {
   if (diagnosis.unknown_heat) json["heat"] = json_of(*diagnosis.unknown_heat);
   if (diagnosis.verdict == Diagnosis::Verdict::sensor)
     json["sensor"] = {{"name", diagnosis.explanations.empty()
-                                   ? diagnosis.faulty_sensor
+                                   ? diagnosis.faulty_sensor->name
                                    : diagnosis.explanations[0].alternatives[0].hypothesis.body}};
   json["where"] = Json::array();
   for (auto const& [body, regime] : diagnosis.where) json["where"].push_back({{"body", body}, {"regime", regime}});
@@ -169,11 +182,10 @@ std::string report_text(DiagnosisReport const& report) {
   std::string text = "\n" + headline(diagnosis) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
   text += words_of_proposal(diagnosis);
-  if (!diagnosis.faulty_sensor.empty())
-    text += fmt::format("{} shows nothing, or jumps about as no temperature does.\n\n", diagnosis.faulty_sensor);
-  if (diagnosis.unknown_heat)
-    text += fmt::format("Heat of {:.1f} W on average into {}.\n\n", diagnosis.unknown_heat->mean[0],
-                        diagnosis.unknown_heat->site.body);
+  if (auto const& sensor = diagnosis.faulty_sensor)
+    text += fmt::format("{} {}.\n\n", sensor->name,
+                        sensor->dead ? "shows nothing in a run" : "jumps about as no body's temperature does");
+  text += words_of_heat(diagnosis);
   auto const& shown = report.held_out.empty() ? report.fitted : report.held_out;
   text += fmt::format("Error of the twin on {} data, RMS:\n{}", report.held_out.empty() ? "the fitted" : "unseen",
                       table_of(shown));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace thermotwin::twin {
 namespace {
@@ -23,18 +24,23 @@ int jumps(Eigen::VectorXd const& values) {
   return count;
 }
 
+bool hangs_in_air(Machine const& machine, std::string const& name) {
+  return std::any_of(machine.sensors.begin(), machine.sensors.end(),
+                     [&](Sensor const& sensor) { return sensor.description.name == name && sensor.weights.empty(); });
+}
+
 }  // namespace
 
-std::string faulty_sensor(std::vector<BinnedRun> const& runs) {
-  std::vector<std::string> found;
+std::optional<FaultySensor> faulty_sensor(Machine const& machine, std::vector<BinnedRun> const& runs) {
+  std::map<std::string, bool> found;
   for (auto const& run : runs)
     for (auto const& channel : run.run->channels) {
       if (channel.displacement) continue;
       bool const dead = channel.values.array().isNaN().all();
-      if (!dead && jumps(channel.values) < 2) continue;
-      if (std::find(found.begin(), found.end(), channel.name) == found.end()) found.push_back(channel.name);
+      if (dead || (!hangs_in_air(machine, channel.name) && jumps(channel.values) > 1)) found[channel.name] |= dead;
     }
-  return found.size() == 1 ? found[0] : "";
+  if (found.size() != 1) return std::nullopt;
+  return FaultySensor{found.begin()->first, found.begin()->second};
 }
 
 }  // namespace thermotwin::twin

@@ -1,14 +1,20 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "twin/diagnosis/binned_run.h"
+#include "twin/machine.h"
 
 namespace thermotwin::twin {
 
-/// The one sensor that shows nothing in a run, or whose readings jump about as no temperature does; empty: none, or
-/// more than one.
-[[nodiscard]] std::string faulty_sensor(std::vector<BinnedRun> const& runs);
+struct FaultySensor {
+  std::string name;
+  bool dead = false;  ///< shows nothing in a run; otherwise its readings jump about as those of no body do
+};
+
+/// The one sensor that is dead or jumps about; none where several do. One that hangs in the air may jump.
+[[nodiscard]] std::optional<FaultySensor> faulty_sensor(Machine const& machine, std::vector<BinnedRun> const& runs);
 
 }  // namespace thermotwin::twin

@@ -9,6 +9,7 @@
 
 #include "thermal/error.h"
 #include "twin/diagnosis/run_files.h"
+#include "twin/report/campaign_progress.h"
 #include "twin/report/diagnosis_section.h"
 #include "twin/report/machine_section.h"
 
@@ -92,7 +93,14 @@ std::string title_of(std::string_view kind, Json const& answer, fs::path const& 
 
 }  // namespace
 
+bool is_answer(fs::path const& path) { return path.extension() == ".json" || is_campaign(path); }
+
 std::string add_answer(fs::path const& file, fs::path const& machine, ReportPage& page) {
+  if (is_campaign(file)) {
+    auto const progress = campaign_progress(file);
+    page.add_section("progress", progress);
+    return progress["title"].get<std::string>();
+  }
   try {
     Json const answer = Json::parse(text_of_file(file));
     auto const kind = kind_of(answer);

@@ -7,8 +7,12 @@
 
 namespace thermotwin::twin {
 
+/// Whether a report shows the path as an answer: `.json`, or the folder of a campaign; else it is a data set.
+[[nodiscard]] bool is_answer(std::filesystem::path const& path);
+
 /// Adds the section for what another command answered as JSON, known by its keys: `diagnose` ("diagnosis"), `study`
-/// ("study"), `place` ("placement"), `volumetric` ("volumetric"), or how far one has come ("progress").
+/// ("study"), `place` ("placement"), `volumetric` ("volumetric"), or how far one has come ("progress"); of a campaign's
+/// folder that, too.
 ///
 /// The document is the command's own, with what people need besides: a diagnosis its sentence (diagnosis_section.h), a
 /// study without the values of each repetition, a placement the machine with the map of informative places when the

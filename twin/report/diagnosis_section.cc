@@ -20,7 +20,8 @@ std::string amplitude_text(Json const& finding, Effect const& effect) {
                                       [&](auto const& p) { return p.key == finding["parameter"]; });
   if (parameter == effect.parameters.end())
     return fmt::format("{:.4g} {}", finding["amplitude"].get<double>(), finding["unit"].get<std::string>());
-  auto const whole = thermal::format_quantity(finding["amplitude"].get<double>(), parameter->dimension);
+  auto const three_digits = std::stod(fmt::format("{:.3g}", finding["amplitude"].get<double>()));
+  auto const whole = thermal::format_quantity(three_digits, parameter->dimension);
   auto const unit = whole.substr(std::min(whole.find(' '), whole.size()));  // " um", or nothing
   auto const text = [&](char const* key) {
     double const si = finding[key].get<double>();

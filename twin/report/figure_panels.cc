@@ -130,30 +130,18 @@ Figure courses(std::vector<ShownRun> const& runs, Channels channels, std::string
   return figure.take();
 }
 
-/// Along straight lines between the samples; NaN outside.
-Eigen::VectorXd at_times(Channel const& channel, Eigen::VectorXd const& own, Eigen::VectorXd const& times) {
-  Eigen::VectorXd values = Eigen::VectorXd::Constant(times.size(), std::nan(""));
-  for (Eigen::Index i = 0; i < times.size(); ++i) {
-    auto const next = std::lower_bound(own.begin(), own.end(), times[i]) - own.begin();
-    if (next == own.size() || times[i] < own[0]) continue;
-    values[i] = channel.values[next];
-    if (next == 0 || own[next] == times[i]) continue;
-    double const share = (times[i] - own[next - 1]) / (own[next] - own[next - 1]);
-    values[i] = channel.values[next - 1] + share * (channel.values[next] - channel.values[next - 1]);
-  }
-  return values;
-}
-
-/// The reference less each of the others.
+/// The reference less each of the others that went through the same.
 Figure residuals(std::vector<ShownRun> const& runs, Channels channels, std::string const& unit) {
   auto const& reference = runs[0].data;
   TimeFigure figure(axis_text("Residual", unit == "degC" ? "K" : unit), start_of(runs[0]), end_of(runs[0]));
-  for (std::size_t r = 1; r < runs.size(); ++r)
+  for (std::size_t r = 1; r < runs.size(); ++r) {
+    if (!driven_alike(runs[0], runs[r])) continue;
     for (auto const& mine : channels(reference))
       for (auto const& other : channels(runs[r].data))
         if (mine.unit == unit && other.name == mine.name)
           figure.add(runs.size() > 2 ? fmt::format("{}, {}", mine.name, runs[r].path.stem().string()) : mine.name,
                      reference.time_s, mine.values - at_times(other, runs[r].data.time_s, reference.time_s));
+  }
   return figure.take();
 }
 
@@ -180,7 +168,8 @@ void add_group(std::vector<FigurePanel>& panels, std::vector<ShownRun> const& ru
   for (auto const& unit : units_of(runs, channels)) {
     auto const name = fmt::format("{}_{}", unit == "urad" ? "tilt" : title, file_part(unit));
     panels.push_back({name, courses(runs, channels, unit)});
-    if (runs.size() > 1) panels.push_back({"residual_" + name, residuals(runs, channels, unit)});
+    if (auto difference = residuals(runs, channels, unit); !difference.lines.empty())
+      panels.push_back({"residual_" + name, std::move(difference)});
   }
 }
 

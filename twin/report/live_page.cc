@@ -6,6 +6,7 @@
 
 #include "output/report_page.h"
 #include "thermal/error.h"
+#include "twin/report/campaign_progress.h"
 #include "twin/report/report_files.h"
 #include "twin/version.h"
 
@@ -13,6 +14,9 @@ namespace thermotwin::twin {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Of the clock that file systems stamp with.
+constexpr std::chrono::milliseconds longest_tick(20);
 
 fs::path partial_of(fs::path path) { return path += ".partial"; }
 
@@ -46,12 +50,27 @@ LivePage::Paths files_of(fs::path const& folder) {
 
 struct Found {
   LivePage::Paths files, missing;
+
+  /// Everything that a page of it rests on.
+  [[nodiscard]] LivePage::Paths stamped() const {
+    LivePage::Paths all;
+    for (auto const& path : files)
+      if (is_campaign(path))
+        for (auto const& inside : campaign_files(path)) all.push_back(inside);
+      else
+        all.push_back(path);
+    return all;
+  }
 };
 
 Found look(LivePage::Paths const& watched) {
   Found found;
   std::error_code ignored;
   for (auto const& path : watched) {
+    if (is_campaign(path)) {
+      found.files.push_back(path);
+      continue;
+    }
     auto const here = fs::is_directory(path, ignored) ? files_of(path) : LivePage::Paths{newest(path)};
     for (auto const& file : here)
       if (!file.empty()) found.files.push_back(file);
@@ -64,14 +83,20 @@ output::Json notice(std::string const& text) {
   return {{"title", text}, {"steps", output::Json::array()}, {"done", false}};
 }
 
-output::ReportPage page_of(Found const& found, fs::path const& machine) {
-  output::ReportPage waiting("Waiting", fmt::format("ThermoTwin {} ({})", version(), commit()));
+/// InputError when one of them cannot be read.
+output::ReportPage built_page(Found const& found, fs::path const& machine) {
+  auto page = build_report({found.files, machine, {}}).page;
+  if (found.files.empty()) page.set_title("Waiting");
   for (auto const& path : found.missing)
-    waiting.add_section("progress", notice(fmt::format("Nothing is in {} yet.", path.string())));
-  if (found.files.empty()) return waiting;
+    page.add_section("progress", notice(fmt::format("Nothing is in {} yet.", path.string())));
+  return page;
+}
+
+output::ReportPage page_of(Found const& found, fs::path const& machine) {
   try {
-    return build_report({found.files, machine, {}}).page;
+    return built_page(found, machine);
   } catch (thermal::InputError const& error) {
+    output::ReportPage waiting("Waiting", fmt::format("ThermoTwin {} ({})", version(), commit()));
     waiting.add_section("progress", notice(error.what()));
     return waiting;
   }
@@ -83,14 +108,20 @@ LivePage::LivePage(Paths watched, fs::path machine) : watched_(std::move(watched
 
 void LivePage::renew() {
   auto const found = look(watched_);
+  auto const now = fs::file_time_type::clock::now();
   Stamp stamp;
   std::error_code ignored;
-  for (auto const& file : found.files)
-    stamp.push_back(
-        {file.string(), {fs::last_write_time(file, ignored).time_since_epoch().count(), fs::file_size(file, ignored)}});
-  if (revision_ > 0 && stamp == stamp_) return;
-  stamp_ = stamp;
+  for (auto const& file : found.stamped())
+    stamp.push_back({file.string(), {fs::last_write_time(file, ignored), fs::file_size(file, ignored)}});
+  if (revision_ > 0 && settled_ && stamp == stamp_) return;
+  settled_ =
+      std::all_of(stamp.begin(), stamp.end(), [&](auto const& file) { return file.second.first < now - longest_tick; });
+  stamp_ = std::move(stamp);
   auto page = page_of(found, machine_);
+  if (auto shown = page.news(); revision_ == 0 || shown != shown_)
+    shown_ = std::move(shown);
+  else
+    return;
   page.set_revision(++revision_);
   html_ = page.html();
   news_ = page.news();

@@ -59,11 +59,23 @@ std::string field_remark(Json const& machine) {
       field["nodes"].get<int>(), field["courses"]["shape"][1].get<int>(), field["largest_error"].get<double>());
 }
 
+/// What residuals are counted from: what was measured, or else the first.
+ShownRun const& reference_of(std::vector<ShownRun> const& runs) {
+  auto const measured = std::find_if(runs.begin(), runs.end(), [](auto const& run) { return !run.simulated; });
+  return measured == runs.end() ? runs.front() : *measured;
+}
+
 Json runs_json(std::vector<ShownRun> const& runs, fs::path const& machine_file, ReportPage& page) {
   std::vector<std::string> remarks;
   Json json = {{"sets", Json::array()}};
+  auto const& reference = reference_of(runs);
   for (auto const& run : runs) {
+    bool const compared = driven_alike(reference, run);
     json["sets"].push_back(run_json(run, page));
+    json["sets"].back()["compared"] = compared;
+    if (!compared)
+      remarks.push_back(fmt::format("{} was driven otherwise than {}: there is no residual between them.",
+                                    run.path.filename().string(), reference.path.filename().string()));
     if (run.without_instruments)
       remarks.push_back(fmt::format("{} has not ended: until then its channels are shown without their noise.",
                                     run.path.filename().string()));
@@ -82,8 +94,6 @@ Json runs_json(std::vector<ShownRun> const& runs, fs::path const& machine_file, 
   json["remarks"] = remarks;
   return json;
 }
-
-bool is_answer(fs::path const& file) { return file.extension() == ".json"; }
 
 }  // namespace
 

@@ -28,6 +28,8 @@ export interface RunSet {
   title: string;
   simulated: boolean;
   complete: boolean;
+  /** It went through the same as the reference: their residual tells something. */
+  compared: boolean;
   time: NumberRef;
   inputs: Channel[];
   readings: Channel[];

@@ -64,7 +64,7 @@ after(async () => {
 });
 
 for (const kind of ['run', 'feed', 'two', 'diagnosis', 'study', 'placement', 'volumetric'])
-  for (const [width, theme] of [[1440, 'light'], [390, 'dark']] as const)
+  for (const [width, theme] of [[1440, 'light'], [1440, 'dark'], [390, 'light'], [390, 'dark']] as const)
     test(`${kind} at ${width}: whole, quiet, nothing cut off`, async () => {
       const {page, complaints} = await open(browser, at(`${kind}.html`), width, theme);
       await photograph(page, pictures, `${kind}_${width}_${theme}`);

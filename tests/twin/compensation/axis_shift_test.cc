@@ -1,5 +1,6 @@
 #include "twin/compensation/axis_shift.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -18,11 +19,13 @@ TEST(AxisShift, MovesInStepsOfTheResolution) {
   EXPECT_EQ(shift.move_to(-1.3, 1.0), -1.5);
 }
 
-TEST(AxisShift, FollowsTheTargetToHalfAStepAndTheDeadBand) {
-  AxisShift shift({1.0, 1.0, infinity, 100.0});
-  for (int i = 0; i < 10'000; ++i) {
-    double const target = 40.0 * std::sin(0.003 * i);
-    EXPECT_LE(std::abs(shift.move_to(target, 1.0) - target), 1.5 + 1e-12) << i;
+TEST(AxisShift, FollowsTheTargetToTheDeadBandOrHalfAStep) {
+  for (double const dead_band : {0.0, 0.3, 0.5, 1.0, 2.0}) {
+    AxisShift shift({1.0, dead_band, infinity, 100.0});
+    for (int i = 0; i < 10'000; ++i) {
+      double const target = 40.0 * std::sin(0.003 * i);
+      ASSERT_LE(std::abs(shift.move_to(target, 1.0) - target), std::max(dead_band, 0.5) + 1e-12) << i;
+    }
   }
 }
 

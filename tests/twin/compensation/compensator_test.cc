@@ -23,7 +23,7 @@ CompensationSettings const settings{{0.1, 0.0, 1000.0, 50.0}, {30.0, 100.0, 0.3,
 
 class Compensated : public testing::Test {
  protected:
-  Decision step(std::vector<Reading> const& readings) { return compensator_.step(time_ += 10.0, readings); }
+  Decision step(std::vector<Reading> const& readings) { return compensator_.step(time_ += 10.0, readings, 10.0); }
   /// T1 rises by 0.2 K per step, T2 by 0.1: the error by 0.5 um.
   Decision good_step() { return step({t1(), t2()}); }
   Reading t1() { return {"T1", one_ += 0.2, "degC", time_ + 10.0, "good"}; }

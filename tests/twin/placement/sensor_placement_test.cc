@@ -167,9 +167,10 @@ TEST(PlaceSensors, FindsTheIdleSensorOfAProposal) {
   auto options = quick(3);
   options.proposed = {"head_front", "T6", "column_front"};
   auto const report = place_sensors(v450(), options);
+  std::vector<std::string> idle;
   for (auto const& sensor : report.proposed->sensors)
-    EXPECT_EQ(sensor.idle, &sensor == &report.proposed->sensors.back()) << sensor.site.name;
-  EXPECT_NE(report.proposed->sensors.back().site.name, "column_front");
+    if (sensor.idle) idle.push_back(sensor.site.name);
+  EXPECT_THAT(idle, testing::ElementsAre(testing::AnyOf("head_front", "T6")));
 }
 
 TEST(PlaceSensors, TellsMissingEffectsApart) {

@@ -1,10 +1,12 @@
 #include "twin/report/live_page.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "output/dataset_file.h"
+#include "output/journal.h"
 #include "output/report_page.h"
 #include "tests/output/page_reader.h"
 #include "tests/output/temporary_directory.h"
@@ -107,6 +109,47 @@ TEST_F(Live, ShowsWhatACommandDoesInItsFolder) {
   auto const then = news(page, 0)["sections"];
   ASSERT_EQ(then.size(), 1U);
   EXPECT_EQ(then[0]["kind"], "study");
+}
+
+TEST_F(Live, CountsTheRunsOfACampaignWhoeverMakesThem) {
+  fs::create_directories(folder / "many" / "parts");
+  tests::put(folder / "many" / "manifest.json", R"({"runs": "25", "runs_per_part": "10"})");
+  LivePage page({folder / "many"});
+  EXPECT_EQ(news(page, 0)["sections"][0]["steps"].back()["what"], "0 of 25 runs are made");
+  {
+    output::Journal here(folder / "many" / "parts" / "000000.journal");
+    output::Journal elsewhere(folder / "many" / "parts" / "000001.journal");
+    for (char const* record : {"one", "two", "three"}) here.append(record);
+    elsewhere.append("eleven");
+  }
+  auto const going = news(page, 1);
+  EXPECT_EQ(going["revision"], 2);
+  EXPECT_EQ(going["sections"][0]["steps"].back()["what"], "4 of 25 runs are made");
+  tests::put(folder / "many" / "parts" / "000002.h5", "the last five");
+  auto const later = news(page, 2)["sections"][0];
+  EXPECT_EQ(later["steps"][0]["what"], "part 2 is whole: runs 20 to 24");
+  EXPECT_DOUBLE_EQ(later["steps"].back()["share"], 9.0 / 25.0);
+  EXPECT_FALSE(later["done"]);
+  tests::put(folder / "many" / "failures.csv", "run,reason\n7,\"too fast\"\n");
+  tests::put(folder / "many" / "campaign.h5", "");
+  auto const done = news(page, 3)["sections"][0];
+  EXPECT_TRUE(done["done"]);
+  EXPECT_EQ(done["steps"].back()["what"], "25 runs, 1 of them failed: campaign.h5");
+}
+
+/// Two writes within a tick of the file system's clock leave the same time, and here the same size.
+TEST_F(Live, SeesAChangeThatLeavesTimeAndSizeAsTheyWere) {
+  auto const file = folder / "progress.json";
+  auto const say = [&](char const* what) { tests::put(file, fmt::format(R"({{"title": "{}", "steps": []}})", what)); };
+  say("one");
+  LivePage page({file});
+  EXPECT_EQ(news(page, 0)["sections"][0]["title"], "one");
+  auto const then = fs::last_write_time(file);
+  say("two");
+  fs::last_write_time(file, then);
+  auto const second = news(page, 1);
+  EXPECT_EQ(second["sections"][0]["title"], "two");
+  EXPECT_FALSE(page.news(second["revision"].get<std::uint64_t>()));
 }
 
 TEST_F(Live, SaysWhatItCannotReadAndGoesOn) {

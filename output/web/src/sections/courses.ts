@@ -106,10 +106,10 @@ function setKey(runs: {name: string}[], state: PageState): HTMLElement {
   return make('p', {class: 'key'}, ...entries.map((e) => e.element));
 }
 
-/** The same channels of the other data sets, taken from the reference. */
+/** The same channels of the data sets that went through the same, taken from the reference. */
 export function residualRuns(runs: Run[], pick: (run: Run) => NamedCourse[]): {name: string; channels: NamedCourse[]}[] {
   const [reference, ...others] = runs;
-  return others.map((other) => ({
+  return others.filter((other) => other.set.compared).map((other) => ({
     name: `${reference!.name} − ${other.name}`,
     channels: pick(reference!).flatMap((mine) => {
       const theirs = pick(other).find((c) => c.name === mine.name);

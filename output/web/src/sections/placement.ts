@@ -62,7 +62,7 @@ function setsPanel(section: PlacementSection): HTMLElement {
   const named = (what: string, set: SensorSet | undefined): [string, SensorSet][] => (set ? [[`${what} ${set.sensors.length}`, set]] : []);
   const sets = [...named('best', section.one_fewer), ...named('recommended', section.recommended), ...named('best', section.one_more),
     ...named('proposed', section.proposed)];
-  const cells = (name: string, model: number, rest: number[]): HTMLElement => make('tr', {}, make('th', {scope: 'row'}, name),
+  const cells = (name: string, model: number, rest: number[]): HTMLElement => make('tr', {}, make('th', {scope: 'row', class: 'site'}, name),
     make('td', {class: 'wide'}, bar(model / section.no_sensor_um)), ...[model, ...rest].map((x) => make('td', {class: 'number'}, short(x))));
   const none = [NaN, NaN];
   return panel('What sets leave of the error', 'sets', () => [

@@ -12,7 +12,7 @@ export function progressSection(section: ProgressSection): HTMLElement {
       make('ol', {class: 'steps'}, ...steps.map((step, i) => {
         const strip = make('i', {class: 'bar'});
         strip.style.width = `${100 * (step.share ?? 0)}%`;
-        return make('li', {class: i === 0 && !section.done ? 'now' : ''}, make('span', {class: 'number'}, timeText(step.at_s)), make('span', {}, step.what),
+        return make('li', {class: i === 0 && !section.done ? 'latest' : ''}, make('span', {class: 'number'}, timeText(step.at_s)), make('span', {}, step.what),
           step.share !== undefined && make('span', {class: 'track'}, strip));
       }))));
 }

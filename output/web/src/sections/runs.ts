@@ -36,15 +36,15 @@ export function runsSection(section: RunsSection, numbers: Numbers, state: PageS
   const inputs = [...byUnit(shownInputs(reference, numbers))].map(([unit, channels]) => coursesPanel({
     title: inputTitles[unit] ?? channels[0]!.name, file: `input_${unit.replace(/\W/g, '_')}`,
     quantity: unit === 'degC' ? 'Air' : quantities[unit] ?? 'Value', runs: [{name: reference.name, channels}], kind: null, state, range,
-    height: 138,
+    height: 152,
   }));
-  const side = make('div', {class: 'side'}, ...machineParts(section, numbers, runs, state));
+  const machine = machineParts(section, numbers, runs, state);
   const courses = make('div', {class: 'courses'}, ...inputs,
     ...channelPanels(runs, state, range), ...heatPanel(reference, state, range));
   const below = [...positioningPanels(runs, numbers, state, range), factsPanel(runs)];
   if (runs.length > 1) chooseWorst(runs, state);
   return make('section', {class: 'runs', 'data-kind': 'runs'},
-    make('div', {class: side.childElementCount ? 'split' : 'whole'}, side, courses),
+    section.machine ? make('div', {class: 'split'}, make('div', {class: 'side'}, ...machine), courses) : make('div', {}, ...machine, courses),
     make('div', {class: 'flow'}, ...below),
     timeBar(state, ...range));
 }

@@ -1,0 +1,70 @@
+#include "twin/diagnosis/faulty_sensor.h"
+
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::VectorXd;
+
+/// v450, and a sensor of the room.
+Machine machine() {
+  return Machine::build(tests::with_table(tests::v450(), R"(
+    [[temperature_sensor]]
+    name = "room"
+    at = "ambient")"));
+}
+
+/// Readings of a body that warms within an hour, and a quantiser of a sixteenth.
+VectorXd warming() {
+  return VectorXd::NullaryExpr(
+      480, [](Eigen::Index i) { return 295.15 + std::round(16.0 * 8.0 * (1.0 - std::exp(-double(i) / 60.0))) / 16.0; });
+}
+
+VectorXd with_leaps(VectorXd values, int count) {
+  for (int k = 0; k < count; ++k) values.segment(100 + 50 * k, 20).array() += k % 2 == 0 ? 3.0 : -3.0;
+  return values;
+}
+
+std::optional<FaultySensor> found(std::vector<MeasuredChannel> channels) {
+  MeasuredRun run;
+  run.channels = std::move(channels);
+  BinnedRun binned;
+  binned.run = &run;
+  return faulty_sensor(machine(), {binned});
+}
+
+TEST(FaultySensor, IsNoneWhereBodiesWarm) {
+  EXPECT_FALSE(found({{"T1", false, warming()}, {"T2", false, warming().reverse()}}));
+}
+
+TEST(FaultySensor, IsOneWhoseReadingsLeapAndStayForAWhile) {
+  auto const sensor = found({{"T1", false, warming()}, {"T2", false, with_leaps(warming(), 3)}});
+  ASSERT_TRUE(sensor);
+  EXPECT_EQ(sensor->name, "T2");
+  EXPECT_FALSE(sensor->dead);
+}
+
+TEST(FaultySensor, IsOneThatShowsNothing) {
+  VectorXd const nothing = VectorXd::Constant(480, std::numeric_limits<double>::quiet_NaN());
+  auto const sensor = found({{"T1", false, nothing}, {"T2", false, warming()}});
+  ASSERT_TRUE(sensor);
+  EXPECT_EQ(sensor->name, "T1");
+  EXPECT_TRUE(sensor->dead);
+}
+
+TEST(FaultySensor, MayLeapWhereItHangsInTheAir) {
+  EXPECT_FALSE(found({{"T1", false, warming()}, {"room", false, with_leaps(warming(), 6)}}));
+}
+
+TEST(FaultySensor, IsNotTheMachineWhereSeveralLeap) {
+  EXPECT_FALSE(found({{"T1", false, with_leaps(warming(), 3)}, {"T2", false, with_leaps(warming(), 4)}}));
+}
+
+TEST(FaultySensor, IsNoDisplacement) { EXPECT_FALSE(found({{"E_Z", true, with_leaps(warming(), 3)}})); }
+
+}  // namespace
+}  // namespace thermotwin::twin

@@ -1,0 +1,49 @@
+#include "twin/compensation/compensation_record.h"
+
+#include <fmt/format.h>
+#include <limits>
+
+namespace thermotwin::twin {
+namespace {
+
+output::Dataset head_of(std::vector<ModelInput> const& inputs, std::string const& axis) {
+  output::Dataset head;
+  head.title = "Compensation of " + axis;
+  for (auto const& input : inputs)
+    (input.sensor ? head.readings : head.inputs).push_back({input.name, input.unit, input.name, {}});
+  head.inputs.push_back({"support", "1", "what the offset rests on: 0 waiting, 1 good, 2 held, 3 fading, 4 off", {}});
+  head.displacements = {{"error", "um", "what the model tells", {}}, {"offset", "um", "origin shift of " + axis, {}}};
+  return head;
+}
+
+}  // namespace
+
+CompensationRecord::CompensationRecord(std::filesystem::path const& path, std::vector<ModelInput> const& inputs,
+                                       std::string const& axis)
+    : writer_(path, head_of(inputs, axis)) {}
+
+void CompensationRecord::add(Decision const& decision, Compensator const& compensator) {
+  if (rows_ > 0 && decision.time <= last_) return;
+  if (rows_ == 0) first_ = decision.time;
+  auto const& inputs = compensator.inputs();
+  std::vector<double> sensors, others;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    (inputs[i].sensor ? sensors : others)
+        .push_back(compensator.fault(i, decision.time) == SensorFault::none ? compensator.value(i)
+                                                                            : std::numeric_limits<double>::quiet_NaN());
+  others.push_back(double(decision.support));
+  output::Row row;
+  row.time_s = decision.time - first_;
+  row.readings = Eigen::Map<Eigen::VectorXd>(sensors.data(), Eigen::Index(sensors.size()));
+  row.inputs = Eigen::Map<Eigen::VectorXd>(others.data(), Eigen::Index(others.size()));
+  row.displacements = Eigen::Vector2d(decision.error, decision.offset);
+  writer_.append(row);
+  last_ = decision.time;
+  ++rows_;
+}
+
+void CompensationRecord::finish() {
+  if (rows_ > 0) (void)writer_.finish({{"start_s", fmt::format("{}", first_)}});
+}
+
+}  // namespace thermotwin::twin
