@@ -36,7 +36,16 @@ struct ConnectionArguments {
   double speed = 1.0;
 
   void add_to(CLI::App& command);
+  void require_topics() const;
 };
+
+/// Of what a topic is made, + and # are for those who subscribe.
+void ConnectionArguments::require_topics() const {
+  for (auto const& [option, text] : {std::pair{"--axis", axis}, {"--prefix", topics.prefix}})
+    if (text.empty() || text.find_first_of("+#") != std::string::npos)
+      throw thermal::InputError(
+          fmt::format("{} '{}': it is a part of topics, so not empty and without + and #", option, text));
+}
 
 void ConnectionArguments::add_to(CLI::App& command) {
   command.add_option("--broker", broker.url, "mqtt://HOST:1883, or mqtts://HOST:8883 for TLS")->capture_default_str();
@@ -111,6 +120,7 @@ CompensationSettings CompensateCommand::settings() const {
 }
 
 void CompensateCommand::operator()(std::atomic<bool> const& stop) const {
+  require_topics();
   auto const set = settings();
   CompensateOptions options{broker, topics, axis, {}, {}, {}};
   options.broker.client = fmt::format("thermotwin-compensate-{}-{}", topics.prefix, axis);
@@ -146,12 +156,12 @@ void PlayCommand::add_to(CLI::App& command) {
 }
 
 void PlayCommand::operator()(std::atomic<bool> const& stop) const {
+  require_topics();
   VirtualMachineSettings settings{channel, axis, {}, {}};
   settings.limits.largest = um(largest);
   settings.limits.slew = um_per_m * parse_value(slew, dimension::speed);
   PlayOptions options{broker, topics, speed, 10.0, {}, {}};
   options.broker.client = fmt::format("thermotwin-play-{}-{}-{}", topics.prefix, axis, ::getpid());
-  options.broker.repeat = 1.0;
   options.say = [](std::string const& line) { fmt::print(stderr, "{}\n", line); };
   std::optional<Progress> bar;
   if (!quiet) {

@@ -83,8 +83,7 @@ class BrokerProcess {
   BrokerProcess(std::string directory, std::string const& lines = "allow_anonymous true\n")
       : directory_(std::move(directory)), port_(free_port()) {
     std::ofstream(directory_ + "/mosquitto.conf")
-        << "listener " << port_
-        << " 127.0.0.1\nmax_queued_messages 0\nmax_inflight_messages 0\npersistence true\nautosave_interval 1\n"
+        << "listener " << port_ << " 127.0.0.1\nmax_queued_messages 0\npersistence true\nautosave_interval 1\n"
         << "persistence_location " << directory_ << "/\n"
         << (::getuid() == 0 ? "user root\n" : "") << lines;
     start();

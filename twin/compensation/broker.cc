@@ -8,6 +8,7 @@
 #include <fstream>
 #include <mqtt/async_client.h>
 #include <mutex>
+#include <regex>
 
 #include "thermal/error.h"
 
@@ -23,11 +24,22 @@ constexpr auto patience_at_end = 500ms;
 constexpr char const* online = "online";
 constexpr char const* offline = "offline";
 
-/// Paho writes tcp and ssl.
+/// Paho writes tcp and ssl, and takes whatever stands for a port.
 std::string paho_url(std::string const& url) {
-  for (auto const& [ours, theirs] : {std::pair{"mqtt://", "tcp://"}, std::pair{"mqtts://", "ssl://"}})
-    if (url.starts_with(ours)) return theirs + url.substr(std::string(ours).size());
-  throw thermal::InputError(fmt::format("broker '{}': write mqtt://HOST:1883, or mqtts://HOST:8883 for TLS", url));
+  static std::regex const form(R"((mqtts?)://([^:/\s]+|\[[0-9a-fA-F:]+\])(:([0-9]{1,5}))?)");
+  std::smatch parts;
+  if (!std::regex_match(url, parts, form) || (parts[4].matched && std::stoi(parts[4]) > 65535))
+    throw thermal::InputError(fmt::format("broker '{}': write mqtt://HOST:1883, or mqtts://HOST:8883 for TLS", url));
+  return (parts[1] == "mqtt" ? "tcp://" : "ssl://") + parts[2].str() + parts[3].str();
+}
+
+/// Most failures have the same number at Paho.
+std::string reason(mqtt::exception const& error, std::string const& url) {
+  if (error.get_return_code() != MQTTASYNC_FAILURE) return error.get_error_str();
+  return url.starts_with("mqtts")
+             ? "no broker with TLS answers there, or one whose certificate --ca does not vouch for, "
+               "or one that wants another --certificate than ours"
+             : "no broker answers there, or one with TLS (mqtts://HOST:8883)";
 }
 
 std::string first_line(std::filesystem::path const& file) {
@@ -85,9 +97,6 @@ class Broker::Client {
  private:
   void connect(mqtt::connect_options options);
   void on_connected();
-  void on_lost();
-  void repeat_doubtful();
-  bool hand_over(std::string const& topic, std::string const& payload, bool retained);
   void announce();
   void keep(mqtt::const_message_ptr const& message);
 
@@ -95,10 +104,6 @@ class Broker::Client {
   std::string url_, status_topic_;
   mqtt::const_string_collection_ptr topics_;
   mqtt::iasync_client::qos_collection qualities_;
-  std::chrono::duration<double> repeat_;
-  std::mutex doubtful_mutex_;
-  std::deque<BrokerMessage> doubtful_;  ///< with the time at which it was published
-  std::atomic<bool> lost_ = false;
   std::atomic<int> connections_ = 0;
   std::mutex mutex_;
   std::condition_variable arrived_;
@@ -113,15 +118,13 @@ Broker::Client::Client(BrokerOptions const& options, std::vector<std::string> co
       url_(options.url),
       status_topic_(options.status_topic),
       topics_(mqtt::string_collection::create(topics)),
-      qualities_(topics.size(), at_least_once),
-      repeat_(options.repeat) {
+      qualities_(topics.size(), at_least_once) {
   auto settings = connection(options);
   settings.set_clean_session(true);  // forget what an earlier session left behind
   connect(settings);
   client_.disconnect()->wait();
   client_.set_message_callback([this](mqtt::const_message_ptr const& message) { keep(message); });
   client_.set_connected_handler([this](std::string const&) { on_connected(); });
-  client_.set_connection_lost_handler([this](std::string const&) { on_lost(); });
   settings.set_clean_session(false);
   settings.set_automatic_reconnect(1s, 30s);
   connect(settings);
@@ -147,7 +150,7 @@ void Broker::Client::connect(mqtt::connect_options options) {
     if (!client_.connect(std::move(options))->wait_for(patience_at_start))
       throw thermal::InputError(fmt::format("the broker {} does not answer", url_));
   } catch (mqtt::exception const& error) {
-    throw thermal::InputError(fmt::format("the broker {} cannot be reached: {}", url_, error.to_string()));
+    throw thermal::InputError(fmt::format("the broker {} cannot be reached: {}", url_, reason(error, url_)));
   }
 }
 
@@ -157,7 +160,6 @@ void Broker::Client::on_connected() {
     if (++connections_ == 1) return;
     if (!topics_->empty()) client_.subscribe(topics_, qualities_);
     announce();
-    repeat_doubtful();
   } catch (mqtt::exception const&) {
     // the connection broke again: the next one will do
   }
@@ -176,30 +178,7 @@ void Broker::Client::keep(mqtt::const_message_ptr const& message) {
   arrived_.notify_one();
 }
 
-/// From now on what is published waits in the client and is safe.
-void Broker::Client::on_lost() { lost_ = true; }
-
-void Broker::Client::repeat_doubtful() {
-  std::deque<BrokerMessage> doubtful;
-  {
-    std::lock_guard const lock(doubtful_mutex_);
-    doubtful.swap(doubtful_);
-    lost_ = false;
-  }
-  for (auto const& message : doubtful) hand_over(message.topic, message.payload, false);
-}
-
 bool Broker::Client::publish(std::string const& topic, std::string const& payload, bool retained) {
-  if (repeat_ > 0s && !retained && !lost_) {
-    auto const now = std::chrono::steady_clock::now();
-    std::lock_guard const lock(doubtful_mutex_);
-    doubtful_.push_back({topic, payload, now});
-    while (doubtful_.front().arrived < now - repeat_) doubtful_.pop_front();
-  }
-  return hand_over(topic, payload, retained);
-}
-
-bool Broker::Client::hand_over(std::string const& topic, std::string const& payload, bool retained) {
   try {
     client_.publish(topic, payload, at_least_once, retained);
     return true;

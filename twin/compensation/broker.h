@@ -18,9 +18,6 @@ struct BrokerOptions {
   std::filesystem::path ca_file;        ///< that the broker's certificate must come from; default: the system's
   std::filesystem::path certificate_file, key_file;  ///< ours, where the broker wants one
   std::string status_topic;                          ///< "online" while we are there, "offline" after, by our last will
-  /// What was published so long before a connection broke is sent again after all else [s]: a broker that was killed
-  /// may have acknowledged it and not handed it on. For messages that may come twice and late.
-  double repeat = 0.0;
 };
 
 struct BrokerMessage {
