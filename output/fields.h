@@ -16,11 +16,19 @@ struct Frame {
   Eigen::VectorXd temperature_degC;
   Eigen::VectorXd heat_source_W;    ///< made in the node; empty: none
   Eigen::Matrix3Xd displacement_m;  ///< of the cells' centres; empty: none
+  Eigen::VectorXd sensor_degC;      ///< at the sensors of FieldOptions, in their order
+};
+
+struct SensorPlace {
+  std::string name;
+  Eigen::Vector3d position_m{0.0, 0.0, 0.0};
 };
 
 struct FieldOptions {
   double reference_degC = 20.0;                 ///< temperature_rise_K is counted from here
   std::map<std::string, std::string> metadata;  ///< goes into every file as field data
+  std::vector<SensorPlace> sensors{};
+  Eigen::Vector3d up{0.0, 0.0, 1.0};
 };
 
 /// A series of fields that ParaView opens: `<directory>/fields.pvd` names the times, `field_0000.vtu`, … hold the
@@ -29,6 +37,8 @@ struct FieldOptions {
 /// Cell data: temperature_degC, temperature_rise_K, heat_source_W_per_m3, displacement_um, node, body (a number),
 /// body_name. Point data: displacement_um, continuous within a body; "Warp By Vector" with scale 1e-6 × magnification.
 /// Field data: body_names, TimeValue [s], the metadata. Coordinates in metre, in the machine's axes.
+/// Sensors are a second series, `sensors.pvd` with `sensors_0000.vtp`, …: points with temperature_degC and name.
+/// `arranged.pvsm` opens both in ParaView (paraview_state.h), colours and magnification for all frames so far.
 /// Every file is replaced atomically and the .pvd names only what is there, so that it is readable at any moment.
 class FieldSeries {
  public:
@@ -45,10 +55,13 @@ class FieldSeries {
 
  private:
   struct Grid;
+  void add_sensors(double time_s, Frame const& frame);
+  void arrange(Frame const& frame);
 
   std::filesystem::path directory_;
   FieldOptions options_;
   std::vector<double> times_s_;
+  double lowest_degC_ = 1e9, highest_degC_ = -1e9, largest_m_ = 0.0;
   std::unique_ptr<Grid> grid_;
 };
 

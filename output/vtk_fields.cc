@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 #include <vtkAbstractArray.h>
 #include <vtkCell.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -9,15 +11,19 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkTetra.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "output/atomic_file.h"
 #include "output/error.h"
 #include "output/node_fields.h"
+#include "output/paraview_state.h"
+#include "output/picture_scale.h"
 #include "output/vtk_grid.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
@@ -34,6 +40,8 @@ struct FieldSeries::Grid {
 namespace {
 
 using thermal::InputError;
+
+constexpr double largest_shown = 0.05;  // displacement, of the machine's diagonal
 
 void add_texts(vtkFieldData& data, std::string const& name, std::vector<std::string> const& texts) {
   vtkNew<vtkStringArray> array;
@@ -67,9 +75,37 @@ std::vector<std::string> body_names_of_cells(FieldMesh const& mesh) {
   return names;
 }
 
-std::string file_name(std::size_t number) { return fmt::format("field_{:04}.vtu", number); }
+std::string field_file(std::size_t number) { return fmt::format("field_{:04}.vtu", number); }
+std::string sensor_file(std::size_t number) { return fmt::format("sensors_{:04}.vtp", number); }
 
-std::string as_pvd(std::vector<double> const& times_s) {
+std::string as_vtp(std::vector<SensorPlace> const& sensors, Eigen::VectorXd const& temperatures, double time_s) {
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> dots;
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("temperature_degC");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    vtkIdType const point = places->InsertNextPoint(sensors[i].position_m.data());
+    dots->InsertNextCell(1, &point);
+    values->InsertNextValue(temperatures[Eigen::Index(i)]);
+    names.push_back(sensors[i].name);
+  }
+  data->SetPoints(places);
+  data->SetVerts(dots);
+  data->GetPointData()->SetScalars(values);
+  add_texts(*data->GetPointData(), "name", names);
+  set_time(*data->GetFieldData(), time_s);
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(data);
+  writer->SetDataModeToAscii();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() == 0) throw OutputError("VTK cannot write the sensors");
+  return writer->GetOutputString();
+}
+
+std::string as_pvd(std::vector<double> const& times_s, std::string (*file_name)(std::size_t)) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n";
@@ -170,9 +206,40 @@ FieldSeries::~FieldSeries() = default;
 void FieldSeries::add(double time_s, Frame const& frame) {
   set_frame(*grid_->cells, grid_->mesh, frame, options_.reference_degC);
   set_time(*grid_->cells->GetFieldData(), time_s);
-  write_atomically(directory_ / file_name(times_s_.size()), as_vtu(grid_->cells));
+  write_atomically(directory_ / field_file(times_s_.size()), as_vtu(grid_->cells));
+  add_sensors(time_s, frame);
   times_s_.push_back(time_s);
-  write_atomically(index_path(), as_pvd(times_s_));
+  write_atomically(index_path(), as_pvd(times_s_, field_file));
+  if (!options_.sensors.empty()) write_atomically(directory_ / "sensors.pvd", as_pvd(times_s_, sensor_file));
+  arrange(frame);
+}
+
+void FieldSeries::add_sensors(double time_s, Frame const& frame) {
+  if (options_.sensors.empty()) return;
+  if (frame.sensor_degC.size() != Eigen::Index(options_.sensors.size()))
+    throw InputError(
+        fmt::format("a frame has {} temperatures for {} sensors", frame.sensor_degC.size(), options_.sensors.size()));
+  write_atomically(directory_ / sensor_file(times_s_.size()), as_vtp(options_.sensors, frame.sensor_degC, time_s));
+}
+
+void FieldSeries::arrange(Frame const& frame) {
+  auto const shown = frame.temperature_degC.head(grid_->mesh.n_nodes());
+  lowest_degC_ = std::min(lowest_degC_, shown.minCoeff());
+  highest_degC_ = std::max(highest_degC_, shown.maxCoeff());
+  if (frame.displacement_m.cols() > 0)
+    largest_m_ = std::max(largest_m_, frame.displacement_m.colwise().norm().maxCoeff());
+  auto const ticks = round_ticks(lowest_degC_, highest_degC_);
+  Eigen::Matrix3Xd const& points = grid_->mesh.points();
+  Eigen::Vector3d const low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
+  ParaviewView view;
+  view.lowest_degC = ticks.first;
+  view.highest_degC = ticks.first + (ticks.count - 1) * ticks.step;
+  view.centre = 0.5 * (low + high);
+  view.size = (high - low).norm();
+  view.magnification = largest_m_ > 0.0 ? round_down(largest_shown * view.size / largest_m_) : 1.0;
+  view.up = options_.up;
+  view.with_sensors = !options_.sensors.empty();
+  write_paraview_state(directory_, view);
 }
 
 std::filesystem::path FieldSeries::index_path() const { return directory_ / "fields.pvd"; }

@@ -24,6 +24,21 @@ bool is_shown(thermal::InputChannel const& channel) {
 
 double to_edge(double si, std::string const& unit) { return unit == "1" ? si : thermal::to_unit(si, unit); }
 
+/// Of the sensors that have a place: none hangs in the air.
+std::vector<output::SensorPlace> sensor_places(Machine const& machine) {
+  std::vector<output::SensorPlace> places;
+  for (auto const& sensor : machine.sensors)
+    if (!sensor.weights.empty()) places.push_back({sensor.description.name, sensor.position});
+  return places;
+}
+
+Eigen::VectorXd placed_readings(Machine const& machine, Eigen::VectorXd const& readings) {
+  std::vector<double> placed;
+  for (std::size_t i = 0; i < machine.sensors.size(); ++i)
+    if (!machine.sensors[i].weights.empty()) placed.push_back(readings[Eigen::Index(i)]);
+  return Eigen::Map<Eigen::VectorXd>(placed.data(), Eigen::Index(placed.size()));
+}
+
 /// Collects what the integrator shows and passes it on: history, partial file, fields.
 class Recorder {
  public:
@@ -81,7 +96,9 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
     fields_ = std::make_unique<output::FieldSeries>(
         *options.fields, machine.geometry,
         output::FieldOptions{experiment.ambient.mean - 273.15,
-                             {{"machine", machine.name}, {"experiment", experiment.title}}});
+                             {{"machine", machine.name}, {"experiment", experiment.title}},
+                             sensor_places(machine),
+                             machine.up});
 }
 
 output::Dataset Recorder::make_head() const {
@@ -207,6 +224,7 @@ void Recorder::show_field(thermal::Sample const& sample) {
   if (!due || (!fields_ && !(options_.picture && last))) return;
   last_frame_ = make_frame(sample);
   last_frame_time_ = sample.time;
+  last_frame_->sensor_degC = placed_readings(machine_, rows_.back().truth_readings);
   if (fields_) fields_->add(sample.time, *last_frame_);
 }
 

@@ -85,6 +85,26 @@ TEST(Fields, HaveTheVolumeOfTheGeometry) {
   EXPECT_NEAR(field.heat_source_W_per_m3.dot(field.volume_m3), frame_at(20.0).heat_source_W.sum(), 1e-9);
 }
 
+TEST(Fields, SensorsAreASecondSeriesAndAStateArrangesBoth) {
+  TemporaryDirectory const directory;
+  FieldOptions options;
+  options.sensors = {{"T1", {0.1, 0.2, 0.3}}, {"T2", {0.0, 0.0, 0.5}}};
+  FieldSeries series(directory.path(), small_machine(), options);
+  auto frame = frame_at(22.0);
+  frame.sensor_degC = Eigen::Vector2d(23.25, 24.5);
+  series.add(0.0, frame);
+  series.add(60.0, frame);
+  EXPECT_THAT(contents(directory / "sensors.pvd"), HasSubstr("timestep=\"60\" part=\"0\" file=\"sensors_0001.vtp\""));
+  auto const points = contents(directory / "sensors_0001.vtp");
+  for (char const* part : {"NumberOfPoints=\"2\"", "23.25 24.5", "0.1 0.2 0.3"}) EXPECT_THAT(points, HasSubstr(part));
+  auto const state = contents(directory / "arranged.pvsm");
+  EXPECT_THAT(state, HasSubstr((directory / "fields.pvd").string()));
+  EXPECT_THAT(state, HasSubstr((directory / "sensors.pvd").string()));
+  EXPECT_THAT(state, HasSubstr("displacement_um"));
+  frame.sensor_degC.resize(1);
+  EXPECT_THAT([&] { series.add(120.0, frame); }, ThrowsMessage<InputError>(HasSubstr("1 temperatures for 2 sensors")));
+}
+
 TEST(Fields, WarpContinuouslyWithinABody) {
   TemporaryDirectory const directory;
   Geometry const geometry = {block("bar", 0, origin, {1.0, 0.1, 0.1}, {10, 1, 1})};
@@ -104,7 +124,8 @@ TEST(Fields, AreNamedWithTheirTimes) {
   FieldSeries series(directory.path(), small_machine());
   series.add(0.0, frame_at(20.0));
   series.add(0.1, frame_at(21.0));
-  EXPECT_THAT(directory.files(), UnorderedElementsAre("fields.pvd", "field_0000.vtu", "field_0001.vtu"));
+  EXPECT_THAT(directory.files(),
+              UnorderedElementsAre("fields.pvd", "arranged.pvsm", "field_0000.vtu", "field_0001.vtu"));
   EXPECT_EQ(contents(series.index_path()),
             "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"

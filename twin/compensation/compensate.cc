@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
-#include <ranges>
 
 namespace thermotwin::twin {
 namespace {
@@ -104,7 +103,9 @@ void Session::turn() {
   if (first_message_) loop_.require_inputs(duration<double>(Clock::now() - *first_message_).count());
   if (loop_.refusals().size() > said_refusals_) {
     said_refusals_ = loop_.refusals().size();
-    say(fmt::format("refused: {}", fmt::join(std::views::keys(loop_.refusals()), "; ")));
+    std::vector<std::string> reasons;
+    for (auto const& [reason, count] : loop_.refusals()) reasons.push_back(reason);
+    say(fmt::format("refused: {}", fmt::join(reasons, "; ")));
   }
 }
 

@@ -1,0 +1,144 @@
+#include <array>
+#include <fmt/format.h>
+#include <string>
+#include <vector>
+
+#include "output/atomic_file.h"
+#include "output/paraview_state.h"
+#include "output/vtk_view.h"
+
+namespace thermotwin::output {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+enum Id { fields = 1, deformed, sensors, colours, machine_shown, sensors_shown, view };
+
+/// One proxy of the state, with its properties.
+class Proxy {
+ public:
+  Proxy(char const* group, char const* type, Id id)
+      : text_(fmt::format("<Proxy group=\"{}\" type=\"{}\" id=\"{}\" servers=\"21\">\n", group, type, int(id))),
+        id_(id) {}
+
+  Proxy& set(char const* name, Texts const& values) {
+    begin(name, values.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      text_ += fmt::format("<Element index=\"{}\" value=\"{}\"/>", i, values[i]);
+    text_ += "</Property>\n";
+    return *this;
+  }
+  Proxy& set(char const* name, Eigen::Vector3d const& values) {
+    return set(name, Texts{number(values[0]), number(values[1]), number(values[2])});
+  }
+  Proxy& set(char const* name, std::string const& value) { return set(name, Texts{value}); }
+  Proxy& refer(char const* name, std::vector<Id> const& others) {
+    begin(name, others.size());
+    for (Id const other : others) text_ += fmt::format("<Proxy value=\"{}\" output_port=\"0\"/>", int(other));
+    text_ += "</Property>\n";
+    return *this;
+  }
+
+  static std::string number(double value) { return fmt::format("{:.9g}", value); }
+  [[nodiscard]] std::string text() const { return text_ + "</Proxy>\n"; }
+
+ private:
+  void begin(char const* name, std::size_t count) {
+    text_ += fmt::format("<Property name=\"{}\" id=\"{}.{}\" number_of_elements=\"{}\">", name, int(id_), name, count);
+  }
+
+  std::string text_;
+  Id id_;
+};
+
+std::string escaped(std::string const& path) {
+  std::string text;
+  for (char const c : path) text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return text;
+}
+
+Texts viridis_between(double low, double high) {
+  constexpr std::array<std::array<double, 3>, 5> viridis = {{{0.267, 0.005, 0.329},
+                                                             {0.230, 0.322, 0.546},
+                                                             {0.128, 0.567, 0.551},
+                                                             {0.369, 0.789, 0.383},
+                                                             {0.993, 0.906, 0.144}}};
+  Texts texts;
+  for (std::size_t i = 0; i < viridis.size(); ++i) {
+    texts.push_back(Proxy::number(low + (high - low) * double(i) / double(viridis.size() - 1)));
+    for (double const part : viridis[i]) texts.push_back(Proxy::number(part));
+  }
+  return texts;
+}
+
+std::string collection(char const* name, std::vector<std::pair<Id, char const*>> const& items) {
+  std::string text = fmt::format("<ProxyCollection name=\"{}\">\n", name);
+  for (auto const& [id, title] : items) text += fmt::format("<Item id=\"{}\" name=\"{}\"/>\n", int(id), title);
+  return text + "</ProxyCollection>\n";
+}
+
+std::string sensor_proxies() {
+  return Proxy("representations", "GeometryRepresentation", sensors_shown)
+      .refer("Input", {sensors})
+      .set("Representation", "Points")
+      .set("PointSize", "14")
+      .set("RenderPointsAsSpheres", "1")
+      .set("ColorArrayName", Texts{"", "", "", "0", "temperature_degC"})
+      .refer("LookupTable", {colours})
+      .text();
+}
+
+std::string shown_proxies(ParaviewView const& how) {
+  Eigen::Vector3d const from = axes_of_view(how.up) * Eigen::Vector3d(0.75, -1.0, 0.62).normalized();
+  return Proxy("lookup_tables", "PVLookupTable", colours)
+             .set("RGBPoints", viridis_between(how.lowest_degC, how.highest_degC))
+             .set("ColorSpace", "0")
+             .set("ScalarRangeInitialized", "1")
+             .text() +
+         Proxy("representations", "UnstructuredGridRepresentation", machine_shown)
+             .refer("Input", {deformed})
+             .set("Representation", "Surface")
+             .set("Opacity", "0.6")
+             .set("ColorArrayName", Texts{"", "", "", "1", "temperature_degC"})
+             .refer("LookupTable", {colours})
+             .text() +
+         (how.with_sensors ? sensor_proxies() : std::string()) +
+         Proxy("views", "RenderView", view)
+             .refer("Representations",
+                    how.with_sensors ? std::vector{machine_shown, sensors_shown} : std::vector{machine_shown})
+             .set("CameraFocalPoint", how.centre)
+             .set("CameraPosition", Eigen::Vector3d(how.centre + 3.0 * how.size * from))
+             .set("CameraViewUp", how.up)
+             .set("CameraParallelProjection", "1")
+             .set("CameraParallelScale", Proxy::number(0.5 * how.size))
+             .set("UseColorPaletteForBackground", "0")
+             .set("Background", Eigen::Vector3d(1.0, 1.0, 1.0))
+             .text();
+}
+
+}  // namespace
+
+void write_paraview_state(std::filesystem::path const& directory, ParaviewView const& how) {
+  auto const path = [&](char const* file) { return escaped(std::filesystem::absolute(directory / file).string()); };
+  std::string text = "<ParaView>\n<ServerManagerState version=\"5.11.0\">\n" +
+                     Proxy("sources", "PVDReader", fields).set("FileName", path("fields.pvd")).text() +
+                     Proxy("filters", "WarpVector", deformed)
+                         .refer("Input", {fields})
+                         .set("SelectInputVectors", Texts{"0", "0", "0", "0", "displacement_um"})
+                         .set("ScaleFactor", Proxy::number(1e-6 * how.magnification))
+                         .text();
+  if (how.with_sensors) text += Proxy("sources", "PVDReader", sensors).set("FileName", path("sensors.pvd")).text();
+  text += shown_proxies(how);
+  std::vector<std::pair<Id, char const*>> sources = {{fields, "fields"}, {deformed, "deformed"}};
+  std::vector<std::pair<Id, char const*>> pictures = {{machine_shown, "machine"}};
+  if (how.with_sensors) {
+    sources.emplace_back(sensors, "sensors");
+    pictures.emplace_back(sensors_shown, "sensors");
+  }
+  text += collection("sources", sources) + collection("representations", pictures) +
+          collection("lookup_tables", {{colours, "1.temperature_degC.PVLookupTable"}}) +
+          collection("views", {{view, "machine"}}) + "</ServerManagerState>\n</ParaView>\n";
+  write_atomically(directory / "arranged.pvsm", text);
+}
+
+}  // namespace thermotwin::output
