@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "thermal/error.h"
 #include "twin/diagnosis/excitation.h"
@@ -166,7 +167,7 @@ std::vector<Refit> Diagnostician::refits(Fit const& about, std::vector<std::size
     bool const both = refit.hypothesis.trial->either_sign;
     start[last] = std::clamp(start[last], both ? -1.5 : 1e-3, 1.5);
     try {
-      Fit const fit = estimation_->with(std::vector<Hypothesis>{refit.hypothesis}).fit(start, 6, &about);
+      Fit const fit = estimation_->with(std::vector<Hypothesis>{refit.hypothesis}).fit(start, 4);
       refit.x = fit.x;
       refit.amplitude = fit.x[last];
       refit.standard_error = std::sqrt(fit.covariance(last, last));
@@ -222,12 +223,20 @@ Explanation Diagnostician::explanation_of(std::vector<Refit> const& refits) cons
   return explanation;
 }
 
-/// By the score: the strongest of each of the three strongest effects.
+/// By the score: the strongest of each of the three strongest effects, and of two more bodies. The linearisation
+/// underrates an effect beside which other numbers change their meaning: a joint through which no heat flowed before.
 std::vector<std::size_t> Diagnostician::most_promising(std::vector<Score> const& scores) const {
   std::vector<std::size_t> chosen;
+  std::set<Effect const*> effects;
+  std::set<std::string> bodies;
+  int elsewhere = 0;
   for (std::size_t const k : promising(scores, hypotheses_, 0.6 * options_.threshold, INFINITY)) {
-    auto const same = [&](std::size_t other) { return hypotheses_[other].effect == hypotheses_[k].effect; };
-    if (chosen.size() < 3 && std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back(k);
+    auto const& hypothesis = hypotheses_[k];
+    bool const one_more_effect = effects.size() < 3 && !effects.contains(hypothesis.effect);
+    if (!one_more_effect && (bodies.contains(hypothesis.body) || ++elsewhere > 2)) continue;
+    effects.insert(hypothesis.effect);
+    bodies.insert(hypothesis.body);
+    chosen.push_back(k);
   }
   return chosen;
 }

@@ -29,7 +29,7 @@ struct Explanation {
 
 struct DiagnosisOptions {
   std::vector<std::string> without;  ///< effects that are not tried
-  int most_effects = 4;
+  int most_effects = 8;
   /// 2 ln of the evidence that an effect must have; see docs/diagnosis.md for how often chance alone reaches it.
   double threshold = 20.0;
   /// What a further effect must have, and its share of the strongest: what is left of an effect whose shape is not

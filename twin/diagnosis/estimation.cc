@@ -272,8 +272,7 @@ std::vector<Eigen::MatrixXd> Estimation::residuals_at(Eigen::VectorXd const& x) 
   return residuals;
 }
 
-bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian,
-                          Fit const* frozen) const {
+bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const {
   auto const unknowns = Eigen::Index(unknowns_.size());
   std::optional<Machine> machine;
   try {
@@ -285,10 +284,9 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
   std::vector<thermal::NetworkDerivative> heat;
   std::vector<MachineDerivative> amplitudes;
   std::vector<Eigen::Index> columns;
-  auto const known = frozen ? std::size_t(frozen->x.size()) : 0;  // unknowns whose columns are taken over
   if (jacobian) {
     amplitudes = amplitude_derivatives(x);
-    for (std::size_t u = known; u < unknowns_.size(); ++u) {
+    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
       auto const& unknown = unknowns_[u];
       bool const number = unknown.kind == Unknown::Kind::number;
       if (!number && unknown.kind != Unknown::Kind::amplitude) continue;
@@ -320,7 +318,7 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
       Eigen::MatrixXd const response = twin.response(*parameters);
       for (std::size_t k = 0; k < columns.size(); ++k)
         jacobian->col(columns[k]).segment(first, count) -= response.col(Eigen::Index(k));
-      for (std::size_t u = known; u < unknowns_.size(); ++u) {
+      for (std::size_t u = 0; u < unknowns_.size(); ++u) {
         auto const& unknown = unknowns_[u];
         auto column = jacobian->col(Eigen::Index(u)).segment(first, count);
         if (unknown.kind == Unknown::Kind::lag)
@@ -360,14 +358,13 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
   whiten(jacobian->topRows(rows_));
   for (std::size_t l = 0; l < linear_.size(); ++l)
     jacobian->col(Eigen::Index(linear_[l])).head(rows_) = -whitened_linear_columns_.col(Eigen::Index(l));
-  if (frozen) jacobian->topLeftCorner(rows_, Eigen::Index(known)) = frozen->jacobian.topRows(rows_);
   return true;
 }
 
-Fit Estimation::fit(Eigen::VectorXd const& start, int iterations, Fit const* frozen) const {
+Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   LeastSquares problem;
   problem.evaluate = [&](Eigen::VectorXd const& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    return evaluate(x, r, J, frozen);
+    return evaluate(x, r, J);
   };
   auto const count = Eigen::Index(unknowns_.size());
   problem.residuals = rows_ + count;
@@ -383,7 +380,7 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations, Fit const* fro
   Fit fit;
   fit.x = solved.x;
   fit.converged = solved.converged;
-  if (!evaluate(fit.x, fit.residual, &fit.jacobian, frozen))
+  if (!evaluate(fit.x, fit.residual, &fit.jacobian))
     throw thermal::InputError("the machine cannot be run with its nominal values on these data");
   fit.cost = fit.residual.squaredNorm();
   Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());

@@ -75,9 +75,7 @@ class Estimation {
   [[nodiscard]] std::vector<BinnedRun> const& data() const { return *data_; }
   [[nodiscard]] std::vector<ChannelNoise> const& noise() const { return noise_; }
 
-  /// `frozen`: a fit of fewer effects, whose Jacobian serves for the unknowns that it has; residuals stay exact. A
-  /// tenth of the work, for comparing many effects.
-  [[nodiscard]] Fit fit(Eigen::VectorXd const& start, int iterations = 10, Fit const* frozen = nullptr) const;
+  [[nodiscard]] Fit fit(Eigen::VectorXd const& start, int iterations = 10) const;
   [[nodiscard]] Eigen::VectorXd prior_mean() const;
 
   /// The machine's document with the estimates in it, effects included.
@@ -98,8 +96,7 @@ class Estimation {
   void add_unknowns();
   void make_whitenings();
   void find_linear_columns();
-  [[nodiscard]] bool evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian,
-                              Fit const* frozen) const;
+  [[nodiscard]] bool evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;
   [[nodiscard]] std::vector<MachineDerivative> amplitude_derivatives(Eigen::VectorXd const& x) const;
 
   Value document_;
