@@ -30,14 +30,17 @@ std::string script_of(fs::path const& page) {
   return script;
 }
 
-TEST(Tutorial, EveryCommandDoesWhatItSays) {
+/// What a page's blocks print, run one after the other in an empty folder.
+std::string answer_of(std::string const& page, TemporaryDirectory const& folder) {
   fs::path const root = THERMOTWIN_SOURCE_DIR;
+  tests::put(folder / "page.sh", "set -ex\n" + script_of(root / "docs" / page));
+  return tests::answer("cd '" + folder.path().string() + "' && THERMOTWIN='" + root.string() + "' PATH='" +
+                       fs::path(THERMOTWIN_PROGRAM).parent_path().string() + "':\"$PATH\" bash page.sh");
+}
+
+TEST(Tutorial, EveryCommandDoesWhatItSays) {
   TemporaryDirectory const folder;
-  auto const script = script_of(root / "docs" / "tutorial.md");
-  ASSERT_THAT(script, HasSubstr("thermotwin diagnose"));
-  tests::put(folder / "tutorial.sh", "set -ex\n" + script);
-  auto const text = tests::answer("cd '" + folder.path().string() + "' && THERMOTWIN='" + root.string() + "' PATH='" +
-                                  fs::path(THERMOTWIN_PROGRAM).parent_path().string() + "':\"$PATH\" bash tutorial.sh");
+  auto const text = answer_of("tutorial.md", folder);
   EXPECT_THAT(text, HasSubstr("[[hot_neighbour]]"));  // at first; then it is excluded
   std::smatch found;
   auto const last = text.substr(text.rfind("Missing: 1 effect"));
@@ -52,13 +55,29 @@ TEST(Tutorial, EveryCommandDoesWhatItSays) {
   EXPECT_THAT(fonts, testing::Not(HasSubstr(" no  ")));
 }
 
+TEST(Documentation, DescribesAMachineThatRuns) {
+  TemporaryDirectory const folder;
+  auto const text = answer_of("machine.md", folder);
+  EXPECT_THAT(text, HasSubstr("the machine press: 11 nodes"));
+  EXPECT_THAT(text, HasSubstr("could be taken for each other"));
+  EXPECT_TRUE(fs::exists(folder / "machine" / "day.html"));
+}
+
+TEST(Documentation, MeasuresAndCalibrates) {
+  TemporaryDirectory const folder;
+  auto const text = answer_of("measuring.md", folder);
+  EXPECT_THAT(text, HasSubstr("bearing.front.grease_factor"));
+  EXPECT_TRUE(fs::exists(folder / "calibrated.toml"));
+}
+
 /// Commands that pages show exist, with the options that they show.
 TEST(Documentation, NamesCommandsAndOptionsThatThereAre) {
   fs::path const root = THERMOTWIN_SOURCE_DIR;
   std::string const program = THERMOTWIN_PROGRAM;
   std::map<std::string, std::string> help;
   std::vector<fs::path> pages = {root / "README.md"};
-  for (auto const& entry : fs::directory_iterator(root / "docs")) pages.push_back(entry.path());
+  for (auto const& entry : fs::directory_iterator(root / "docs"))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
   int seen = 0;
   for (auto const& page : pages) {
     std::istringstream lines(tests::contents(page));
