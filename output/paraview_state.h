@@ -16,8 +16,8 @@ struct ParaviewView {
 };
 
 /// Writes `<directory>/arranged.pvsm`: the fields of FieldSeries deformed and coloured by temperature (viridis), the
-/// sensors as balls on them. The state names its data by absolute paths; where they were moved, ParaView asks. Written
-/// for ParaView 5.11. Replaced atomically.
+/// sensors as red balls in them. The state names its data by absolute paths; where they were moved, ParaView asks.
+/// Written for ParaView 5.11. Replaced atomically.
 void write_paraview_state(std::filesystem::path const& directory, ParaviewView const& view);
 
 }  // namespace thermotwin::output

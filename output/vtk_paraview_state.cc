@@ -12,6 +12,8 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
+Eigen::Vector3d const sensor_red(0.86, 0.15, 0.15);
+
 enum Id { fields = 1, deformed, sensors, colours, machine_shown, sensors_shown, view };
 
 /// One proxy of the state, with its properties.
@@ -83,8 +85,8 @@ std::string sensor_proxies() {
       .set("Representation", "Points")
       .set("PointSize", "14")
       .set("RenderPointsAsSpheres", "1")
-      .set("ColorArrayName", Texts{"", "", "", "0", "temperature_degC"})
-      .refer("LookupTable", {colours})
+      .set("AmbientColor", sensor_red)
+      .set("DiffuseColor", sensor_red)
       .text();
 }
 
@@ -98,7 +100,7 @@ std::string shown_proxies(ParaviewView const& how) {
          Proxy("representations", "UnstructuredGridRepresentation", machine_shown)
              .refer("Input", {deformed})
              .set("Representation", "Surface")
-             .set("Opacity", "0.6")
+             .set("Opacity", "0.45")
              .set("ColorArrayName", Texts{"", "", "", "1", "temperature_degC"})
              .refer("LookupTable", {colours})
              .text() +
