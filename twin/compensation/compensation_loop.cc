@@ -25,7 +25,7 @@ void require(bool holds, char const* what, double value) {
 
 }  // namespace
 
-CompensationLoop::CompensationLoop(Compensator compensator, LoopSettings const& settings, Topics topics)
+CompensationLoop::CompensationLoop(Compensator compensator, LoopSettings const& settings, Topics const& topics)
     : compensator_(std::move(compensator)),
       settings_(settings),
       clock_(settings.speed, settings.tolerance, compensator_.inputs().size()),

@@ -39,7 +39,7 @@ struct LoopSettings {
 /// none comes, half a second of ours after the end of the next one: a process may be late, and that is no silence.
 class CompensationLoop {
  public:
-  CompensationLoop(Compensator compensator, LoopSettings const& settings, Topics topics = {});
+  CompensationLoop(Compensator compensator, LoopSettings const& settings, Topics const& topics = {});
 
   /// What to subscribe to.
   [[nodiscard]] std::vector<std::string> topics() const;

@@ -272,7 +272,7 @@ class Hostile {
     for (auto& c : text) c = char(random_());
     return text;
   }
-  std::string cut(std::string text) { return text.substr(0, random_() % text.size()); }
+  std::string cut(std::string const& text) { return text.substr(0, random_() % text.size()); }
 
   std::mt19937_64 random_;
 };
