@@ -9,13 +9,11 @@
 
 namespace thermotwin::thermal {
 
-/// Whether a parameter moves a place or bends a heat capacity: it has no column then (ParameterColumns).
-[[nodiscard]] bool has_no_column(NetworkDerivative const& parameter);
-
-/// d(dy/dt)/dθ_k = (∂f/∂y) dy/dθ_k + ∂f/∂θ_k of many parameters at once: one linearisation serves all of them.
+/// d(dy/dt)/dθ_k = (∂f/∂y) dy/dθ_k + ∂f/∂θ_k of many parameters at once: one linearisation serves all of them, except
+/// those that move a place or bend a heat capacity, which have no column (ParameterColumns).
 class SensitivityRates {
  public:
-  /// InputError for a parameter that has no column.
+  /// `parameters` must outlive this.
   SensitivityRates(Network const& network, std::vector<NetworkDerivative> const& parameters);
 
   /// rates[k] from the state and its derivatives to every parameter.
@@ -23,7 +21,15 @@ class SensitivityRates {
                 std::span<double const* const> state_derivatives, std::span<double* const> rates);
 
  private:
+  struct Parts {
+    std::vector<std::size_t> together, apart;  ///< of the parameters
+  };
+  SensitivityRates(Network const& network, std::vector<NetworkDerivative> const& parameters, Parts parts);
+  [[nodiscard]] static Parts parts_of(std::vector<NetworkDerivative> const& parameters);
+
   Network const* network_;
+  std::vector<NetworkDerivative> const* parameters_;
+  Parts parts_;
   ParameterColumns columns_;
   Linearisation at_;
   Eigen::MatrixXd forcing_;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 
@@ -172,7 +173,7 @@ class Run {
   VectorHandle y_;
   std::vector<VectorHandle> sensitivity_;
   std::vector<N_Vector> sensitivity_view_;
-  std::unique_ptr<SensitivityRates> sensitivity_rates_;  ///< none where a parameter has no column
+  std::optional<SensitivityRates> sensitivity_rates_;
   MatrixHandle matrix_;
   SolverHandle solver_;
   Handle<void*, free_cvode> cvode_;
@@ -246,12 +247,7 @@ int Run::sensitivity_rate(int count, double t, N_Vector y, N_Vector, N_Vector* s
       to.push_back(data(sdot[k]));
       std::fill_n(to.back() + run.network_.nodes(), NewtonSystem::energies, 0.0);
     }
-    if (run.sensitivity_rates_) {
-      run.sensitivity_rates_->evaluate(run.evaluation_, data(y), input, from, to);
-    } else {
-      for (std::size_t k = 0; k < from.size(); ++k)
-        run.evaluation_.rate_derivative(data(y), from[k], run.options_.parameters[k], input, to[k]);
-    }
+    run.sensitivity_rates_->evaluate(run.evaluation_, data(y), input, from, to);
     return 0;
   });
 }
@@ -327,8 +323,7 @@ void Run::set_up(IntegrationState const& from) {
 void Run::set_up_sensitivities(IntegrationState const& from) {
   auto const& parameters = options_.parameters;
   if (parameters.empty()) return;
-  if (std::none_of(parameters.begin(), parameters.end(), has_no_column))
-    sensitivity_rates_ = std::make_unique<SensitivityRates>(network_, parameters);
+  sensitivity_rates_.emplace(network_, parameters);
   int const n = network_.nodes();
   for (auto const& parameter : parameters) {
     auto& s = sensitivity_.emplace_back(N_VClone(y_.get()));
