@@ -14,7 +14,6 @@ using hdf5::any_text_type;
 using hdf5::attach;
 using hdf5::count;
 using hdf5::expect;
-using hdf5::Handle;
 using hdf5::make_group;
 using hdf5::make_variable;
 using hdf5::set_attribute;
