@@ -143,6 +143,19 @@ TEST(Campaign, EveryCombinationOnceAndNeighboursShareAMachine) {
   EXPECT_EQ(campaign.experiment(run).duration, 7200.0);
 }
 
+TEST(Campaign, WholeNumbersKeepTheirDigits) {
+  CampaignParameter parameter;
+  parameter.path = "experiment.seed";
+  parameter.from = 1.0;
+  parameter.to = 1e6;
+  parameter.count = 1'000'000;
+  EXPECT_EQ(parameter.value(99'999).value, "100000");
+  EXPECT_EQ(parameter.value(999'999).value, "1000000");
+  parameter.to = 1.5;
+  parameter.count = 3;
+  EXPECT_EQ(parameter.value(1).value, "1.25");
+}
+
 TEST(Campaign, AMillionRunsAreAFunctionOfTheirNumber) {
   TemporaryDirectory const directory;
   auto const campaign = read(directory, R"toml(

@@ -5,9 +5,19 @@
 #include "twin/campaign/campaign.h"
 
 namespace thermotwin::twin {
+namespace {
+
+/// A whole number keeps its digits: 1e+05 is none to a key that wants one.
+std::string digits_of(double number) {
+  constexpr double exact = 9007199254740992.0;  // 2⁵³
+  if (number == std::floor(number) && std::abs(number) < exact) return fmt::format("{:.0f}", number);
+  return thermal::format_number(number);
+}
+
+}  // namespace
 
 Setting CampaignParameter::set_to(double number) const {
-  auto const digits = thermal::format_number(number);
+  auto const digits = digits_of(number);
   return {path, unit.empty() ? digits : digits + " " + unit};
 }
 
