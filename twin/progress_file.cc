@@ -7,7 +7,7 @@
 
 namespace thermotwin::twin {
 
-ProgressFile::ProgressFile(std::filesystem::path folder, std::string title)
+ProgressFile::ProgressFile(std::filesystem::path const& folder, std::string title)
     : path_(folder / "progress.json"), title_(std::move(title)) {
   output::make_directory(folder);
   write();

@@ -14,7 +14,7 @@ namespace thermotwin::twin {
 class ProgressFile {
  public:
   /// Makes the folder; OutputError when that cannot be.
-  ProgressFile(std::filesystem::path folder, std::string title);
+  ProgressFile(std::filesystem::path const& folder, std::string title);
   ~ProgressFile();
   ProgressFile(ProgressFile const&) = delete;
   ProgressFile& operator=(ProgressFile const&) = delete;

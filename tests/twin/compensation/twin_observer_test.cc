@@ -75,8 +75,8 @@ TEST(TwinObserver, GoesOnWithoutASensorAndNotWithoutAnInput) {
     Decision last;
     auto const played = close_loop(
         loop, VirtualMachine(data, {}),
-        [&](double time, std::string const& topic, std::string& payload) {
-          if (time > 600.0 && topic.ends_with(silent)) payload.clear();
+        [ending = std::string(silent)](double time, std::string const& topic, std::string& payload) {
+          if (time > 600.0 && topic.ends_with(ending)) payload.clear();
         },
         [&](Decision const& decision) { last = decision; });
     EXPECT_EQ(last.support, goes_on ? Support::good : Support::off) << silent;
