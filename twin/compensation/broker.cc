@@ -2,13 +2,14 @@
 #include "twin/compensation/broker.h"
 
 #include <atomic>
+#include <charconv>
 #include <condition_variable>
 #include <deque>
 #include <fmt/format.h>
 #include <fstream>
 #include <mqtt/async_client.h>
 #include <mutex>
-#include <regex>
+#include <string_view>
 
 #include "thermal/error.h"
 
@@ -24,13 +25,29 @@ constexpr auto patience_at_end = 500ms;
 constexpr char const* online = "online";
 constexpr char const* offline = "offline";
 
+bool is_host(std::string_view host) {
+  bool const numeric = host.starts_with('[') && host.ends_with(']');
+  auto const allowed = numeric ? host.substr(1, host.size() - 2) : host;
+  return !allowed.empty() && allowed.find_first_of(numeric ? "[]/ \t" : "[]:/ \t") == allowed.npos;
+}
+
+bool is_port(std::string_view port) {
+  int number = -1;
+  auto const end = port.data() + port.size();
+  return port.size() <= 5 && std::from_chars(port.data(), end, number).ptr == end && number >= 0 && number <= 65535;
+}
+
 /// Paho writes tcp and ssl, and takes whatever stands for a port.
 std::string paho_url(std::string const& url) {
-  static std::regex const form(R"((mqtts?)://([^:/\s]+|\[[0-9a-fA-F:]+\])(:([0-9]{1,5}))?)");
-  std::smatch parts;
-  if (!std::regex_match(url, parts, form) || (parts[4].matched && std::stoi(parts[4]) > 65535))
+  bool const secure = url.starts_with("mqtts://");
+  auto const rest = std::string_view(url).substr(secure ? 8 : std::min<std::size_t>(7, url.size()));
+  auto const host = rest.substr(0, rest.starts_with('[') ? rest.find(']') + 1 : rest.find(':'));
+  auto const port = rest.substr(host.size());
+  bool const good = (secure || url.starts_with("mqtt://")) && is_host(host) &&
+                    (port.empty() || (port.starts_with(':') && is_port(port.substr(1))));
+  if (!good)
     throw thermal::InputError(fmt::format("broker '{}': write mqtt://HOST:1883, or mqtts://HOST:8883 for TLS", url));
-  return (parts[1] == "mqtt" ? "tcp://" : "ssl://") + parts[2].str() + parts[3].str();
+  return fmt::format("{}{}", secure ? "ssl://" : "tcp://", rest);
 }
 
 /// Most failures have the same number at Paho.
