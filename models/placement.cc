@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using Set = std::vector<Index>;
 
-constexpr Index most_starts = 200, most_polished = 24, most_sites_for_pairs = 300;
+constexpr Index most_starts = 200, most_polished = 24, fewest_polished = 2, most_sites_for_pairs = 300;
 constexpr double least_progress = 1e-10;  // of an exchange, relative
 constexpr double intact_share = 1e-3;     // of the intact set's V in a robust objective: settles ties
 
@@ -315,7 +315,7 @@ Placement place(PlacementProblem const& problem, Index count, Index dead) {
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t s = 0; s < sets.size(); ++s)
     sets[s] = intact.exchanged(intact.grown(starts[s % starts.size()], s >= starts.size()));
-  keep_best(sets, intact, most_polished);
+  keep_best(sets, intact, std::max<Index>(fewest_polished, most_polished / Index(problem.worlds.size())));
   if (problem.sites() <= most_sites_for_pairs) {
 #pragma omp parallel for schedule(dynamic)
     for (auto& set : sets) set = intact.polished(set);

@@ -25,12 +25,18 @@ Relaxed relaxed(PlacementProblem const& problem, VectorXd const& share) {
   for (Index i = 0; i < share.size(); ++i)
     if (share[i] > 0.0) there.push_back(i);
   VectorXd const root = share(there).cwiseSqrt();
-  Eigen::MatrixXd seen = root.asDiagonal() * problem.readings(there, there) * root.asDiagonal();
-  seen.diagonal() += problem.noise(there);
-  Eigen::MatrixXd const cross = root.asDiagonal() * problem.cross(there, Eigen::all);
-  Eigen::MatrixXd const weights = seen.llt().solve(cross);
-  Eigen::MatrixXd const left = problem.cross - problem.readings(Eigen::all, there) * (root.asDiagonal() * weights);
-  return {problem.prior - cross.cwiseProduct(weights).sum(), left.rowwise().squaredNorm().cwiseQuotient(problem.noise)};
+  Relaxed sum{0.0, VectorXd::Zero(share.size())};
+  for (auto const& world : problem.worlds) {
+    Eigen::MatrixXd seen = root.asDiagonal() * world.readings(there, there) * root.asDiagonal();
+    seen.diagonal() += problem.noise(there);
+    Eigen::MatrixXd const cross = root.asDiagonal() * world.cross(there, Eigen::all);
+    Eigen::MatrixXd const weights = seen.llt().solve(cross);
+    Eigen::MatrixXd const left = world.cross - world.readings(Eigen::all, there) * (root.asDiagonal() * weights);
+    sum.value += world.prior - cross.cwiseProduct(weights).sum();
+    sum.slope += left.rowwise().squaredNorm().cwiseQuotient(problem.noise);
+  }
+  auto const worlds = double(problem.worlds.size());
+  return {sum.value / worlds, sum.slope / worlds};
 }
 
 /// The linear programme's dual: Σ (s − price)₊ + μ count + λ budget, with price = μ + λ cost.

@@ -11,12 +11,16 @@ void check(PlacementProblem const& problem) {
   auto const refuse = [](std::string const& why) { throw std::invalid_argument("sensor placement: " + why); };
   auto const n = problem.sites();
   if (n == 0) refuse("there is no site");
-  if (problem.readings.cols() != n || problem.cross.rows() != n || problem.noise.size() != n ||
-      (problem.cost.size() != 0 && problem.cost.size() != n))
-    refuse(fmt::format("{} sites, but covariances of {} × {} and {} rows, {} noises and {} costs", n, n,
-                       problem.readings.cols(), problem.cross.rows(), problem.noise.size(), problem.cost.size()));
-  if (!problem.readings.allFinite() || !problem.cross.allFinite() || !std::isfinite(problem.prior))
-    refuse("a covariance is not finite");
+  if (problem.worlds.empty()) refuse("there is no world");
+  if (problem.cost.size() != 0 && problem.cost.size() != n)
+    refuse(fmt::format("{} sites, but {} costs", n, problem.cost.size()));
+  for (auto const& [readings, cross, prior] : problem.worlds) {
+    if (readings.rows() != n || readings.cols() != n || cross.rows() != n ||
+        cross.cols() != problem.worlds.front().cross.cols())
+      refuse(fmt::format("{} sites, but covariances of {} × {} and {} × {}", n, readings.rows(), readings.cols(),
+                         cross.rows(), cross.cols()));
+    if (!readings.allFinite() || !cross.allFinite() || !std::isfinite(prior)) refuse("a covariance is not finite");
+  }
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!(problem.noise[i] > 0.0))
       refuse(fmt::format("the noise of site {} is {}; it must be > 0", i, problem.noise[i]));
@@ -25,33 +29,45 @@ void check(PlacementProblem const& problem) {
   }
 }
 
+double PlacementProblem::prior() const {
+  double sum = 0.0;
+  for (auto const& world : worlds) sum += world.prior;
+  return sum / double(worlds.size());
+}
+
 RemainingVariance::RemainingVariance(PlacementProblem const& problem, Eigen::Index most)
-    : problem_(&problem),
-      variance_(problem.readings.diagonal()),
-      cross_(problem.cross),
-      factor_(problem.sites(), most),
-      value_(problem.prior) {
+    : problem_(&problem), value_(problem.prior()) {
+  for (auto const& world : problem.worlds)
+    worlds_.push_back({&world, world.readings.diagonal(), world.cross, Eigen::MatrixXd(problem.sites(), most)});
   find_gains();
 }
 
-void RemainingVariance::add(Eigen::Index site) {
-  auto const k = Eigen::Index(sensors_.size());
-  double const deviation = std::sqrt(variance_[site] + problem_->noise[site]);
-  auto column = factor_.col(k);
-  column = problem_->readings.col(site);
-  if (k > 0) column.noalias() -= factor_.leftCols(k) * factor_.row(site).head(k).transpose();
+double RemainingVariance::World::add(Eigen::Index site, Eigen::Index sensors, double noise) {
+  double const deviation = std::sqrt(variance[site] + noise);
+  auto column = factor.col(sensors);
+  column = prior->readings.col(site);
+  if (sensors > 0) column.noalias() -= factor.leftCols(sensors) * factor.row(site).head(sensors).transpose();
   column /= deviation;
-  Eigen::RowVectorXd const told = cross_.row(site) / deviation;
-  value_ -= told.squaredNorm();
-  cross_.noalias() -= column * told;
-  variance_ -= column.cwiseAbs2();
-  variance_ = variance_.cwiseMax(0.0);
+  Eigen::RowVectorXd const told = cross.row(site) / deviation;
+  cross.noalias() -= column * told;
+  variance -= column.cwiseAbs2();
+  variance = variance.cwiseMax(0.0);
+  return told.squaredNorm();
+}
+
+void RemainingVariance::add(Eigen::Index site) {
+  double less = 0.0;
+  for (auto& world : worlds_) less += world.add(site, Eigen::Index(sensors_.size()), problem_->noise[site]);
+  value_ -= less / double(worlds_.size());
   sensors_.push_back(site);
   find_gains();
 }
 
 void RemainingVariance::find_gains() {
-  gains_ = cross_.rowwise().squaredNorm().cwiseQuotient(variance_ + problem_->noise);
+  gains_.setZero(problem_->sites());
+  for (auto const& world : worlds_)
+    gains_ += world.cross.rowwise().squaredNorm().cwiseQuotient(world.variance + problem_->noise);
+  gains_ /= double(worlds_.size());
   for (auto const site : sensors_) gains_[site] = -1.0;
 }
 
@@ -61,11 +77,12 @@ double remaining_variance(PlacementProblem const& problem, std::span<Eigen::Inde
   return state.value();
 }
 
-Eigen::MatrixXd estimator(PlacementProblem const& problem, std::span<Eigen::Index const> sensors) {
+Eigen::MatrixXd estimator(PlacementProblem const& problem, std::span<Eigen::Index const> sensors, std::size_t world) {
   std::vector<Eigen::Index> const set(sensors.begin(), sensors.end());
-  Eigen::MatrixXd readings = problem.readings(set, set);
+  auto const& covariance = problem.worlds.at(world);
+  Eigen::MatrixXd readings = covariance.readings(set, set);
   readings.diagonal() += problem.noise(set);
-  return readings.llt().solve(problem.cross(set, Eigen::all));
+  return readings.llt().solve(covariance.cross(set, Eigen::all));
 }
 
 }  // namespace thermotwin::models

@@ -7,23 +7,29 @@
 
 namespace thermotwin::models {
 
-/// Sensors that could be had, and what they shall tell. Readings x of n sites and d quantities y that nobody can
-/// measure while it matters vary together, as their covariances say; a sensor has an error of its own besides,
-/// independent of all others:
+/// How readings x of n sites and d quantities y vary together.
+struct JointCovariance {
+  Eigen::MatrixXd readings;  ///< S_xx, n × n, without the sensors' own errors [K²]
+  Eigen::MatrixXd cross;     ///< S_xy, n × d [K µm]
+  double prior = 0.0;        ///< tr S_yy [µm²]
+};
+
+/// Sensors that could be had, and what they shall tell of quantities that nobody can measure while it matters. It will
+/// be known which of m worlds is the true one, all equally likely, when the readings are made something of; a sensor
+/// has an error of its own besides, independent of all others:
 ///
-///   V(A) = tr(S_yy − S_yA (S_AA + R_A)⁻¹ S_Ay)
+///   V(A) = 1/m Σ_w tr(S_yy − S_yA (S_AA + R_A)⁻¹ S_Ay)_w
 ///
-/// is what the best linear estimate of y from the sensors A leaves unknown, for Gaussian variables the trace of the
+/// is what the best linear estimates of y from the sensors A leave unknown, for Gaussian variables the trace of the
 /// posterior covariance: A-optimality of Bayesian design (Chaloner and Verdinelli, Stat. Sci. 10 (1995) 273).
 struct PlacementProblem {
-  Eigen::MatrixXd readings;                                 ///< S_xx, n × n, without the sensors' own errors [K²]
-  Eigen::MatrixXd cross;                                    ///< S_xy, n × d [K µm]
-  double prior = 0.0;                                       ///< tr S_yy [µm²]
+  std::vector<JointCovariance> worlds;                      ///< m ≥ 1, of the same sites and quantities
   Eigen::VectorXd noise;                                    ///< R, n: variances of the sensors' own errors, > 0 [K²]
   Eigen::VectorXd cost;                                     ///< n, > 0; empty: all 1
   double budget = std::numeric_limits<double>::infinity();  ///< for the sum of the costs of the chosen sites
 
-  [[nodiscard]] Eigen::Index sites() const { return readings.rows(); }
+  [[nodiscard]] Eigen::Index sites() const { return noise.size(); }
+  [[nodiscard]] double prior() const;  ///< V of no sensor
   [[nodiscard]] double cost_of(Eigen::Index site) const { return cost.size() == 0 ? 1.0 : cost[site]; }
 };
 
@@ -32,9 +38,9 @@ void check(PlacementProblem const& problem);
 
 /// V of a growing set. With x_i's variance v_i and covariance c_i with y, both given the sensors so far,
 ///
-///   V(A ∪ i) = V(A) − |c_i|² / (v_i + r_i);
+///   V(A ∪ i) = V(A) − |c_i|² / (v_i + r_i), the mean over the worlds;
 ///
-/// one more sensor is a rank-one update of all v and c, O(n (k + d)).
+/// one more sensor is a rank-one update of all v and c, O(m n (k + d)).
 class RemainingVariance {
  public:
   /// Room for `most` sensors.
@@ -46,11 +52,19 @@ class RemainingVariance {
   [[nodiscard]] Eigen::VectorXd const& gains() const { return gains_; }
 
  private:
+  /// Of one world.
+  struct World {
+    JointCovariance const* prior;
+    Eigen::VectorXd variance;
+    Eigen::MatrixXd cross, factor;  ///< factor: n × k, rows of L⁻¹ S_Ax, transposed
+
+    /// Returns by how much it lessens V there.
+    double add(Eigen::Index site, Eigen::Index sensors, double noise);
+  };
   void find_gains();
 
   PlacementProblem const* problem_;
-  Eigen::VectorXd variance_;
-  Eigen::MatrixXd cross_, factor_;  ///< factor: n × k, rows of L⁻¹ S_Ax, transposed
+  std::vector<World> worlds_;
   std::vector<Eigen::Index> sensors_;
   Eigen::VectorXd gains_;
   double value_;
@@ -59,7 +73,9 @@ class RemainingVariance {
 /// V(A).
 [[nodiscard]] double remaining_variance(PlacementProblem const& problem, std::span<Eigen::Index const> sensors);
 
-/// (S_AA + R_A)⁻¹ S_Ay: what the readings' departures from their mean are multiplied by, k × d [µm/K].
-[[nodiscard]] Eigen::MatrixXd estimator(PlacementProblem const& problem, std::span<Eigen::Index const> sensors);
+/// (S_AA + R_A)⁻¹ S_Ay in one of the worlds: what the readings' departures from their mean are multiplied by, k × d
+/// [µm/K].
+[[nodiscard]] Eigen::MatrixXd estimator(PlacementProblem const& problem, std::span<Eigen::Index const> sensors,
+                                        std::size_t world = 0);
 
 }  // namespace thermotwin::models

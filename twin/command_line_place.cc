@@ -21,7 +21,7 @@ struct PlaceCommand {
   std::string machine, candidates, noise = "0.1 K", output, fields, picture, folder;
   std::vector<std::string> experiments, unseen, proposed;
   PlacementOptions options;
-  bool json = false;
+  bool trained = false, json = false;
 
   CLI::App* add_to(CLI::App& app, std::atomic<bool> const& stop);
   void operator()();
@@ -42,6 +42,8 @@ CLI::App* PlaceCommand::add_to(CLI::App& app, std::atomic<bool> const& stop) {
   command->add_option("--propose", proposed, "a set to judge: sites, sensors of the machine, places; T1,T2,motor");
   command->add_option("--dead", options.dead, "choose such that the loss of any so many hurts least")
       ->capture_default_str();
+  command->add_flag("--trained", trained,
+                    "the model that makes the error of the readings will be trained on the finished machine");
   command->add_flag("--distinguish", options.distinguish,
                     "choose such that effects which the machine may lack are told apart, not for the smallest error");
   command->add_option("--noise", noise, "standard deviation of a sensor's own error")->capture_default_str();
@@ -117,6 +119,7 @@ void PlaceCommand::operator()() {
   Machine const built = Machine::build(document);
   options.noise = thermal::parse_value(noise, thermal::dimension::temperature_difference);
   options.proposed = split(proposed);
+  if (trained) options.teacher = Teacher::machine;
   options.design.experiments = read_all(experiments);
   options.unseen = read_all(unseen);
   options.map = !fields.empty() || !picture.empty() || !folder.empty();

@@ -17,10 +17,10 @@ using Eigen::Index;
 using Set = std::vector<Index>;
 
 double by_definition(PlacementProblem const& problem, Set const& set) {
-  Eigen::MatrixXd readings = problem.readings(set, set);
+  Eigen::MatrixXd readings = problem.worlds[0].readings(set, set);
   readings.diagonal() += problem.noise(set);
-  Eigen::MatrixXd const cross = problem.cross(set, Eigen::all);
-  return problem.prior - cross.cwiseProduct(readings.llt().solve(cross)).sum();
+  Eigen::MatrixXd const cross = problem.worlds[0].cross(set, Eigen::all);
+  return problem.prior() - cross.cwiseProduct(readings.llt().solve(cross)).sum();
 }
 
 TEST(RemainingVariance, OfRankOneUpdatesIsThatOfTheDefinition) {
@@ -28,7 +28,7 @@ TEST(RemainingVariance, OfRankOneUpdatesIsThatOfTheDefinition) {
   Set set;
   for (Index const site : {3, 17, 0, 9, 12, 4}) {
     set.push_back(site);
-    EXPECT_NEAR(remaining_variance(problem, set), by_definition(problem, set), 1e-9 * problem.prior);
+    EXPECT_NEAR(remaining_variance(problem, set), by_definition(problem, set), 1e-9 * problem.prior());
   }
 }
 
@@ -38,7 +38,7 @@ TEST(RemainingVariance, DropsByTheGainThatWasForetold) {
   for (Index const site : {5, 1, 11, 8}) {
     double const foretold = state.value() - state.gains()[site];
     state.add(site);
-    EXPECT_NEAR(state.value(), foretold, 1e-10 * problem.prior);
+    EXPECT_NEAR(state.value(), foretold, 1e-10 * problem.prior());
     EXPECT_EQ(state.gains()[site], -1.0);
   }
 }
@@ -46,14 +46,14 @@ TEST(RemainingVariance, DropsByTheGainThatWasForetold) {
 TEST(RemainingVariance, OfAnyOrderIsTheSame) {
   auto const problem = random_placement(3, 15);
   EXPECT_NEAR(remaining_variance(problem, Set{2, 9, 4, 13}), remaining_variance(problem, Set{13, 2, 4, 9}),
-              1e-9 * problem.prior);
+              1e-9 * problem.prior());
 }
 
 TEST(RemainingVariance, IsThePriorWithoutSensorsOrWithHopelessOnes) {
   auto problem = random_placement(4, 10);
-  EXPECT_EQ(remaining_variance(problem, Set{}), problem.prior);
+  EXPECT_EQ(remaining_variance(problem, Set{}), problem.prior());
   problem.noise.setConstant(1e12);
-  EXPECT_NEAR(remaining_variance(problem, Set{1, 2, 3}), problem.prior, 1e-6 * problem.prior);
+  EXPECT_NEAR(remaining_variance(problem, Set{1, 2, 3}), problem.prior(), 1e-6 * problem.prior());
 }
 
 /// As many exact sensors as there are hidden modes leave only what the quantities have of their own.
@@ -67,16 +67,16 @@ TEST(Estimator, HasTheRemainingVarianceAsItsError) {
   auto const problem = random_placement(6, 20);
   Set const set = {1, 7, 12, 18};
   Eigen::MatrixXd const weights = estimator(problem, set);
-  Eigen::MatrixXd readings = problem.readings(set, set);
+  Eigen::MatrixXd readings = problem.worlds[0].readings(set, set);
   readings.diagonal() += problem.noise(set);
-  double const error = problem.prior - 2.0 * weights.cwiseProduct(problem.cross(set, Eigen::all)).sum() +
+  double const error = problem.prior() - 2.0 * weights.cwiseProduct(problem.worlds[0].cross(set, Eigen::all)).sum() +
                        weights.cwiseProduct(readings * weights).sum();
-  EXPECT_NEAR(error, remaining_variance(problem, set), 1e-9 * problem.prior);
+  EXPECT_NEAR(error, remaining_variance(problem, set), 1e-9 * problem.prior());
 }
 
 TEST(ExhaustivePlacement, IsTheBestOfAllSets) {
   auto const problem = random_placement(7, 9);
-  double best = problem.prior;
+  double best = problem.prior();
   Set set;
   for (unsigned bits = 0; bits < 512; ++bits) {
     set.clear();
@@ -84,7 +84,7 @@ TEST(ExhaustivePlacement, IsTheBestOfAllSets) {
       if (bits >> i & 1U) set.push_back(i);
     if (set.size() == 3) best = std::min(best, by_definition(problem, set));
   }
-  EXPECT_NEAR(exhaustive_placement(problem, 3).variance, best, 1e-9 * problem.prior);
+  EXPECT_NEAR(exhaustive_placement(problem, 3).variance, best, 1e-9 * problem.prior());
   EXPECT_EQ(number_of_sets(9, 3), 84.0);
 }
 
@@ -102,7 +102,7 @@ TEST(Place, ReachesNinetyNinePercentOfTheOptimum) {
 
 TEST(Place, KnowsLessWithFewerSensors) {
   auto const problem = random_placement(8, 40);
-  double before = problem.prior;
+  double before = problem.prior();
   for (Index count = 1; count <= 8; ++count) {
     double const variance = place(problem, count).variance;
     EXPECT_LE(variance, before);
@@ -116,8 +116,8 @@ TEST(Place, DoesNotCareHowSitesAreNumbered) {
   std::iota(order.begin(), order.end(), 0);
   std::reverse(order.begin() + 3, order.end());
   PlacementProblem renumbered = problem;
-  renumbered.readings = problem.readings(order, order);
-  renumbered.cross = problem.cross(order, Eigen::all);
+  renumbered.worlds[0].readings = problem.worlds[0].readings(order, order);
+  renumbered.worlds[0].cross = problem.worlds[0].cross(order, Eigen::all);
   Set sites;
   for (auto const site : place(renumbered, 5).sensors) sites.push_back(order[std::size_t(site)]);
   EXPECT_THAT(sites, testing::ElementsAreArray(place(problem, 5).sensors));
@@ -128,10 +128,10 @@ TEST(Place, PrefersTheBetterSensorOfTwoAtOnePlace) {
   auto problem = random_placement(10, 12);
   auto const best = place(problem, 1).sensors.front();
   Index const other = best == 0 ? 1 : 0;
-  problem.readings.col(other) = problem.readings.col(best);
-  problem.readings.row(other) = problem.readings.row(best);
-  problem.readings(other, other) = problem.readings(best, best);
-  problem.cross.row(other) = problem.cross.row(best);
+  problem.worlds[0].readings.col(other) = problem.worlds[0].readings.col(best);
+  problem.worlds[0].readings.row(other) = problem.worlds[0].readings.row(best);
+  problem.worlds[0].readings(other, other) = problem.worlds[0].readings(best, best);
+  problem.worlds[0].cross.row(other) = problem.worlds[0].cross.row(best);
   problem.noise[other] = 0.5 * problem.noise[best];
   EXPECT_EQ(place(problem, 1).sensors.front(), other);
 }
@@ -161,7 +161,7 @@ TEST(Place, WithDeadSensorsIsRobust) {
         if (i != a && i != b) rest.push_back(robust.sensors[i]);
       worst = std::max(worst, by_definition(problem, rest));
     }
-  EXPECT_NEAR(robust.worst, worst, 1e-9 * problem.prior);
+  EXPECT_NEAR(robust.worst, worst, 1e-9 * problem.prior());
 }
 
 TEST(Place, NamesSensorsByWhatTheyTell) {
@@ -181,8 +181,58 @@ TEST(Place, RefusesWhatCannotBe) {
   problem.budget = 3.0;
   problem.noise[2] = 0.0;
   EXPECT_THROW((void)place(problem, 2), std::invalid_argument);
+  problem.noise[2] = 1.0;
+  problem.worlds.push_back(random_placement(14, 5, 12, 2).worlds[0]);
+  EXPECT_THROW((void)place(problem, 2), std::invalid_argument);
+  problem.worlds.clear();
+  EXPECT_THROW((void)place(problem, 2), std::invalid_argument);
+  problem.worlds = random_placement(14, 5).worlds;
   problem.noise.conservativeResize(4);
   EXPECT_THROW((void)place(problem, 2), std::invalid_argument);
+}
+
+/// Four worlds of the same sites: nobody knows which is the true one before the sensors are mounted.
+PlacementProblem four_worlds(unsigned seed, Index sites) {
+  auto problem = random_placement(seed, sites);
+  for (unsigned other = 1; other < 4; ++other)
+    problem.worlds.push_back(random_placement(seed + 100 * other, sites).worlds[0]);
+  return problem;
+}
+
+PlacementProblem only(PlacementProblem problem, std::size_t world) {
+  problem.worlds = {problem.worlds[world]};
+  return problem;
+}
+
+TEST(Place, InSeveralWorldsMinimisesTheMean) {
+  auto const problem = four_worlds(17, 20);
+  Set const set = {2, 11, 5};
+  double mean = 0.0;
+  for (std::size_t w = 0; w < 4; ++w) mean += 0.25 * by_definition(only(problem, w), set);
+  EXPECT_NEAR(remaining_variance(problem, set), mean, 1e-9 * problem.prior());
+  for (Index const count : {2, 4}) {
+    double const best = exhaustive_placement(problem, count).variance;
+    EXPECT_LE(place(problem, count).variance, best / 0.99);
+    EXPECT_LE(placement_bound(problem, count), best);
+    EXPECT_LE(best, remaining_variance(problem, place(only(problem, 0), count).sensors) * (1.0 + 1e-9));
+  }
+}
+
+/// The worlds' covariances taken together, as if nobody ever learnt which is the true one, leave more unknown.
+TEST(RemainingVariance, IsLessWhereTheWorldWillBeKnown) {
+  auto const known = four_worlds(18, 12);
+  PlacementProblem unknown = only(known, 0);
+  for (std::size_t w = 1; w < 4; ++w) {
+    unknown.worlds[0].readings += known.worlds[w].readings;
+    unknown.worlds[0].cross += known.worlds[w].cross;
+    unknown.worlds[0].prior += known.worlds[w].prior;
+  }
+  unknown.worlds[0].readings /= 4.0;
+  unknown.worlds[0].cross /= 4.0;
+  unknown.worlds[0].prior /= 4.0;
+  EXPECT_NEAR(unknown.prior(), known.prior(), 1e-9 * known.prior());
+  for (Set const& set : {Set{3}, Set{1, 7}, Set{0, 4, 9, 11}})
+    EXPECT_LT(remaining_variance(known, set), remaining_variance(unknown, set));
 }
 
 TEST(PlacementBound, IsNeverAboveTheOptimum) {
@@ -197,9 +247,9 @@ TEST(PlacementBound, IsNeverAboveTheOptimum) {
 
 TEST(PlacementBound, IsTheOptimumWhereSensorsSayLittleOrAllAreTaken) {
   auto const noisy = random_placement(15, 30, 12, 3, 1e5);
-  EXPECT_NEAR(placement_bound(noisy, 4, 1e-9), place(noisy, 4).variance, 1e-4 * noisy.prior);
+  EXPECT_NEAR(placement_bound(noisy, 4, 1e-9), place(noisy, 4).variance, 1e-4 * noisy.prior());
   auto const problem = random_placement(16, 8);
-  EXPECT_NEAR(placement_bound(problem, 8), place(problem, 8).variance, 1e-6 * problem.prior);
+  EXPECT_NEAR(placement_bound(problem, 8), place(problem, 8).variance, 1e-6 * problem.prior());
 }
 
 }  // namespace

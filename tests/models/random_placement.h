@@ -19,9 +19,7 @@ inline PlacementProblem random_placement(unsigned seed, Eigen::Index sites, Eige
   Eigen::VectorXd const size = Eigen::VectorXd::NullaryExpr(modes, [](auto i) { return 3.0 * std::pow(0.8, i); });
   Eigen::MatrixXd const seen = matrix(sites, modes) * size.asDiagonal(), wanted = matrix(quantities, modes) * 4.0;
   PlacementProblem problem;
-  problem.readings = seen * seen.transpose();
-  problem.cross = seen * wanted.transpose();
-  problem.prior = wanted.squaredNorm() + 0.1;
+  problem.worlds = {{seen * seen.transpose(), seen * wanted.transpose(), wanted.squaredNorm() + 0.1}};
   problem.noise = Eigen::VectorXd::Constant(sites, noise);
   return problem;
 }

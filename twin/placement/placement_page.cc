@@ -31,6 +31,12 @@ std::string set_table(SetFigures const& set, int dead) {
   return text;
 }
 
+std::string teacher_text(Teacher teacher) {
+  return teacher == Teacher::family
+             ? "one estimate for all of them, before the machine is there (--trained: each has its own)"
+             : "each has an estimate of its own, trained on itself: the other of its spectra judges";
+}
+
 double degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
 
 std::string distinction_text(Distinction const& d) {
@@ -98,10 +104,10 @@ std::string placement_text(PlacementReport const& report) {
   auto const count = best.sensors.size();
   std::string text = fmt::format(
       "{} of {} sites on {}; sensors with an error of {:g} K of their own\n"
-      "{} machines that the file could stand for, {} spectra each; judged on {} others with other spectra\n\n"
-      "recommended\n\n{}\n",
+      "{} machines that the file could stand for, {} spectra each; judged on {} others with other spectra\n"
+      "{}\n\nrecommended\n\n{}\n",
       count, report.candidates, report.machine, report.noise, report.members, report.experiments.size(),
-      report.unseen_members, set_table(best, report.dead));
+      report.unseen_members, teacher_text(report.teacher), set_table(best, report.dead));
   if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(*report.proposed, 0));
   text += fmt::format("  {:<26} {:>8} {:>13} {:>12}  {:>16}\n", "all displacements [um]", "model", "predicted 1s",
                       "unseen rms", "80 % of machines");
@@ -135,6 +141,7 @@ std::string placement_json(PlacementReport const& report) {
                {"unseen_members", report.unseen_members},
                {"unseen_experiments", report.unseen_experiments},
                {"dead", report.dead},
+               {"trained_on_the_machine", report.teacher == Teacher::machine},
                {"no_sensor_um", report.prior_um},
                {"all_candidates_um", report.floor_um},
                {"bound_um", report.bound_um},

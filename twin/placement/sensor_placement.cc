@@ -89,6 +89,17 @@ Sites without(Sites sites, Index site) {
   return sites;
 }
 
+/// Rows of an ensemble, less their mean.
+struct Snapshots {
+  Eigen::MatrixXd rise, displacements;
+  Snapshots(Ensemble const& ensemble, Rows const& rows)
+      : rise(ensemble.rise.middleRows(rows.first, rows.count)),
+        displacements(ensemble.displacement.middleRows(rows.first, rows.count)) {
+    rise.rowwise() -= rise.colwise().mean().eval();
+    displacements.rowwise() -= displacements.colwise().mean().eval();
+  }
+};
+
 /// Judges sets with one design and one unseen ensemble.
 class Judge {
  public:
@@ -145,7 +156,7 @@ Judge::Judge(Value const& document, PlacementOptions const& options)
   if (options.design.progress)
     unseen.progress = [&, share](double done) { options_.design.progress(share + (1.0 - share) * done); };
   unseen_ = draw_ensemble(document, sites_, unseen);
-  moments_.emplace(design_, options.noise);
+  moments_.emplace(design_, options.noise, options.teacher);
   problem_ = moments_->problem(candidates_);
   problem_.budget = options.rules.budget;
   problem_.cost.resize(candidates_);
@@ -206,49 +217,50 @@ SetFigures Judge::figures(Sites const& set) const {
     result.cost += described.cost;
   }
   auto const predicted = moments_->cross_validated(ordered);
-  auto const seen = error_on(unseen_, moments_->estimate(ordered), moments_->noise_variance());
+  auto const seen = moments_->unseen(unseen_, ordered);
   result.model_um = std::sqrt(variance);
   result.predicted_um = std::sqrt(predicted.mean_square.sum());
   result.unseen_um = std::sqrt(seen.mean_square.sum());
   result.unseen_low_um = std::sqrt(quantile(seen.of_members, 0.1));
   result.unseen_high_um = std::sqrt(quantile(seen.of_members, 0.9));
   result.worst_um = std::sqrt(models::worst_variance(all_, ordered, options_.dead));
-  auto const prior = design_.displacement.rowwise() - design_.displacement.colwise().mean();
-  for (Index c = 0; c < design_.displacement.cols(); ++c)
-    result.channels.push_back({design_.channels[std::size_t(c)],
-                               std::sqrt(prior.col(c).squaredNorm() / double(prior.rows())),
+  Eigen::VectorXd prior = Eigen::VectorXd::Zero(design_.displacement.cols());
+  for (auto const& rows : moments_->groups())
+    prior += Snapshots(design_, rows).displacements.colwise().squaredNorm() / double(design_.rise.rows());
+  for (Index c = 0; c < prior.size(); ++c)
+    result.channels.push_back({design_.channels[std::size_t(c)], std::sqrt(prior[c]),
                                std::sqrt(predicted.mean_square[c]), std::sqrt(seen.mean_square[c])});
   return result;
 }
 
 /// As RemainingVariance does it, with every node as one more site.
 InformationMap Judge::map(Sites const& set) const {
-  auto const rows = double(design_.rise.rows());
-  Eigen::MatrixXd const y = design_.displacement.rowwise() - design_.displacement.colwise().mean();
-  Eigen::MatrixXd chosen(design_.rise.rows(), Index(set.size()));
-  for (std::size_t s = 0; s < set.size(); ++s)
-    chosen.col(Index(s)) = design_.rise.col(set[s]).array() - design_.rise.col(set[s]).mean();
-  Eigen::MatrixXd readings = chosen.transpose() * chosen / rows;
-  readings.diagonal().array() += moments_->noise_variance();
-  auto const factor = readings.llt();
-  Eigen::MatrixXd const told = factor.solve(chosen.transpose() * y / rows);
-  double const prior = all_.prior, left = models::remaining_variance(all_, set);
-  auto const lessened = [](double variance, double gain) {
-    return std::sqrt(variance) - std::sqrt(std::max(0.0, variance - gain));
-  };
-  InformationMap map{Eigen::VectorXd(design_.node_rise.cols()), Eigen::VectorXd(design_.node_rise.cols())};
-  for (Index node = 0; node < design_.node_rise.cols(); ++node) {
-    Eigen::VectorXd x = design_.node_rise.col(node).cast<double>();
-    x.array() -= x.mean();
-    Eigen::RowVectorXd const cross = x.transpose() * y / rows;
-    Eigen::VectorXd const shared = chosen.transpose() * x / rows;
-    double const variance = x.squaredNorm() / rows;
-    map.alone_um[node] = lessened(prior, cross.squaredNorm() / (variance + moments_->noise_variance()));
-    double const rest = std::max(0.0, variance - shared.dot(factor.solve(shared)));
-    map.beside_um[node] =
-        lessened(left, (cross - shared.transpose() * told).squaredNorm() / (rest + moments_->noise_variance()));
+  Index const nodes = design_.node_rise.cols();
+  Eigen::VectorXd alone = Eigen::VectorXd::Zero(nodes), beside = alone;
+  for (auto const& rows : moments_->groups()) {
+    Snapshots const seen(design_, rows);
+    auto const& y = seen.displacements;
+    Eigen::MatrixXd const chosen = seen.rise(Eigen::all, set);
+    Eigen::MatrixXd readings = chosen.transpose() * chosen / double(rows.count);
+    readings.diagonal().array() += moments_->noise_variance();
+    auto const factor = readings.llt();
+    Eigen::MatrixXd const told = factor.solve(chosen.transpose() * y / double(rows.count));
+    for (Index node = 0; node < nodes; ++node) {
+      Eigen::VectorXd x = design_.node_rise.col(node).segment(rows.first, rows.count).cast<double>();
+      x.array() -= x.mean();
+      Eigen::RowVectorXd const cross = x.transpose() * y / double(rows.count);
+      Eigen::VectorXd const shared = chosen.transpose() * x / double(rows.count);
+      double const variance = x.squaredNorm() / double(rows.count);
+      alone[node] += cross.squaredNorm() / (variance + moments_->noise_variance());
+      double const rest = std::max(0.0, variance - shared.dot(factor.solve(shared)));
+      beside[node] += (cross - shared.transpose() * told).squaredNorm() / (rest + moments_->noise_variance());
+    }
   }
-  return map;
+  auto const lessened = [&](double variance, Eigen::VectorXd const& gains) {
+    auto const left = (variance - gains.array() / double(moments_->groups().size())).cwiseMax(0.0);
+    return Eigen::VectorXd(std::sqrt(variance) - left.sqrt());
+  };
+  return {lessened(all_.prior(), alone), lessened(models::remaining_variance(all_, set), beside)};
 }
 
 Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacement) const {
@@ -280,12 +292,13 @@ PlacementReport Judge::operator()() {
   report.members = options_.design.members;
   report.unseen_members = options_.unseen_members;
   report.dead = options_.dead;
+  report.teacher = options_.teacher;
   report.noise = options_.noise;
   for (auto const& run : design_.runs)
     if (run.member == 0) report.experiments.push_back(run.experiment);
   for (auto const& run : unseen_.runs)
     if (run.member == 0) report.unseen_experiments.push_back(run.experiment);
-  report.prior_um = std::sqrt(problem_.prior);
+  report.prior_um = std::sqrt(problem_.prior());
   Sites every(static_cast<std::size_t>(places_));
   std::iota(every.begin(), every.end(), Index(0));
   report.floor_um = std::sqrt(models::remaining_variance(problem_, every));

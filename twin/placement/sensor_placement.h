@@ -10,6 +10,7 @@
 #include "twin/file/value.h"
 #include "twin/placement/candidate_sites.h"
 #include "twin/placement/ensemble.h"
+#include "twin/placement/snapshot_moments.h"
 
 namespace thermotwin::twin {
 
@@ -23,8 +24,9 @@ struct PlacementOptions {
   EnsembleOptions design;                     ///< machines and spectra that decide
   int unseen_members = 24;                    ///< machines that took no part
   std::vector<scenarios::Experiment> unseen;  ///< what those are put through; none: spectra drawn anew
-  bool distinguish = false;                   ///< choose such that missing effects are told apart, not by the error
-  bool map = false;                           ///< how informative every node is
+  Teacher teacher = Teacher::family;
+  bool distinguish = false;  ///< choose such that missing effects are told apart, not by the error
+  bool map = false;          ///< how informative every node is
 };
 
 /// What a set of sensors is worth.
@@ -70,6 +72,7 @@ struct PlacementReport {
   std::string machine;
   std::size_t candidates = 0;
   int members = 0, unseen_members = 0, dead = 0;
+  Teacher teacher = Teacher::family;
   std::vector<std::string> experiments, unseen_experiments;
   double noise = 0.0;
   double prior_um = 0.0;  ///< √V without any sensor
@@ -83,7 +86,9 @@ struct PlacementReport {
 };
 
 /// Chooses sensors before the hardware exists: V of the tool's displacement, all channels together, over machines that
-/// the file could stand for and spectra (Ensemble), by models::place; with few candidates all sets are looked at. Or,
+/// the file could stand for and spectra (Ensemble), by models::place; with few candidates all sets are looked at. What
+/// `teacher` says the readings will be interpreted with is what V is of: one estimate for the whole family, or one for
+/// each machine, known when the sensors are in use, and the mean over the machines is what the search minimises. Or,
 /// to distinguish, for the smallest angle between effects that the machine may lack (EffectSignatures).
 /// InputError for sensors that cannot be placed or names that are not there.
 [[nodiscard]] PlacementReport place_sensors(Value const& document, PlacementOptions const& options);

@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "thermal/error.h"
+
 namespace thermotwin::twin {
 namespace {
 
@@ -13,14 +15,19 @@ using Sites = std::span<Index const>;
 int members_of(Ensemble const& ensemble) { return ensemble.runs.back().member + 1; }
 
 /// The rows of a member: its runs stand one after another.
-std::pair<Index, Index> rows_of(Ensemble const& ensemble, int member) {
-  Index first = -1, count = 0;
+Rows rows_of(Ensemble const& ensemble, int member) {
+  Rows rows{-1, 0};
   for (auto const& run : ensemble.runs) {
     if (run.member != member) continue;
-    if (first < 0) first = run.first;
-    count += run.rows;
+    if (rows.first < 0) rows.first = run.first;
+    rows.count += run.rows;
   }
-  return {first, count};
+  return rows;
+}
+
+MatrixXd centred(MatrixXd values) {
+  values.rowwise() -= values.colwise().mean().eval();
+  return values;
 }
 
 /// Sums over rows, from which means and covariances follow.
@@ -51,73 +58,103 @@ struct Sums {
   }
 };
 
-MatrixXd readings_of(Ensemble const& ensemble, Sites sites, Index first, Index rows) {
-  MatrixXd readings(rows, Index(sites.size()));
+MatrixXd readings_of(Ensemble const& ensemble, Sites sites, Rows rows) {
+  MatrixXd readings(rows.count, Index(sites.size()));
   for (std::size_t s = 0; s < sites.size(); ++s)
-    readings.col(Index(s)) = ensemble.rise.col(sites[s]).segment(first, rows);
+    readings.col(Index(s)) = ensemble.rise.col(sites[s]).segment(rows.first, rows.count);
   return readings;
 }
 
-Sums sums_of(Ensemble const& ensemble, Sites sites, Index first, Index rows) {
-  return {readings_of(ensemble, sites, first, rows), ensemble.displacement.middleRows(first, rows)};
+Sums sums_of(Ensemble const& ensemble, Sites sites, Rows rows) {
+  return {readings_of(ensemble, sites, rows), ensemble.displacement.middleRows(rows.first, rows.count)};
 }
 
 /// Mean square per channel over some rows.
-RowVectorXd error_on_rows(Ensemble const& ensemble, LinearEstimate const& estimate, double noise_variance, Index first,
-                          Index rows) {
-  MatrixXd const rise = readings_of(ensemble, estimate.sites, first, rows).rowwise() - estimate.mean_reading;
+RowVectorXd error_on_rows(Ensemble const& ensemble, LinearEstimate const& estimate, double noise_variance, Rows rows) {
+  MatrixXd const rise = readings_of(ensemble, estimate.sites, rows).rowwise() - estimate.mean_reading;
   MatrixXd const error =
-      (ensemble.displacement.middleRows(first, rows).rowwise() - estimate.mean_displacement) - rise * estimate.weights;
-  return error.colwise().squaredNorm() / double(rows) + noise_variance * estimate.weights.colwise().squaredNorm();
+      (ensemble.displacement.middleRows(rows.first, rows.count).rowwise() - estimate.mean_displacement) -
+      rise * estimate.weights;
+  return error.colwise().squaredNorm() / double(rows.count) + noise_variance * estimate.weights.colwise().squaredNorm();
 }
 
 /// Adds the errors of one member to those of all.
 class ErrorSum {
  public:
   explicit ErrorSum(Ensemble const& ensemble)
-      : sum_(Eigen::VectorXd::Zero(ensemble.displacement.cols())), members_(members_of(ensemble)) {}
+      : ensemble_(ensemble),
+        sum_(Eigen::VectorXd::Zero(ensemble.displacement.cols())),
+        members_(Eigen::VectorXd::Zero(members_of(ensemble))) {}
 
-  void add(int member, RowVectorXd const& mean_square, Index rows) {
-    sum_ += double(rows) * mean_square.transpose();
-    rows_ += double(rows);
-    members_[member] = mean_square.sum();
+  /// Of some rows of a member.
+  void add(int member, RowVectorXd const& mean_square, Rows rows) {
+    sum_ += double(rows.count) * mean_square.transpose();
+    rows_ += double(rows.count);
+    members_[member] += mean_square.sum() * double(rows.count) / double(rows_of(ensemble_, member).count);
   }
   [[nodiscard]] EstimateError result() const { return {sum_ / rows_, members_}; }
 
  private:
+  Ensemble const& ensemble_;
   Eigen::VectorXd sum_, members_;
   double rows_ = 0.0;
 };
 
+/// Every run of every member by what its other runs teach.
+EstimateError by_other_runs(Ensemble const& ensemble, Sites sites, double noise_variance) {
+  ErrorSum sum(ensemble);
+  for (auto const& run : ensemble.runs) {
+    Rows const rows{run.first, run.rows};
+    Sums others = sums_of(ensemble, sites, rows_of(ensemble, run.member));
+    others -= sums_of(ensemble, sites, rows);
+    auto const estimate = others.estimate(sites, noise_variance);
+    sum.add(run.member, error_on_rows(ensemble, estimate, noise_variance, rows), rows);
+  }
+  return sum.result();
+}
+
+std::vector<Rows> groups_of(Ensemble const& ensemble, Teacher teacher) {
+  if (teacher == Teacher::family) return {{0, ensemble.rise.rows()}};
+  std::vector<Rows> groups;
+  for (int member = 0; member < members_of(ensemble); ++member) groups.push_back(rows_of(ensemble, member));
+  return groups;
+}
+
 }  // namespace
 
-SnapshotMoments::SnapshotMoments(Ensemble const& ensemble, double noise) : ensemble_(&ensemble), noise_(noise) {}
+SnapshotMoments::SnapshotMoments(Ensemble const& ensemble, double noise, Teacher teacher)
+    : ensemble_(&ensemble), noise_(noise), teacher_(teacher), groups_(groups_of(ensemble, teacher)) {
+  if (teacher == Teacher::machine && ensemble.runs.size() < 2 * groups_.size())
+    throw thermal::InputError(
+        "a model that is trained on the machine itself needs two spectra at least: one to train on, one to judge by");
+}
 
 models::PlacementProblem SnapshotMoments::problem(Index sites) const {
-  auto const rows = double(ensemble_->rise.rows());
-  MatrixXd const x = ensemble_->rise.leftCols(sites).rowwise() - ensemble_->rise.leftCols(sites).colwise().mean();
-  MatrixXd const y = ensemble_->displacement.rowwise() - ensemble_->displacement.colwise().mean();
   models::PlacementProblem problem;
-  problem.readings = x.transpose() * x / rows;
-  problem.cross = x.transpose() * y / rows;
-  problem.prior = y.squaredNorm() / rows;
+  for (auto const& [first, count] : groups_) {
+    MatrixXd const x = centred(ensemble_->rise.middleRows(first, count).leftCols(sites));
+    MatrixXd const y = centred(ensemble_->displacement.middleRows(first, count));
+    problem.worlds.push_back(
+        {x.transpose() * x / double(count), x.transpose() * y / double(count), y.squaredNorm() / double(count)});
+  }
   problem.noise = Eigen::VectorXd::Constant(sites, noise_variance());
   return problem;
 }
 
 LinearEstimate SnapshotMoments::estimate(Sites sites) const {
-  return sums_of(*ensemble_, sites, 0, ensemble_->rise.rows()).estimate(sites, noise_variance());
+  return sums_of(*ensemble_, sites, {0, ensemble_->rise.rows()}).estimate(sites, noise_variance());
 }
 
 EstimateError SnapshotMoments::cross_validated(Sites sites) const {
-  Sums const all = sums_of(*ensemble_, sites, 0, ensemble_->rise.rows());
+  if (teacher_ == Teacher::machine) return by_other_runs(*ensemble_, sites, noise_variance());
+  Sums const all = sums_of(*ensemble_, sites, {0, ensemble_->rise.rows()});
   ErrorSum sum(*ensemble_);
   for (int member = 0; member < members_of(*ensemble_); ++member) {
-    auto const [first, rows] = rows_of(*ensemble_, member);
+    auto const rows = rows_of(*ensemble_, member);
     Sums others = all;
-    others -= sums_of(*ensemble_, sites, first, rows);
+    others -= sums_of(*ensemble_, sites, rows);
     auto const estimate = others.estimate(sites, noise_variance());
-    sum.add(member, error_on_rows(*ensemble_, estimate, noise_variance(), first, rows), rows);
+    sum.add(member, error_on_rows(*ensemble_, estimate, noise_variance(), rows), rows);
   }
   return sum.result();
 }
@@ -125,10 +162,15 @@ EstimateError SnapshotMoments::cross_validated(Sites sites) const {
 EstimateError error_on(Ensemble const& ensemble, LinearEstimate const& estimate, double noise_variance) {
   ErrorSum sum(ensemble);
   for (int member = 0; member < members_of(ensemble); ++member) {
-    auto const [first, rows] = rows_of(ensemble, member);
-    sum.add(member, error_on_rows(ensemble, estimate, noise_variance, first, rows), rows);
+    auto const rows = rows_of(ensemble, member);
+    sum.add(member, error_on_rows(ensemble, estimate, noise_variance, rows), rows);
   }
   return sum.result();
+}
+
+EstimateError SnapshotMoments::unseen(Ensemble const& others, Sites sites) const {
+  if (teacher_ == Teacher::family) return error_on(others, estimate(sites), noise_variance());
+  return SnapshotMoments(others, noise_, teacher_).cross_validated(sites);
 }
 
 }  // namespace thermotwin::twin

@@ -25,23 +25,43 @@ struct EstimateError {
   Eigen::VectorXd of_members;   ///< per member of the ensemble, all channels together [µm²]
 };
 
-/// Means and covariances of readings and displacements over an ensemble, member by member, so that one can be left out.
+/// What teaches the estimate that makes displacements of readings.
+enum class Teacher {
+  family,   ///< all machines that the file could stand for: one estimate, before the machine is there
+  machine,  ///< the machine itself, whose displacements are measured during some runs: each has its own estimate
+};
+
+/// Rows of an ensemble that follow one another.
+struct Rows {
+  Eigen::Index first = 0, count = 0;
+};
+
+/// Means and covariances of readings and displacements over an ensemble, part by part, so that one can be left out.
 class SnapshotMoments {
  public:
-  /// `noise`: standard deviation of each sensor's own error [K].
-  SnapshotMoments(Ensemble const& ensemble, double noise);
+  /// `noise`: standard deviation of each sensor's own error [K]. InputError for machines that shall teach themselves,
+  /// but have fewer than two runs: one to teach, one to judge by.
+  SnapshotMoments(Ensemble const& ensemble, double noise, Teacher teacher = Teacher::family);
 
-  /// Of the first `sites` sites.
+  /// Of the first `sites` sites; a world per group.
   [[nodiscard]] models::PlacementProblem problem(Eigen::Index sites) const;
+  /// Taught by all rows.
   [[nodiscard]] LinearEstimate estimate(std::span<Eigen::Index const> sites) const;
-  /// What each member's displacements would have been estimated to be from all the others' moments: the variance to be
-  /// expected on a machine and a spectrum that took no part.
+  /// Of the family: what each member's displacements would have been estimated to be from all the others' moments; of
+  /// machines: each run's from the other runs of the same member. It is the variance to be expected on a machine and a
+  /// spectrum that took no part.
   [[nodiscard]] EstimateError cross_validated(std::span<Eigen::Index const> sites) const;
+  /// What estimates taught by this family, or by those machines themselves, leave on machines that took no part.
+  [[nodiscard]] EstimateError unseen(Ensemble const& others, std::span<Eigen::Index const> sites) const;
   [[nodiscard]] double noise_variance() const { return noise_ * noise_; }
+  /// Rows that share an estimate: all, or those of each member.
+  [[nodiscard]] std::vector<Rows> const& groups() const { return groups_; }
 
  private:
   Ensemble const* ensemble_;
   double noise_;
+  Teacher teacher_;
+  std::vector<Rows> groups_;
 };
 
 /// Of an estimate on any ensemble with the same sites.
