@@ -97,6 +97,33 @@ struct Regression {
   }
 };
 
+/// The twin starts from a file whose numbers are wrong, is calibrated on the training run, and then beats what
+/// regressions learn from that run; what its readings err by tells more.
+TEST(Study, TwinIsCalibratedOnTheTrainingRuns) {
+  SmallStudy const study(
+      "title = \"x\"\nseeds = 5\nselections = [\"all\"]\n"
+      "models = [\"linear\", \"twin\", \"twin ridge\"]\n" +
+      world);
+  auto const report = study.report();
+  auto const mean = [&](std::string const& name) { return interval(row(report, name).figures.at("cross.rmse")).mean; };
+  EXPECT_LT(mean("all + twin"), 1.0);
+  EXPECT_LT(mean("all + twin"), mean("all + linear"));
+  EXPECT_LT(mean("all + twin ridge"), mean("all + linear"));
+  EXPECT_GT(mean("all + twin"), 0.0);  // it does not know the truth
+  EXPECT_EQ(row(report, "all + twin").sensors.size(), 3U);
+}
+
+/// What the study adds to the machine, the twin lacks: no number of its file stands for a heater on the head.
+TEST(Study, TwinLacksWhatTheStudyAdds) {
+  std::string const twin_only = "title = \"x\"\nseeds = 5\nselections = [\"all\"]\nmodels = [\"twin\"]\n" + world;
+  SmallStudy const heated(twin_only +
+                          "add = '''\n[[heat]]\nname = \"heater\"\nat = \"head_front\"\npower = \"150 W\"\n'''\n");
+  auto const error = [](SmallStudy const& study) {
+    return interval(row(study.report(), "all + twin").figures.at("cross.rmse")).mean;
+  };
+  EXPECT_GT(error(heated), 3.0 * error(SmallStudy(twin_only)));
+}
+
 TEST(Study, FiguresAreThoseOfLeastSquaresByHand) {
   SmallStudy const study;
   auto const report = study.report();

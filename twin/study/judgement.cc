@@ -53,6 +53,17 @@ void put_spread(Named& figures, std::string const& name, VectorXd const& values)
   figures[name + ".most"] = values.maxCoeff();
 }
 
+/// The twin's answer is all: every reading counts nothing.
+models::ErrorModel nothing_more(models::Batch const& batch) {
+  models::LinearForm form;
+  form.coefficients = Eigen::MatrixXd::Zero(Index(batch.sensors.size()), 1);
+  models::ErrorModel model;
+  model.method = "twin";
+  model.inputs = batch.sensors;
+  model.form = form;
+  return model;
+}
+
 /// Models of single runs.
 void put_statistics(Named& figures, std::vector<Answer> const& fits,
                     std::vector<std::vector<VectorXd>> const& predictions) {
@@ -93,15 +104,16 @@ void put_statistics(Named& figures, Answer const& fit, std::vector<VectorXd> con
 
 }  // namespace
 
-Fit fit_model(models::ModelMethod const& method, Question const& question, std::vector<Index> const& columns,
+Fit fit_model(NamedModel const& named, Question const& question, std::vector<Index> const& columns,
               std::uint64_t seed) {
   std::vector<Index> own;
   for (auto const column : columns)
     own.push_back(std::find(question.columns.begin(), question.columns.end(), column) - question.columns.begin());
   std::vector<models::Batch> batches;
   for (auto const& batch : question.training) batches.push_back(models::with_sensors(batch, own));
+  if (named.method.empty()) return {nothing_more(batches.front()), ""};
   try {
-    return {method.fit(batches, {.seed = seed}), ""};
+    return {models::model_method(named.method).fit(batches, {.seed = seed}), ""};
   } catch (std::invalid_argument const& error) {
     return {{}, error.what()};
   }
@@ -115,7 +127,9 @@ Named judged(std::vector<Answer> const& fits, std::vector<Answer> const& validat
     for (auto const& [question, model] : *answers) {
       auto& own = predictions.emplace_back();
       for (auto const& asked : question->asked) {
-        own.push_back(claimed(model->predict(asked.batch), asked, model->unclaimed_instants()));
+        VectorXd const answer = model->predict(asked.batch);
+        VectorXd const whole = asked.said_by_twin.size() > 0 ? VectorXd(asked.said_by_twin + answer) : answer;
+        own.push_back(claimed(whole, asked, model->unclaimed_instants()));
         pools[asked.role].add(claimed(asked.truth, asked, model->unclaimed_instants()), own.back());
       }
     }

@@ -15,9 +15,9 @@ struct Fit {
   std::string refused;  ///< empty if it was fitted
 };
 
-/// On the question's sensors `columns` (of the world's, ascending).
-[[nodiscard]] Fit fit_model(models::ModelMethod const& method, Question const& question,
-                            std::vector<Eigen::Index> const& columns, std::uint64_t seed);
+/// On the question's sensors `columns` (of the world's, ascending). The twin alone adds nothing to what it says.
+[[nodiscard]] Fit fit_model(NamedModel const& named, Question const& question, std::vector<Eigen::Index> const& columns,
+                            std::uint64_t seed);
 
 /// A question and the model that answers it.
 struct Answer {

@@ -14,7 +14,9 @@ using models::Batch;
 
 Eigen::VectorXd const& truth_of(StudyRun const& run) { return run.truth ? run.truth->error : run.seen.error; }
 
-Asked whole(StudyRun const& run, Role role) { return {role, run.seen, truth_of(run), 0, run.seen.time.size()}; }
+Asked whole(StudyRun const& run, Role role, std::size_t number) {
+  return {role, run.seen, truth_of(run), 0, run.seen.time.size(), number};
+}
 
 bool moves(std::vector<Batch> const& batches, Index column) {
   return std::any_of(batches.begin(), batches.end(), [&](Batch const& batch) {
@@ -30,7 +32,9 @@ class QuestionWriter {
   Questions write(int folds);
 
  private:
-  void add(std::vector<Question>& to, std::string name, std::vector<Batch> training, std::vector<Asked> asked);
+  void add(std::vector<Question>& to, std::string name, std::vector<Batch> training, std::vector<Asked> asked,
+           std::vector<std::size_t> runs = {});
+  void ask_tests(std::vector<Asked>& asked) const;
   void together();
   void split_run();
   void each();
@@ -45,8 +49,8 @@ class QuestionWriter {
 };
 
 void QuestionWriter::add(std::vector<Question>& to, std::string name, std::vector<Batch> training,
-                         std::vector<Asked> asked) {
-  Question question{std::move(name), {}, {}, std::move(asked)};
+                         std::vector<Asked> asked, std::vector<std::size_t> runs) {
+  Question question{std::move(name), {}, {}, std::move(asked), std::move(runs)};
   auto const& sensors = training.front().sensors;
   for (std::size_t j = 0; j < sensors.size(); ++j)
     if (moves(training, Index(j)))
@@ -75,25 +79,31 @@ void QuestionWriter::split_run() {
       {{Role::self, run.seen, truth_of(run), 0, row}, {Role::cross, run.seen, truth_of(run), row, rows - row}});
 }
 
+void QuestionWriter::ask_tests(std::vector<Asked>& asked) const {
+  for (std::size_t k = 0; k < test_.size(); ++k) asked.push_back(whole(test_[k], Role::cross, train_.size() + k));
+}
+
 void QuestionWriter::together() {
   std::vector<Batch> training;
   std::vector<Asked> asked;
-  for (auto const& run : train_) {
-    training.push_back(run.seen);
-    asked.push_back(whole(run, Role::self));
+  std::vector<std::size_t> runs;
+  for (std::size_t k = 0; k < train_.size(); ++k) {
+    training.push_back(train_[k].seen);
+    asked.push_back(whole(train_[k], Role::self, k));
+    runs.push_back(k);
   }
-  for (auto const& run : test_) asked.push_back(whole(run, Role::cross));
+  ask_tests(asked);
   add(questions_.fits, train_.size() == 1 ? train_.front().seen.name : "the training runs", std::move(training),
-      std::move(asked));
+      std::move(asked), std::move(runs));
 }
 
 void QuestionWriter::each() {
   for (std::size_t l = 0; l < train_.size(); ++l) {
     std::vector<Asked> asked;
     for (std::size_t k = 0; k < train_.size(); ++k)
-      asked.push_back(whole(train_[k], k == l ? Role::self : Role::cross));
-    for (auto const& run : test_) asked.push_back(whole(run, Role::cross));
-    add(questions_.fits, train_[l].seen.name, {train_[l].seen}, std::move(asked));
+      asked.push_back(whole(train_[k], k == l ? Role::self : Role::cross, k));
+    ask_tests(asked);
+    add(questions_.fits, train_[l].seen.name, {train_[l].seen}, std::move(asked), {l});
   }
 }
 
@@ -113,13 +123,18 @@ void QuestionWriter::folds_of_runs(int folds) {
   for (auto const& fold : models::contiguous_folds(runs, std::min(folds, int(runs)))) {
     std::vector<Batch> training;
     std::vector<Asked> asked;
-    for (Index k = 0; k < runs; ++k)
-      if (k >= fold.first && k < fold.first + fold.count)
-        asked.push_back(whole(train_[std::size_t(k)], Role::validation));
-      else
-        training.push_back(train_[std::size_t(k)].seen);
+    std::vector<std::size_t> used;
+    for (Index k = 0; k < runs; ++k) {
+      auto const number = std::size_t(k);
+      if (k >= fold.first && k < fold.first + fold.count) {
+        asked.push_back(whole(train_[number], Role::validation, number));
+      } else {
+        training.push_back(train_[number].seen);
+        used.push_back(number);
+      }
+    }
     auto const name = fmt::format("the training runs without {}", asked.front().batch.name);
-    add(questions_.validations, name, std::move(training), std::move(asked));
+    add(questions_.validations, name, std::move(training), std::move(asked), std::move(used));
   }
 }
 

@@ -18,6 +18,8 @@ struct Asked {
   models::Batch batch;                ///< the whole run: lags may reach back before the stretch
   Eigen::VectorXd truth;              ///< of the whole run: true errors, measured ones where these are not known
   Eigen::Index first = 0, count = 0;  ///< rows of the stretch
+  std::size_t run = 0;                ///< of the world: those of 'train', then those of 'test'
+  Eigen::VectorXd said_by_twin{};     ///< of the whole run: what the model's answer is added to; empty: nothing
 };
 
 /// A training set, and what its models are asked.
@@ -26,6 +28,7 @@ struct Question {
   std::vector<models::Batch> training;  ///< the world's sensors that move in it
   std::vector<Eigen::Index> columns;    ///< these sensors, as columns of the world's
   std::vector<Asked> asked;
+  std::vector<std::size_t> runs;  ///< of 'train', in the order of `training`; empty where only parts of runs train
 };
 
 /// The questions of one repetition of a world: one, or one per run of 'train' (fit = "each"); then those of the

@@ -9,6 +9,7 @@
 #include "twin/study/choice.h"
 #include "twin/study/judgement.h"
 #include "twin/study/parallel.h"
+#include "twin/study/study_twin.h"
 #include "twin/study/verdict.h"
 
 namespace thermotwin::twin {
@@ -24,6 +25,12 @@ struct Repetition {
   std::vector<Question const*> all;                       ///< fits, then validations
   std::vector<std::vector<Choice>> choices;               ///< per question, per selection
   std::vector<std::vector<std::map<Columns, Fit>>> fits;  ///< per question, per model
+  std::vector<Question> less_twin;                        ///< what a model beside a twin is asked, if any is
+  std::vector<std::string> twin_refused;                  ///< per question; empty: it was calibrated
+
+  [[nodiscard]] Question const& asked(std::size_t question, NamedModel const& model) const {
+    return model.twin ? less_twin[question] : *all[question];
+  }
 };
 
 class StudyRunner {
@@ -31,7 +38,7 @@ class StudyRunner {
   StudyRunner(Study const& study, StudyOptions const& options) : study_(study.description), options_(options) {
     worlds_ = study_data(study, progress("runs"), options.stop);
     for (auto const& name : study_.selections) selections_.push_back(named_selection(name));
-    for (auto const& name : study_.models) models_.push_back(&models::model_method(name));
+    for (auto const& name : study_.models) models_.push_back(named_model(name));
   }
   StudyReport run();
 
@@ -39,6 +46,7 @@ class StudyRunner {
   [[nodiscard]] std::function<void(double)> progress(std::string what) const;
   void ask();
   void choose_all();
+  void calibrate_twins();
   void fit_all();
   void judge_selections(StudyReport& report);
   void judge_combinations(StudyReport& report);
@@ -56,7 +64,7 @@ class StudyRunner {
   StudyOptions const& options_;
   std::vector<WorldData> worlds_;
   std::vector<NamedSelection> selections_;
-  std::vector<models::ModelMethod const*> models_;
+  std::vector<NamedModel> models_;
   std::vector<Repetition> repetitions_;
   std::vector<SelectionTruth> truths_;
 };
@@ -70,7 +78,7 @@ void StudyRunner::ask() {
   for (std::size_t w = 0; w < worlds_.size(); ++w)
     for (int r = 0; r < worlds_[w].repetitions(); ++r) {
       try {
-        repetitions_.push_back({w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}});
+        repetitions_.push_back({w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}, {}, {}});
       } catch (thermal::InputError const& error) {
         throw thermal::InputError(fmt::format("world '{}': {}", study_.worlds[w].name, error.what()));
       }
@@ -99,6 +107,27 @@ void StudyRunner::choose_all() {
   });
 }
 
+void StudyRunner::calibrate_twins() {
+  if (std::none_of(models_.begin(), models_.end(), [](auto const& model) { return model.twin; })) return;
+  struct Task {
+    Repetition* repetition;
+    std::size_t question;
+  };
+  std::vector<Task> tasks;
+  for (auto& repetition : repetitions_) {
+    repetition.less_twin.resize(repetition.all.size());
+    repetition.twin_refused.resize(repetition.all.size());
+    for (std::size_t q = 0; q < repetition.all.size(); ++q) tasks.push_back({&repetition, q});
+  }
+  in_parallel(tasks.size(), progress("twins"), options_.stop, [&](std::size_t i) {
+    auto const& [repetition, q] = tasks[i];
+    auto const twin = twin_courses(study_.worlds[repetition->world], worlds_[repetition->world], repetition->number,
+                                   *repetition->all[q]);
+    repetition->twin_refused[q] = twin.refused;
+    if (twin.refused.empty()) repetition->less_twin[q] = less_twin(*repetition->all[q], twin);
+  });
+}
+
 void StudyRunner::fit_all() {
   struct Task {
     Repetition* repetition;
@@ -118,8 +147,12 @@ void StudyRunner::fit_all() {
       }
   in_parallel(tasks.size(), progress("models"), options_.stop, [&](std::size_t i) {
     auto const& task = tasks[i];
-    *task.fit =
-        fit_model(*models_[task.model], *task.repetition->all[task.question], *task.columns, seed_of(*task.repetition));
+    auto const& repetition = *task.repetition;
+    auto const& model = models_[task.model];
+    if (model.twin && !repetition.twin_refused[task.question].empty())
+      *task.fit = {{}, repetition.twin_refused[task.question]};
+    else
+      *task.fit = fit_model(model, repetition.asked(task.question, model), *task.columns, seed_of(repetition));
   });
 }
 
@@ -132,7 +165,8 @@ std::string StudyRunner::answers_of(Repetition const& repetition, std::size_t se
     if (!choice.refused.empty()) return prefix + choice.refused;
     auto const& fit = repetition.fits[q][model].at(choice.columns);
     if (!fit.refused.empty()) return prefix + fit.refused;
-    (q < repetition.questions.fits.size() ? fits : validations).push_back({repetition.all[q], &fit.model});
+    (q < repetition.questions.fits.size() ? fits : validations)
+        .push_back({&repetition.asked(q, models_[model]), &fit.model});
   }
   return {};
 }
@@ -146,7 +180,7 @@ Combination StudyRunner::combination(std::size_t world, std::size_t selection, s
     if (!row.refused.empty()) break;
     try {
       auto figures = judged(fits, validations, study_.worlds[world].train.size());
-      if (!study_.worlds[world].instants.empty() && fits.size() == 1)
+      if (!study_.worlds[world].instants.empty() && fits.size() == 1 && !models_[model].twin)
         figures.merge(judged_instants(study_.worlds[world], worlds_[world], repetition.number, *fits.front().model));
       for (auto const& [name, value] : figures) row.figures[name].push_back(value);
     } catch (std::invalid_argument const& error) {
@@ -254,6 +288,7 @@ StudyReport StudyRunner::run() {
   report.description = study_;
   ask();
   choose_all();
+  calibrate_twins();
   fit_all();
   judge_selections(report);
   judge_combinations(report);

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "thermal/nearest_name.h"
-#include "twin/study/study_runs.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -36,13 +35,16 @@ struct View {
 class WorldReader {
  public:
   WorldReader(StudyWorld const& world, WorldRuns const& runs) : world_(world), runs_(runs) {}
+  WorldReader(StudyWorld const& world, WorldData const& data) : WorldReader(world, *data.runs) {
+    data_.sensors = data.sensors;
+  }
   WorldData read();
+  [[nodiscard]] StudyRun run_of(output::Dataset const& data, std::string const& name) const;
 
  private:
   [[nodiscard]] std::vector<std::string> candidates() const;
   void leave_out(std::string const& sensor, std::string const& why);
   void check_sensors();
-  [[nodiscard]] StudyRun run_of(output::Dataset const& data, std::string const& name) const;
   [[nodiscard]] models::Batch batch(View const& view, Eigen::VectorXd const& time, std::string const& name) const;
   [[nodiscard]] models::AxisRecord record(View const& readings, View const& errors, Eigen::VectorXd const& time,
                                           std::string const& name) const;
@@ -180,14 +182,20 @@ WorldData WorldReader::read() {
 
 }  // namespace
 
+models::Batch true_batch(StudyWorld const& world, WorldData const& data, output::Dataset const& dataset) {
+  return WorldReader(world, data).run_of(dataset, "the twin").truth.value();
+}
+
 std::vector<WorldData> study_data(Study const& study, std::function<void(double)> const& progress,
                                   std::atomic<bool> const* stop) {
-  auto const runs = study_runs(study, progress, stop);
+  auto runs = study_runs(study, progress, stop);
   std::vector<WorldData> worlds;
   for (std::size_t w = 0; w < runs.size(); ++w) {
     auto const& world = study.description.worlds[w];
     try {
-      worlds.push_back(WorldReader(world, runs[w]).read());
+      auto const kept = std::make_shared<WorldRuns const>(std::move(runs[w]));
+      worlds.push_back(WorldReader(world, *kept).read());
+      worlds.back().runs = kept;
     } catch (std::invalid_argument const& error) {
       throw thermal::InputError(fmt::format("world '{}': {}", world.name, error.what()));
     } catch (thermal::InputError const& error) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "models/batch.h"
 #include "models/feed_axis.h"
 #include "twin/study/study_file.h"
+#include "twin/study/study_runs.h"
 
 namespace thermotwin::twin {
 
@@ -31,10 +33,14 @@ struct WorldData {
   Eigen::MatrixXd mode_shapes;                     ///< of the sensors, for "thermal_modes"; empty: `no_modes` says why
   std::string no_modes;
   std::vector<std::string> remarks;
+  std::shared_ptr<WorldRuns const> runs;  ///< what all of it was read from
 
   [[nodiscard]] int repetitions() const { return static_cast<int>(train.size()); }
   [[nodiscard]] bool simulated() const { return train.front().front().truth.has_value(); }
 };
+
+/// What models get to see of a simulated data set, without noise: the world's sensors, and its error.
+[[nodiscard]] models::Batch true_batch(StudyWorld const& world, WorldData const& data, output::Dataset const& dataset);
 
 /// Simulates or reads every run of the study, each data set once, however many worlds use it. Repetition r of the d-th
 /// of D different runs has the seed 1 + d + D r: independent noise everywhere, the same in every world.

@@ -101,7 +101,7 @@ Value::List const& tables(Value const& document, std::string const& key) {
 
 void check_study(Value const& document, StudyDescription const& study) {
   check_items(document, "selections", study.selections, [](auto const& text) { (void)named_selection(text); });
-  check_items(document, "models", study.models, [](auto const& name) { (void)models::model_method(name); });
+  check_items(document, "models", study.models, [](auto const& name) { (void)named_model(name); });
   if (study.worlds.empty()) throw FileError(document.where, "the study has no [[world]]");
   std::vector<std::string> names, combinations;
   for (std::size_t w = 0; w < study.worlds.size(); ++w) {
@@ -134,6 +134,13 @@ NamedSelection named_selection(std::string const& text) {
   if (selection.name == "all") throw thermal::InputError(fmt::format("'{}': all sensors have no number", text));
   selection.count = count;
   return selection;
+}
+
+NamedModel named_model(std::string const& text) {
+  bool const twin = text == "twin" || text.starts_with("twin ");
+  NamedModel model{twin, twin ? text.substr(std::min<std::size_t>(5, text.size())) : text};
+  if (!twin || !model.method.empty()) (void)models::model_method(model.method);
+  return model;
 }
 
 Study read_study(std::filesystem::path const& file) {

@@ -17,6 +17,16 @@ struct NamedSelection {
 /// InputError for an unknown method, with the nearest; for a count that is no number from 1 on; for "all" with one.
 [[nodiscard]] NamedSelection named_selection(std::string const& text);
 
+/// "ridge", "twin", or "twin ridge": a method on the readings; the calibrated twin (study_twin.h), driven by the
+/// inputs; a method that learns from the readings what the twin does not know.
+struct NamedModel {
+  bool twin = false;
+  std::string method;  ///< of models::model_methods(); empty: the twin alone
+};
+
+/// std::invalid_argument for an unknown method, with the nearest.
+[[nodiscard]] NamedModel named_model(std::string const& text);
+
 /// A study file as its author wrote it.
 struct Study {
   StudyDescription description;

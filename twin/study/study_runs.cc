@@ -41,10 +41,13 @@ Source source_of(std::string const& name, fs::path const& directory) {
   return {experiment_file(name), false};
 }
 
-Value changed_machine(StudyWorld const& world, fs::path const& directory) {
+Value nominal_machine(StudyWorld const& world, fs::path const& directory) {
   fs::path const given = world.machine;
   bool const beside = given.extension() == ".toml" && fs::exists(directory / given);
-  Value document = read_toml(beside ? directory / given : machine_file(world.machine));
+  return read_toml(beside ? directory / given : machine_file(world.machine));
+}
+
+Value changed_machine(StudyWorld const& world, Value document) {
   for (auto const& change : world.changes) {
     auto const equals = change.find('=');
     if (equals == std::string::npos)
@@ -63,6 +66,7 @@ Value changed_machine(StudyWorld const& world, fs::path const& directory) {
 /// What a world asks for: the machine and the runs, by file.
 struct Order {
   StudyWorld const* world;
+  Value nominal;
   Machine machine;
   std::vector<Source> sources;
 };
@@ -81,7 +85,8 @@ auto about(StudyWorld const& world, Action action) {
 
 Order order_of(StudyWorld const& world, fs::path const& directory) {
   return about(world, [&] {
-    Order order{&world, Machine::build(changed_machine(world, directory)), {}};
+    Value const nominal = nominal_machine(world, directory);
+    Order order{&world, nominal, Machine::build(changed_machine(world, nominal)), {}};
     for (auto const* list : {&world.train, &world.test})
       for (auto const& name : *list) order.sources.push_back(source_of(name, directory));
     return order;
@@ -178,8 +183,10 @@ std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)
 
   std::vector<WorldRuns> worlds;
   for (std::size_t w = 0; w < orders.size(); ++w) {
-    WorldRuns runs{orders[w].machine, {}, {}, {}};
+    WorldRuns runs{orders[w].machine, {}, {}, {}, orders[w].nominal, {}};
     find_modes(orders[w], runs);
+    for (auto const& source : orders[w].sources)
+      runs.experiments.push_back(source.measured ? std::nullopt : std::optional(experiment_of(orders[w], source)));
     for (auto const& repetition : used[w]) {
       auto& sets = runs.runs.emplace_back();
       for (auto const j : repetition)

@@ -2,10 +2,13 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "output/dataset.h"
+#include "scenarios/experiment.h"
+#include "twin/file/value.h"
 #include "twin/machine.h"
 #include "twin/study/study_file.h"
 
@@ -17,6 +20,8 @@ struct WorldRuns {
   std::vector<std::vector<output::Dataset>> runs;  ///< per repetition: those of 'train', then those of 'test'
   Eigen::MatrixXd mode_shapes;                     ///< all sensors of the machine × modes; empty: `no_modes` says why
   std::string no_modes;
+  Value nominal;                                                  ///< the machine's document without changes
+  std::vector<std::optional<scenarios::Experiment>> experiments;  ///< of each run; none where it was measured
 };
 
 /// Simulates and reads, in parallel; see study_data().
