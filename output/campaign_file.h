@@ -55,6 +55,22 @@ void write_part(CampaignLayout const& layout, CampaignPart const& part, std::fil
 /// Runs that failed, and why; thermal::InputError when the file is no part.
 [[nodiscard]] std::vector<std::pair<std::int64_t, std::string>> read_failures(std::filesystem::path const& part);
 
+/// Some runs of a part, read back.
+struct CampaignRuns {
+  std::vector<std::int64_t> run;
+  std::vector<CampaignAxis> axes;
+  std::vector<CampaignVariable> variables;  ///< without their axes
+  std::vector<Eigen::MatrixXd> values;      ///< per variable: run × its numbers, the last axis running fastest
+
+  /// Per run; null: it is not there.
+  [[nodiscard]] Eigen::MatrixXd const* find(std::string const& variable) const;
+};
+
+/// Of the runs whose number is a multiple of `every`, the variables that stand in a group of `groups` or are one:
+/// "parameters", "readings". Nothing else is read. thermal::InputError when the file is no part.
+[[nodiscard]] CampaignRuns read_runs(std::filesystem::path const& part, std::vector<std::string> const& groups,
+                                     std::int64_t every = 1);
+
 /// A file of a part, relative to the index, and the runs in it.
 struct CampaignPartFile {
   std::string file;

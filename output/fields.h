@@ -13,10 +13,10 @@ namespace thermotwin::output {
 
 /// What fields show at one time, per node of the network; nodes beyond the geometry's last (fluids) are not looked at.
 struct Frame {
-  Eigen::VectorXd temperature_degC;
-  Eigen::VectorXd heat_source_W;    ///< made in the node; empty: none
-  Eigen::Matrix3Xd displacement_m;  ///< of the cells' centres; empty: none
-  Eigen::VectorXd sensor_degC;      ///< at the sensors of FieldOptions, in their order
+  Eigen::VectorXd temperature_degC;  ///< of a difference or a residual: in K, NaN where it is not known
+  Eigen::VectorXd heat_source_W;     ///< made in the node; empty: none
+  Eigen::Matrix3Xd displacement_m;   ///< of the cells' centres; empty: none
+  Eigen::VectorXd sensor_degC;       ///< at the sensors of FieldOptions, in their order
 };
 
 struct SensorPlace {
@@ -24,11 +24,19 @@ struct SensorPlace {
   Eigen::Vector3d position_m{0.0, 0.0, 0.0};
 };
 
+/// What the numbers of a series are.
+enum class FieldMeaning {
+  state,       ///< of a machine
+  difference,  ///< of two machines: temperature [K] and displacement
+  residual     ///< of a measurement and a machine: temperature [K]
+};
+
 struct FieldOptions {
   double reference_degC = 20.0;                 ///< temperature_rise_K is counted from here
   std::map<std::string, std::string> metadata;  ///< goes into every file as field data
   std::vector<SensorPlace> sensors{};
   Eigen::Vector3d up{0.0, 0.0, 1.0};
+  FieldMeaning meaning = FieldMeaning::state;
 };
 
 /// A series of fields that ParaView opens: `<directory>/fields.pvd` names the times, `field_0000.vtu`, … hold the
@@ -39,6 +47,11 @@ struct FieldOptions {
 /// Field data: body_names, TimeValue [s], the metadata. Coordinates in metre, in the machine's axes.
 /// Sensors are a second series, `sensors.pvd` with `sensors_0000.vtp`, …: points with temperature_degC and name.
 /// `arranged.pvsm` opens both in ParaView (paraview_state.h), colours and magnification for all frames so far.
+///
+/// A difference has temperature_difference_K (cells and sensors) and displacement_difference_um (cells and points) in
+/// place of temperature, rise, heat and displacement; a residual only temperature_residual_K. A sensor that shows
+/// nothing at a time (NaN) is not among that time's points.
+///
 /// Every file is replaced atomically and the .pvd names only what is there, so that it is readable at any moment.
 class FieldSeries {
  public:
@@ -56,6 +69,7 @@ class FieldSeries {
  private:
   struct Grid;
   void add_sensors(double time_s, Frame const& frame);
+  void widen(Frame const& frame);
   void arrange(Frame const& frame);
 
   std::filesystem::path directory_;

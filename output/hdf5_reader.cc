@@ -4,14 +4,18 @@
 
 #include "output/dataset_file.h"
 #include "output/hdf5_handle.h"
+#include "output/hdf5_reading.h"
 #include "thermal/error.h"
 
 namespace thermotwin::output {
 namespace {
 
-using hdf5::any_text_type;
 using hdf5::expect;
 using hdf5::Handle;
+using hdf5::names_in;
+using hdf5::open_variable;
+using hdf5::read_text;
+using hdf5::text_attribute;
 using thermal::InputError;
 using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using RowMajorXf = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -21,43 +25,12 @@ using Shape = std::vector<hsize_t>;
 
 bool has(hid_t group, std::string const& name) { return H5Lexists(group, name.c_str(), H5P_DEFAULT) > 0; }
 
-/// Reads one text; HDF5 has texts of fixed length and others that it allocates.
-template <class ReadInto>
-std::string read_text(hid_t type, ReadInto const& read_into) {
-  if (H5Tget_class(type) != H5T_STRING) return {};
-  if (H5Tis_variable_str(type) > 0) {
-    char* bytes = nullptr;
-    auto const memory_type = any_text_type();
-    expect(read_into(memory_type, &bytes), "text");
-    std::string const text = bytes ? bytes : "";
-    H5free_memory(bytes);
-    return text;
-  }
-  std::string text(H5Tget_size(type), '\0');
-  expect(read_into(type, text.data()), "text");
-  return text.substr(0, text.find('\0'));
-}
-
-std::string read_text_of(hid_t attribute) {
-  Handle const type(H5Aget_type(attribute), H5Tclose, "type");
-  return read_text(type, [&](hid_t as, void* into) { return H5Aread(attribute, as, into); });
-}
-
-std::string text_attribute(hid_t object, char const* name) {
-  if (H5Aexists(object, name) <= 0) return {};
-  return read_text_of(Handle(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, name));
-}
-
 bool is_complete(hid_t root) {
   if (H5Aexists(root, "complete") <= 0) return true;
   int complete = 0;
   Handle const attribute(H5Aopen(root, "complete", H5P_DEFAULT), H5Aclose, "complete");
   expect(H5Aread(attribute, H5T_NATIVE_INT, &complete), "complete");
   return complete != 0;
-}
-
-Handle open_variable(hid_t group, std::string const& name) {
-  return {H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, name};
 }
 
 /// Extents, checked: a variable of another rank is not ours.
@@ -85,20 +58,6 @@ Matrix read_matrix(hid_t group, std::string const& name, hid_t type) {
   Matrix values(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
   expect(H5Dread(variable, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
   return values;
-}
-
-herr_t take_name(hid_t /*group*/, char const* name, H5L_info_t const* /*info*/, void* names) {
-  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
-  return 0;
-}
-
-/// In the order of writing; a file that kept none (another program's) gives the alphabet's.
-std::vector<std::string> names_in(hid_t group) {
-  std::vector<std::string> names;
-  if (H5Literate(group, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, take_name, &names) >= 0) return names;
-  names.clear();
-  expect(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, take_name, &names), "names");
-  return names;
 }
 
 /// The group at a path of one or two steps, if it is there.
@@ -135,16 +94,6 @@ std::vector<Positioning> read_positioning(hid_t root, std::string const& path) {
   return tables;
 }
 
-std::vector<std::string> read_node_names(hid_t group) {
-  auto const variable = open_variable(group, "node");
-  auto const type = any_text_type();
-  std::vector<char*> texts(shape_of(variable, "node", 1)[0]);
-  expect(H5Dread(variable, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), "node");
-  std::vector<std::string> names(texts.begin(), texts.end());
-  for (char* text : texts) H5free_memory(text);
-  return names;
-}
-
 std::map<std::string, std::string> read_provenance(hid_t root) {
   std::map<std::string, std::string> provenance;
   auto const group = find_group(root, "provenance");
@@ -162,7 +111,7 @@ std::map<std::string, std::string> read_provenance(hid_t root) {
                            H5Aclose, "provenance");
     std::string key(static_cast<std::size_t>(H5Aget_name(attribute, 0, nullptr)), '\0');
     H5Aget_name(attribute, key.size() + 1, key.data());
-    provenance[key] = read_text_of(attribute);
+    provenance[key] = hdf5::read_text_of(attribute);
   }
   return provenance;
 }
@@ -184,7 +133,7 @@ Dataset read_all(hid_t root) {
   dataset.provenance = read_provenance(root);
   if (auto const nodes = find_group(root, "nodes")) {
     dataset.node_temperatures = read_matrix<RowMajorXf>(*nodes, "temperature", H5T_NATIVE_FLOAT);
-    dataset.node_names = read_node_names(*nodes);
+    dataset.node_names = hdf5::read_names(*nodes, "node");
   }
   return dataset;
 }

@@ -3,11 +3,14 @@
 #include <Eigen/Core>
 #include <filesystem>
 
+#include "output/fields.h"
+
 namespace thermotwin::output {
 
 /// How ParaView shows a series when it opens the state file (File, Load State).
 struct ParaviewView {
-  double lowest_degC = 20.0, highest_degC = 40.0;  ///< ends of the colours
+  FieldMeaning meaning = FieldMeaning::state;
+  double lowest_degC = 20.0, highest_degC = 40.0;  ///< ends of the colours; of a difference: K
   double magnification = 1000.0;                   ///< of the displacement
   Eigen::Vector3d centre{0.0, 0.0, 0.0};           ///< of the machine [m]
   double size = 1.0;                               ///< its diagonal [m]
@@ -16,8 +19,9 @@ struct ParaviewView {
 };
 
 /// Writes `<directory>/arranged.pvsm`: the fields of FieldSeries deformed and coloured by temperature (viridis), the
-/// sensors as red balls in them. The state names its data by absolute paths; where they were moved, ParaView asks.
-/// Written for ParaView 5.11. Replaced atomically.
+/// sensors as red balls in them; of a difference or residual from blue over white to red, the sensors, too. The state
+/// names its data by absolute paths; where they were moved, ParaView asks. Written for ParaView 5.11. Replaced
+/// atomically.
 void write_paraview_state(std::filesystem::path const& directory, ParaviewView const& view);
 
 }  // namespace thermotwin::output

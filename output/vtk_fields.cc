@@ -41,7 +41,8 @@ namespace {
 
 using thermal::InputError;
 
-constexpr double largest_shown = 0.05;  // displacement, of the machine's diagonal
+constexpr double largest_shown = 0.05;     // displacement, of the machine's diagonal
+constexpr double least_difference = 1e-3;  // K, of the colours' ends
 
 void add_texts(vtkFieldData& data, std::string const& name, std::vector<std::string> const& texts) {
   vtkNew<vtkStringArray> array;
@@ -78,15 +79,17 @@ std::vector<std::string> body_names_of_cells(FieldMesh const& mesh) {
 std::string field_file(std::size_t number) { return fmt::format("field_{:04}.vtu", number); }
 std::string sensor_file(std::size_t number) { return fmt::format("sensors_{:04}.vtp", number); }
 
-std::string as_vtp(std::vector<SensorPlace> const& sensors, Eigen::VectorXd const& temperatures, double time_s) {
+std::string as_vtp(std::vector<SensorPlace> const& sensors, Eigen::VectorXd const& temperatures,
+                   std::string const& name, double time_s) {
   vtkNew<vtkPolyData> data;
   vtkNew<vtkPoints> places;
   places->SetDataTypeToDouble();
   vtkNew<vtkCellArray> dots;
   vtkNew<vtkDoubleArray> values;
-  values->SetName("temperature_degC");
+  values->SetName(name.c_str());
   std::vector<std::string> names;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (!std::isfinite(temperatures[Eigen::Index(i)])) continue;
     vtkIdType const point = places->InsertNextPoint(sensors[i].position_m.data());
     dots->InsertNextCell(1, &point);
     values->InsertNextValue(temperatures[Eigen::Index(i)]);
@@ -204,7 +207,10 @@ FieldSeries::FieldSeries(std::filesystem::path directory, thermal::Geometry cons
 FieldSeries::~FieldSeries() = default;
 
 void FieldSeries::add(double time_s, Frame const& frame) {
-  set_frame(*grid_->cells, grid_->mesh, frame, options_.reference_degC);
+  if (options_.meaning == FieldMeaning::state)
+    set_frame(*grid_->cells, grid_->mesh, frame, options_.reference_degC);
+  else
+    set_difference(*grid_->cells, grid_->mesh, frame, options_.meaning);
   set_time(*grid_->cells->GetFieldData(), time_s);
   write_atomically(directory_ / field_file(times_s_.size()), as_vtu(grid_->cells));
   add_sensors(time_s, frame);
@@ -219,19 +225,30 @@ void FieldSeries::add_sensors(double time_s, Frame const& frame) {
   if (frame.sensor_degC.size() != Eigen::Index(options_.sensors.size()))
     throw InputError(
         fmt::format("a frame has {} temperatures for {} sensors", frame.sensor_degC.size(), options_.sensors.size()));
-  write_atomically(directory_ / sensor_file(times_s_.size()), as_vtp(options_.sensors, frame.sensor_degC, time_s));
+  write_atomically(directory_ / sensor_file(times_s_.size()),
+                   as_vtp(options_.sensors, frame.sensor_degC, field_names(options_.meaning).temperature, time_s));
+}
+
+void FieldSeries::widen(Frame const& frame) {
+  for (double const value : frame.temperature_degC.head(grid_->mesh.n_nodes())) {
+    if (!std::isfinite(value)) continue;
+    lowest_degC_ = std::min(lowest_degC_, value);
+    highest_degC_ = std::max(highest_degC_, value);
+  }
+  if (options_.meaning == FieldMeaning::state) return;
+  highest_degC_ = std::max({highest_degC_, -lowest_degC_, least_difference});
+  lowest_degC_ = -highest_degC_;
 }
 
 void FieldSeries::arrange(Frame const& frame) {
-  auto const shown = frame.temperature_degC.head(grid_->mesh.n_nodes());
-  lowest_degC_ = std::min(lowest_degC_, shown.minCoeff());
-  highest_degC_ = std::max(highest_degC_, shown.maxCoeff());
+  widen(frame);
   if (frame.displacement_m.cols() > 0)
     largest_m_ = std::max(largest_m_, frame.displacement_m.colwise().norm().maxCoeff());
   auto const ticks = round_ticks(lowest_degC_, highest_degC_);
   Eigen::Matrix3Xd const& points = grid_->mesh.points();
   Eigen::Vector3d const low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
   ParaviewView view;
+  view.meaning = options_.meaning;
   view.lowest_degC = ticks.first;
   view.highest_degC = ticks.first + (ticks.count - 1) * ticks.step;
   view.centre = 0.5 * (low + high);

@@ -36,23 +36,24 @@ void add_cell_labels(vtkUnstructuredGrid& grid, FieldMesh const& mesh, char cons
   grid.GetCellData()->AddArray(array);
 }
 
-vtkNew<vtkDoubleArray> displacements(Eigen::Index count) {
+vtkNew<vtkDoubleArray> displacements(std::string const& name, Eigen::Index count) {
   vtkNew<vtkDoubleArray> array;
-  array->SetName("displacement_um");
+  array->SetName(name.c_str());
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(count);
   return array;
 }
 
-void add_displacements(vtkUnstructuredGrid& grid, FieldMesh const& mesh, Eigen::Matrix3Xd const& of_nodes) {
-  auto const of_cells = displacements(static_cast<Eigen::Index>(mesh.elements().size()));
+void add_displacements(vtkUnstructuredGrid& grid, FieldMesh const& mesh, std::string const& name,
+                       Eigen::Matrix3Xd const& of_nodes) {
+  auto const of_cells = displacements(name, static_cast<Eigen::Index>(mesh.elements().size()));
   vtkIdType at = 0;
   for (auto const& element : mesh.elements())
     of_cells->SetTuple(at++, Eigen::Vector3d(um_per_m * of_nodes.col(element.node)).data());
   grid.GetCellData()->AddArray(of_cells);
 
   Eigen::Matrix3Xd const continued = um_per_m * mesh.continued_to_points(of_nodes);
-  auto const of_points = displacements(continued.cols());
+  auto const of_points = displacements(name, continued.cols());
   std::copy(continued.data(), continued.data() + continued.size(), of_points->GetPointer(0));
   grid.GetPointData()->AddArray(of_points);
 }
@@ -92,12 +93,26 @@ void set_frame(vtkUnstructuredGrid& grid, FieldMesh const& mesh, Frame const& fr
   auto const& temperature = frame.temperature_degC;
   bool const has_heat = frame.heat_source_W.size() > 0;
   bool const has_displacement = frame.displacement_m.cols() > 0;
-  add_cell_numbers(grid, mesh, "temperature_degC", [&](int node) { return temperature[node]; });
+  add_cell_numbers(grid, mesh, field_names(FieldMeaning::state).temperature.c_str(),
+                   [&](int node) { return temperature[node]; });
   add_cell_numbers(grid, mesh, "temperature_rise_K", [&](int node) { return temperature[node] - reference_degC; });
   add_cell_numbers(grid, mesh, "heat_source_W_per_m3",
                    [&](int node) { return has_heat ? frame.heat_source_W[node] / mesh.node_volumes()[node] : 0.0; });
-  add_displacements(grid, mesh,
+  add_displacements(grid, mesh, field_names(FieldMeaning::state).displacement,
                     has_displacement ? frame.displacement_m : Eigen::Matrix3Xd::Zero(3, mesh.n_nodes()).eval());
+}
+
+FieldNames field_names(FieldMeaning meaning) {
+  if (meaning == FieldMeaning::state) return {"temperature_degC", "displacement_um"};
+  if (meaning == FieldMeaning::difference) return {"temperature_difference_K", "displacement_difference_um"};
+  return {"temperature_residual_K", ""};
+}
+
+void set_difference(vtkUnstructuredGrid& grid, FieldMesh const& mesh, Frame const& frame, FieldMeaning meaning) {
+  check(frame, mesh.n_nodes());
+  auto const names = field_names(meaning);
+  add_node_numbers(grid, mesh, names.temperature, frame.temperature_degC);
+  if (!names.displacement.empty()) add_displacements(grid, mesh, names.displacement, frame.displacement_m);
 }
 
 void add_node_numbers(vtkUnstructuredGrid& grid, FieldMesh const& mesh, std::string const& name,

@@ -5,6 +5,7 @@
 
 #include "output/atomic_file.h"
 #include "output/paraview_state.h"
+#include "output/vtk_grid.h"
 #include "output/vtk_view.h"
 
 namespace thermotwin::output {
@@ -12,7 +13,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-Eigen::Vector3d const sensor_red(0.86, 0.15, 0.15);
+Eigen::Vector3d const sensor_red(0.86, 0.15, 0.15), unknown_grey(0.75, 0.75, 0.75);
 
 enum Id { fields = 1, deformed, sensors, colours, machine_shown, sensors_shown, view };
 
@@ -59,16 +60,18 @@ std::string escaped(std::string const& path) {
   return text;
 }
 
-Texts viridis_between(double low, double high) {
-  constexpr std::array<std::array<double, 3>, 5> viridis = {{{0.267, 0.005, 0.329},
-                                                             {0.230, 0.322, 0.546},
-                                                             {0.128, 0.567, 0.551},
-                                                             {0.369, 0.789, 0.383},
-                                                             {0.993, 0.906, 0.144}}};
+using Colours = std::vector<std::array<double, 3>>;
+
+Colours const viridis = {
+    {0.267, 0.005, 0.329}, {0.230, 0.322, 0.546}, {0.128, 0.567, 0.551}, {0.369, 0.789, 0.383}, {0.993, 0.906, 0.144}};
+Colours const blue_white_red = {
+    {0.020, 0.188, 0.380}, {0.263, 0.576, 0.765}, {0.969, 0.969, 0.969}, {0.839, 0.376, 0.302}, {0.404, 0.0, 0.122}};
+
+Texts spread(Colours const& colours_of_map, double low, double high) {
   Texts texts;
-  for (std::size_t i = 0; i < viridis.size(); ++i) {
-    texts.push_back(Proxy::number(low + (high - low) * double(i) / double(viridis.size() - 1)));
-    for (double const part : viridis[i]) texts.push_back(Proxy::number(part));
+  for (std::size_t i = 0; i < colours_of_map.size(); ++i) {
+    texts.push_back(Proxy::number(low + (high - low) * double(i) / double(colours_of_map.size() - 1)));
+    for (double const part : colours_of_map[i]) texts.push_back(Proxy::number(part));
   }
   return texts;
 }
@@ -79,32 +82,38 @@ std::string collection(char const* name, std::vector<std::pair<Id, char const*>>
   return text + "</ProxyCollection>\n";
 }
 
-std::string sensor_proxies() {
-  return Proxy("representations", "GeometryRepresentation", sensors_shown)
-      .refer("Input", {sensors})
+bool is_deformed(ParaviewView const& how) { return !field_names(how.meaning).displacement.empty(); }
+
+std::string sensor_proxies(ParaviewView const& how) {
+  Proxy shown("representations", "GeometryRepresentation", sensors_shown);
+  shown.refer("Input", {sensors})
       .set("Representation", "Points")
       .set("PointSize", "14")
-      .set("RenderPointsAsSpheres", "1")
-      .set("AmbientColor", sensor_red)
-      .set("DiffuseColor", sensor_red)
+      .set("RenderPointsAsSpheres", "1");
+  if (how.meaning == FieldMeaning::state)
+    return shown.set("AmbientColor", sensor_red).set("DiffuseColor", sensor_red).text();
+  return shown.set("ColorArrayName", Texts{"", "", "", "0", field_names(how.meaning).temperature})
+      .refer("LookupTable", {colours})
       .text();
 }
 
 std::string shown_proxies(ParaviewView const& how) {
   Eigen::Vector3d const from = axes_of_view(how.up) * Eigen::Vector3d(0.75, -1.0, 0.62).normalized();
   return Proxy("lookup_tables", "PVLookupTable", colours)
-             .set("RGBPoints", viridis_between(how.lowest_degC, how.highest_degC))
+             .set("RGBPoints", spread(how.meaning == FieldMeaning::state ? viridis : blue_white_red, how.lowest_degC,
+                                      how.highest_degC))
              .set("ColorSpace", "0")
+             .set("NanColor", unknown_grey)
              .set("ScalarRangeInitialized", "1")
              .text() +
          Proxy("representations", "UnstructuredGridRepresentation", machine_shown)
-             .refer("Input", {deformed})
+             .refer("Input", {is_deformed(how) ? deformed : fields})
              .set("Representation", "Surface")
              .set("Opacity", "0.45")
-             .set("ColorArrayName", Texts{"", "", "", "1", "temperature_degC"})
+             .set("ColorArrayName", Texts{"", "", "", "1", field_names(how.meaning).temperature})
              .refer("LookupTable", {colours})
              .text() +
-         (how.with_sensors ? sensor_proxies() : std::string()) +
+         (how.with_sensors ? sensor_proxies(how) : std::string()) +
          Proxy("views", "RenderView", view)
              .refer("Representations",
                     how.with_sensors ? std::vector{machine_shown, sensors_shown} : std::vector{machine_shown})
@@ -123,23 +132,26 @@ std::string shown_proxies(ParaviewView const& how) {
 void write_paraview_state(std::filesystem::path const& directory, ParaviewView const& how) {
   auto const path = [&](char const* file) { return escaped(std::filesystem::absolute(directory / file).string()); };
   std::string text = "<ParaView>\n<ServerManagerState version=\"5.11.0\">\n" +
-                     Proxy("sources", "PVDReader", fields).set("FileName", path("fields.pvd")).text() +
-                     Proxy("filters", "WarpVector", deformed)
-                         .refer("Input", {fields})
-                         .set("SelectInputVectors", Texts{"0", "0", "0", "0", "displacement_um"})
-                         .set("ScaleFactor", Proxy::number(1e-6 * how.magnification))
-                         .text();
+                     Proxy("sources", "PVDReader", fields).set("FileName", path("fields.pvd")).text();
+  if (is_deformed(how))
+    text += Proxy("filters", "WarpVector", deformed)
+                .refer("Input", {fields})
+                .set("SelectInputVectors", Texts{"0", "0", "0", "0", field_names(how.meaning).displacement})
+                .set("ScaleFactor", Proxy::number(1e-6 * how.magnification))
+                .text();
   if (how.with_sensors) text += Proxy("sources", "PVDReader", sensors).set("FileName", path("sensors.pvd")).text();
   text += shown_proxies(how);
-  std::vector<std::pair<Id, char const*>> sources = {{fields, "fields"}, {deformed, "deformed"}};
+  std::vector<std::pair<Id, char const*>> sources = {{fields, "fields"}};
+  if (is_deformed(how)) sources.emplace_back(deformed, "deformed");
   std::vector<std::pair<Id, char const*>> pictures = {{machine_shown, "machine"}};
   if (how.with_sensors) {
     sources.emplace_back(sensors, "sensors");
     pictures.emplace_back(sensors_shown, "sensors");
   }
+  std::string const table = fmt::format("1.{}.PVLookupTable", field_names(how.meaning).temperature);
   text += collection("sources", sources) + collection("representations", pictures) +
-          collection("lookup_tables", {{colours, "1.temperature_degC.PVLookupTable"}}) +
-          collection("views", {{view, "machine"}}) + "</ServerManagerState>\n</ParaView>\n";
+          collection("lookup_tables", {{colours, table.c_str()}}) + collection("views", {{view, "machine"}}) +
+          "</ServerManagerState>\n</ParaView>\n";
   write_atomically(directory / "arranged.pvsm", text);
 }
 

@@ -17,6 +17,7 @@
 #include "twin/checkpoint.h"
 #include "twin/command_line_campaign.h"
 #include "twin/command_line_compensate.h"
+#include "twin/command_line_difference.h"
 #include "twin/command_line_figure.h"
 #include "twin/command_line_place.h"
 #include "twin/command_line_study.h"
@@ -400,6 +401,7 @@ int command_line(int argc, char** argv) {
   add_study_command(app, stop_requested);
   add_compensation_commands(app, stop_requested);
   add_report_command(app);
+  add_difference_command(app);
   add_figure_command(app);
   add_view_command(app, stop_requested);
   std::signal(SIGINT, [](int) { stop_requested = true; });

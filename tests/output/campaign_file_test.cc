@@ -76,6 +76,30 @@ TEST(CampaignFile, TheIndexShowsAllPartsAsOne) {
   EXPECT_EQ(read<double>(whole, "/time", H5T_NATIVE_DOUBLE, {3})[2], 120.0);
 }
 
+TEST(CampaignFile, RunsAreReadBackAllOrSome) {
+  tests::TemporaryDirectory const directory;
+  write_part(layout(), part(4, 5), directory / "part.h5");
+  auto const all = read_runs(directory / "part.h5", {"seed", "parameters", "readings"});
+  EXPECT_EQ(all.run, (std::vector<std::int64_t>{4, 5, 6, 7, 8}));
+  ASSERT_EQ(all.axes.size(), 2U);
+  EXPECT_EQ(std::get<Eigen::VectorXd>(all.axes[0].values), Eigen::Vector3d(0.0, 60.0, 120.0));
+  EXPECT_EQ(std::get<std::vector<std::string>>(all.axes[1].values), (std::vector<std::string>{"T1", "T2"}));
+  EXPECT_EQ((*all.find("seed"))(2), 1006.0);
+  EXPECT_EQ((*all.find("parameters/a.b"))(1), 0.5);
+  ASSERT_EQ(all.find("readings")->cols(), 6);
+  for (int row = 0; row < 3; ++row)
+    for (int channel = 0; channel < 2; ++channel)
+      EXPECT_EQ((*all.find("readings"))(3, 2 * row + channel), double(reading(7, row, channel)));
+
+  auto const some = read_runs(directory / "part.h5", {"readings"}, 3);
+  EXPECT_EQ(some.run, (std::vector<std::int64_t>{6}));  // of 0, 3, 6, 9, … those that are here
+  EXPECT_EQ((*some.find("readings"))(0, 5), double(reading(6, 2, 1)));
+  EXPECT_EQ(some.find("seed"), nullptr);
+  EXPECT_EQ(read_runs(directory / "part.h5", {"readings"}, 100).find("readings"), nullptr);
+  tests::put(directory / "none.h5", "no HDF5");
+  EXPECT_THROW(static_cast<void>(read_runs(directory / "none.h5", {})), thermal::InputError);
+}
+
 TEST(CampaignFile, FailuresAreReadBack) {
   tests::TemporaryDirectory const directory;
   auto failed = part(4, 3);

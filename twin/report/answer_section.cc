@@ -10,6 +10,7 @@
 #include "thermal/error.h"
 #include "twin/diagnosis/run_files.h"
 #include "twin/report/campaign_progress.h"
+#include "twin/report/campaign_section.h"
 #include "twin/report/diagnosis_section.h"
 #include "twin/report/machine_section.h"
 
@@ -97,9 +98,12 @@ bool is_answer(fs::path const& path) { return path.extension() == ".json" || is_
 
 std::string add_answer(fs::path const& file, fs::path const& machine, ReportPage& page) {
   if (is_campaign(file)) {
-    auto const progress = campaign_progress(file);
-    page.add_section("progress", progress);
-    return progress["title"].get<std::string>();
+    auto const progress = campaign_progress(file), shown = campaign_json(file, page);
+    bool const done = progress["done"].get<bool>();
+    if (!done) page.add_section("progress", progress);
+    if (!shown.is_null()) page.add_section("campaign", shown);
+    if (done) page.add_section("progress", progress);
+    return (shown.is_null() ? progress : shown)["title"].get<std::string>();
   }
   try {
     Json const answer = Json::parse(text_of_file(file));

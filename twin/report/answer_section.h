@@ -12,7 +12,7 @@ namespace thermotwin::twin {
 
 /// Adds the section for what another command answered as JSON, known by its keys: `diagnose` ("diagnosis"), `study`
 /// ("study"), `place` ("placement"), `volumetric` ("volumetric"), or how far one has come ("progress"); of a campaign's
-/// folder that, too.
+/// folder that, too, and what its runs show ("campaign").
 ///
 /// The document is the command's own, with what people need besides: a diagnosis its sentence (diagnosis_section.h), a
 /// study without the values of each repetition, a placement the machine with the map of informative places when the

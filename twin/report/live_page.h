@@ -14,8 +14,8 @@ namespace thermotwin::twin {
 ///
 /// A data set that a run still writes is shown from `<name>.partial`; of a folder everything is shown that a command
 /// left or keeps in it: `progress.json`, answers (`.json`) and data sets (`.h5`); of a campaign's folder, how far it
-/// is. What is not there yet is waited for, and what cannot be read is said in its place. Safe to be asked from several
-/// threads.
+/// is and what its runs show. What is not there yet is waited for, and what cannot be read is said in its place. Safe
+/// to be asked from several threads.
 ///
 /// A file is new when its time or size is. File systems tell times in ticks of some milliseconds, so what was written
 /// within the last of them is read again when next asked for. The revision counts what is shown, not what was read.

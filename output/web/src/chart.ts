@@ -12,6 +12,8 @@ export interface Line extends Course {
   width?: () => number;
   dash?: number[];
   points?: boolean;
+  /** Points only, each by itself. */
+  scattered?: boolean;
 }
 
 export interface Axis {
@@ -152,7 +154,8 @@ export class Chart {
         stroke: line ? () => line.colour() : undefined,
         width: line?.width?.() ?? 1.5,
         dash: line?.dash,
-        points: {show: line?.points ?? false, size: 4},
+        points: {show: line?.points ?? line?.scattered ?? false, size: 4, ...(line?.scattered ? {width: 0, size: 5, fill: () => line.colour()} : {})},
+        ...(line?.scattered ? {paths: () => null} : {}),
         spanGaps: false,
       }))],
       bands: bands?.map(({between, fill}) => ({series: [between[0] + 1, between[1] + 1], fill})),
@@ -208,6 +211,21 @@ export function cells(xEdges: number[], yEdges: number[], colour: (column: numbe
         const left = at(xEdges[i]!, 'x'), top = at(yEdges[j + 1]!, 'y');
         u.ctx.fillRect(left, top, at(xEdges[i + 1]!, 'x') - left, at(yEdges[j]!, 'y') - top);
       }
+    u.ctx.restore();
+  };
+}
+
+/** Columns that stand on zero, in the axes' own numbers. */
+export function columns(edges: number[], heights: number[], colour: () => string): (u: uPlot) => void {
+  return (u) => {
+    const at = (value: number, scale: string): number => Math.round(u.valToPos(value, scale, true));
+    const gap = Math.max(1, Math.round(devicePixelRatio));
+    u.ctx.save();
+    u.ctx.fillStyle = colour();
+    heights.forEach((height, i) => {
+      const left = at(edges[i]!, 'x'), top = at(height, 'y');
+      u.ctx.fillRect(left, top, at(edges[i + 1]!, 'x') - left - gap, at(0, 'y') - top);
+    });
     u.ctx.restore();
   };
 }

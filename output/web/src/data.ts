@@ -216,6 +216,28 @@ export interface VolumetricSection {
   remarks: string[];
 }
 
+/** A channel of a campaign: quantiles over its runs at every time (5, 25, 50, 75, 95 %), and each run's last value. */
+export interface CampaignChannel {
+  name: string;
+  unit: string;
+  group: 'readings' | 'displacements';
+  quantiles?: NumberRef;
+  last: NumberRef;
+}
+
+export interface CampaignSection {
+  kind: 'campaign';
+  title: string;
+  runs: number;
+  failed: number;
+  failures: {run: number; reason: string}[];
+  time?: NumberRef;
+  run: NumberRef;
+  channels: CampaignChannel[];
+  parameters: {name: string; unit: string; title: string; values: NumberRef}[];
+  remarks: string[];
+}
+
 /** What a command has done so far. */
 export interface ProgressSection {
   kind: 'progress';

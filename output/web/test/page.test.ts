@@ -32,6 +32,22 @@ than = "all + linear"
 figure = "cross.rmse"
 `;
 
+/** Twenty machines that bear the speed and one that does not, with four greases each. */
+const small_campaign = `
+title = "Grease and speed"
+experiments = ["golden_b_4000"]
+machine = "v450"
+[[grid]]
+path = "spindle.maximum_speed"
+values = [${Array.from({length: 20}, (_, i) => `"${4100 + 100 * i} rpm"`).join(', ')}, "3000 rpm"]
+[latin_hypercube]
+count = 4
+[[latin_hypercube.vary]]
+path = "bearing.front.grease_factor"
+from = 0.4
+to = 0.8
+`;
+
 function thermotwin(...args: string[]): string {
   return execFileSync(program, args, {cwd: folder, encoding: 'utf8'});
 }
@@ -55,6 +71,9 @@ before(async () => {
   copyFileSync(at('place/report.html'), at('placement.html'));
   writeFileSync(at('volumetric.json'), thermotwin('volumetric', 'mill200', '--json'));
   thermotwin('report', 'volumetric.json', '-o', 'volumetric.html');
+  writeFileSync(at('grease.toml'), small_campaign);
+  thermotwin('campaign', 'grease.toml', '-q', '-o', 'many');
+  thermotwin('report', 'many', '-o', 'campaign.html');
   browser = await launch();
 });
 
@@ -63,7 +82,7 @@ after(async () => {
   rmSync(folder, {recursive: true, force: true});
 });
 
-for (const kind of ['run', 'feed', 'two', 'diagnosis', 'study', 'placement', 'volumetric'])
+for (const kind of ['run', 'feed', 'two', 'diagnosis', 'study', 'placement', 'volumetric', 'campaign'])
   for (const [width, theme] of [[1440, 'light'], [1440, 'dark'], [390, 'light'], [390, 'dark']] as const)
     test(`${kind} at ${width}: whole, quiet, nothing cut off`, async () => {
       const {page, complaints} = await open(browser, at(`${kind}.html`), width, theme);
@@ -251,6 +270,39 @@ test('a placement shows its map in colours, and another beside the recommended s
   assert.match((await page.locator('.stage .caption').textContent())!, /one more sensor/);
   const beside = await colours(page, '.stage');
   assert.ok([...beside.keys()].filter((c) => !alone.has(c)).length > 50, 'the map looks the same');
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+async function table(page: Page, name: string): Promise<{heads: string[]; rows: number[][]}> {
+  const waiting = page.waitForEvent('download');
+  await page.getByRole('button', {name: `Download ${name} as CSV`}).click();
+  const [heads, ...rows] = readFileSync(await (await waiting).path(), 'utf8').trim().split('\n').map((line) => line.split(','));
+  return {heads: heads!, rows: rows.map((row) => row.map((x) => (x === '' ? NaN : Number(x))))};
+}
+
+test('a campaign shows how its runs spread, against what was varied, and which failed', async () => {
+  const {page, complaints} = await open(browser, at('campaign.html'), 1440);
+  assert.match((await page.locator('.verdict h2').textContent())!, /^Grease and speed: nine runs in ten end with E_Z between/);
+  for (const panel of ['quantiles', 'last_values', 'against_spindle_maximum_speed', 'against_bearing_front_grease_factor'])
+    assert.equal(await page.locator(`[data-panel="${panel}"] canvas`).count(), 1, panel);
+  const failed = page.locator('[data-panel="failed_runs"] tbody tr');
+  assert.equal(await failed.count(), 4);
+  assert.match((await failed.first().textContent())!, /4000 rpm is above the machine's maximum, 3000 rpm/);
+  const before = await colours(page, '[data-panel="last_values"] .chart');
+  await page.locator('.chip[data-channel="T1"]').click();
+  assert.equal(await page.locator('[data-panel="quantiles"] h3').textContent(), 'T1 over time');
+  await settled(page);
+  assert.notDeepEqual(await colours(page, '[data-panel="last_values"] .chart'), before);
+  const {heads, rows} = await table(page, 'T1 at the end');
+  assert.deepEqual(heads, ['run', 'spindle.maximum_speed_rpm', 'bearing.front.grease_factor', 'T1_last_degC']);
+  assert.equal(rows.length, 84);
+  assert.deepEqual(rows.filter((row) => Number.isNaN(row[3])).map((row) => row[1]), [3000, 3000, 3000, 3000]);
+  const last = rows.map((row) => row[3]!).filter((x) => !Number.isNaN(x)).sort((a, b) => a - b);
+  const quantiles = await table(page, 'T1 over time'), end = quantiles.rows.at(-1)!;
+  assert.equal(quantiles.heads[3], 'T1_q50_degC');
+  assert.ok(Math.abs(end[3]! - (last[39]! + last[40]!) / 2) < 1e-4, 'the median of what the runs end with');
+  assert.ok(end[1]! < end[2]! && end[4]! < end[5]!);
   assert.deepEqual(complaints, []);
   await page.close();
 });

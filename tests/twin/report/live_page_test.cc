@@ -10,6 +10,7 @@
 #include "output/report_page.h"
 #include "tests/output/page_reader.h"
 #include "tests/output/temporary_directory.h"
+#include "tests/twin/report/example_campaign.h"
 #include "twin/progress_file.h"
 
 namespace thermotwin::twin {
@@ -125,14 +126,17 @@ TEST_F(Live, CountsTheRunsOfACampaignWhoeverMakesThem) {
   auto const going = news(page, 1);
   EXPECT_EQ(going["revision"], 2);
   EXPECT_EQ(going["sections"][0]["steps"].back()["what"], "4 of 25 runs are made");
-  tests::put(folder / "many" / "parts" / "000002.h5", "the last five");
+  tests::put_part(folder / "many" / "parts" / "000002.h5", 20, 5);
   auto const later = news(page, 2)["sections"][0];
   EXPECT_EQ(later["steps"][0]["what"], "part 2 is whole: runs 20 to 24");
   EXPECT_DOUBLE_EQ(later["steps"].back()["share"], 9.0 / 25.0);
   EXPECT_FALSE(later["done"]);
   tests::put(folder / "many" / "failures.csv", "run,reason\n7,\"too fast\"\n");
   tests::put(folder / "many" / "campaign.h5", "");
-  auto const done = news(page, 3)["sections"][0];
+  auto const shown = news(page, 3)["sections"];
+  ASSERT_EQ(shown.size(), 2U);
+  EXPECT_EQ(shown[0]["kind"], "campaign");  // results first, once they are all there
+  auto const& done = shown[1];
   EXPECT_TRUE(done["done"]);
   EXPECT_EQ(done["steps"].back()["what"], "25 runs, 1 of them failed: campaign.h5");
 }

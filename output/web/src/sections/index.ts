@@ -1,6 +1,7 @@
-import type {DiagnosisSection, Numbers, PlacementSection, ProgressSection, RunsSection, StudySection, VolumetricSection} from '../data';
+import type {CampaignSection, DiagnosisSection, Numbers, PlacementSection, ProgressSection, RunsSection, StudySection, VolumetricSection} from '../data';
 import {make} from '../dom';
 import type {PageState} from '../signal';
+import {campaignSection} from './campaign';
 import {diagnosisSection} from './diagnosis';
 import {placementSection} from './placement';
 import {progressSection} from './progress';
@@ -12,6 +13,7 @@ type Drawer = (section: never, numbers: Numbers, state: PageState) => HTMLElemen
 
 /** What draws each kind of section. A new kind is one entry here and one file beside. */
 const drawers: Record<string, Drawer> = {
+  campaign: (section: CampaignSection, numbers: Numbers, state: PageState) => campaignSection(section, numbers, state),
   diagnosis: (section: DiagnosisSection, _: Numbers, state: PageState) => diagnosisSection(section, state),
   placement: (section: PlacementSection, numbers: Numbers, state: PageState) => placementSection(section, numbers, state),
   progress: (section: ProgressSection) => progressSection(section),

@@ -1,0 +1,132 @@
+import {Chart, columns} from '../chart';
+import type {CampaignChannel, CampaignSection, Numbers} from '../data';
+import {make, panel} from '../dom';
+import {axisText, minus, roundTicks, timeUnitFor, unitText, valueText} from '../format';
+import type {PageState} from '../signal';
+import {deviation, mean, rankCorrelation, sorted} from '../statistics';
+import {card, remark} from './card';
+
+const shares = ['q05', 'q25', 'q50', 'q75', 'q95'];
+const failures_shown = 20;
+
+/** What the runs of a campaign have in common, and what makes them differ. */
+export function campaignSection(section: CampaignSection, numbers: Numbers, state: PageState): HTMLElement {
+  const host = make('div', {class: 'flow'});
+  const chips = section.channels.map((channel, i) => make('button', {
+    class: 'chip', 'data-channel': channel.name, onclick: () => show(i),
+  }, channel.name));
+
+  function show(chosen: number): void {
+    chips.forEach((chip, i) => chip.setAttribute('aria-pressed', String(i === chosen)));
+    const shown = new Shown(section, section.channels[chosen]!, numbers, state);
+    host.replaceChildren(...shown.panels());
+  }
+  const first = section.channels.findIndex((c) => c.name === 'E_Z'), displacement = section.channels.findIndex((c) => c.group === 'displacements');
+  if (section.channels.length > 0) show(Math.max(0, first >= 0 ? first : displacement));
+  return make('section', {class: 'campaign', 'data-kind': 'campaign'},
+    card('Campaign', '', sentence(section, numbers, first), [
+      ['runs', String(section.runs)], ['failed', String(section.failed)], ['varied', String(section.parameters.length)],
+    ], ...section.remarks.map(remark)),
+    make('div', {class: 'chips', role: 'group', 'aria-label': 'Channel'}, ...chips), host,
+    section.failures.length > 0 && failuresPanel(section));
+}
+
+function sentence(section: CampaignSection, numbers: Numbers, axial: number): string {
+  const channel = section.channels[axial] ?? section.channels.find((c) => c.group === 'displacements') ?? section.channels[0];
+  const last = channel ? sorted(numbers.single(channel.last)) : [];
+  if (!channel || last.length === 0) return section.title;
+  const at = (share: number): string => valueText(last[Math.round(share * (last.length - 1))]!, channel.unit);
+  return `${section.title}: nine runs in ten end with ${channel.name} between ${at(0.05)} and ${at(0.95)} ${unitText(channel.unit)}`;
+}
+
+const quantityOf = (channel: CampaignChannel): string => (channel.group === 'readings' ? 'Temperature' : channel.unit === 'urad' ? 'Rotation' : 'Displacement');
+
+/** One channel of the campaign. */
+class Shown {
+  private readonly last: Float32Array;
+  private readonly run: Int32Array;
+
+  constructor(private readonly section: CampaignSection, private readonly channel: CampaignChannel,
+              private readonly numbers: Numbers, private readonly state: PageState) {
+    this.last = numbers.single(channel.last);
+    this.run = numbers.whole(section.run);
+  }
+
+  panels(): HTMLElement[] {
+    const courses = this.section.time && this.channel.quantiles ? [this.quantiles()] : [];
+    return [...courses, this.histogram(), ...this.section.parameters.map((_, i) => this.against(i))];
+  }
+
+  private ink(): string {
+    return this.state.dark.value ? '#7ad151' : '#2a788e';
+  }
+
+  private axis(): string {
+    return axisText(quantityOf(this.channel), this.channel.unit);
+  }
+
+  /** Median, half and nine tenths of the runs over time. */
+  private quantiles(): HTMLElement {
+    const time = this.numbers.single(this.section.time!), all = this.numbers.single(this.channel.quantiles!);
+    const course = (i: number): Float32Array => all.subarray(i * time.length, (i + 1) * time.length);
+    const range: [number, number] = [time[0] ?? 0, time[time.length - 1] ?? 1], unit = timeUnitFor(range[1] - range[0]);
+    const edge = (name: string, i: number) => ({name, time, values: course(i), colour: () => 'transparent'});
+    const {name} = this.channel;
+    return panel(`${name} over time`, 'quantiles', () => [
+      {name: 'time_s', values: time}, ...shares.map((share, i) => ({name: `${name}_${share}_${this.channel.unit}`, values: course(i)})),
+    ], new Chart({
+      x: {label: `Time / ${unit.unit}`, scale: unit.seconds, range}, y: {label: this.axis()},
+      lines: [edge('95 %', 4), edge('5 %', 0), edge('75 %', 3), edge('25 %', 1),
+        {name: 'median', time, values: course(2), colour: () => this.ink(), width: () => 2}],
+      bands: [{between: [0, 1], fill: () => `${this.ink()}2a`}, {between: [2, 3], fill: () => `${this.ink()}50`}],
+      dark: this.state.dark, height: 240, describe: `${name} over time: median, half and nine tenths of the runs`,
+    }).element, make('p', {class: 'words'}, 'Line: median. Dark: half of the runs. Light: nine in ten.'));
+  }
+
+  /** How many runs end where. */
+  private histogram(): HTMLElement {
+    const values = sorted(this.last), ticks = roundTicks(values[0] ?? 0, values[values.length - 1] ?? 1);
+    const low = ticks[0]!, high = ticks[ticks.length - 1]!, count = Math.max(5, Math.min(40, Math.ceil(Math.sqrt(values.length))));
+    const edges = Array.from({length: count + 1}, (_, i) => low + (i / count) * (high - low)), heights = new Array<number>(count).fill(0);
+    for (const value of values) ++heights[Math.min(count - 1, Math.floor(((value - low) / (high - low || 1)) * count))]!;
+    const {name, unit} = this.channel;
+    return panel(`${name} at the end`, 'last_values', () => this.table(), new Chart({
+      x: {label: this.axis(), range: [low, high]}, y: {label: 'Runs', range: [0, 1.08 * Math.max(1, ...heights)]},
+      lines: [], ground: columns(edges, heights, () => `${this.ink()}b0`),
+      dark: this.state.dark, height: 200, describe: `How many runs end with ${name} where`,
+    }).element, make('p', {class: 'words'}, `${values.length} runs, mean ${valueText(mean(values), unit)} ${unitText(unit)}, standard deviation ${valueText(deviation(values), unit === 'degC' ? 'K' : unit)} ${unitText(unit === 'degC' ? 'K' : unit)}.`));
+  }
+
+  /** A point per run: the channel's last value over what was varied. */
+  private against(parameter: number): HTMLElement {
+    const {name: path, unit, values: ref, title} = this.section.parameters[parameter]!, varied = this.numbers.single(ref);
+    const order = Array.from(varied.keys()).filter((i) => Number.isFinite(this.last[i]!)).sort((a, b) => varied[a]! - varied[b]!);
+    const x = order.map((i) => varied[i]!), y = order.map((i) => this.last[i]!), {name} = this.channel;
+    const low = x[0] ?? 0, high = x[x.length - 1] ?? 1, room = 0.03 * (high - low) || 1;
+    const words = title.includes(';') ? title.slice(title.indexOf(';') + 1).trim() : '';
+    return panel(`${name} against ${path}`, `against_${path.replace(/\W+/g, '_')}`, () => this.table(), new Chart({
+      x: {label: axisText(path, unit), range: [low - room, high + room]}, y: {label: this.axis()},
+      lines: [{name, time: x, values: y, colour: () => this.ink(), scattered: true}],
+      dark: this.state.dark, height: 220, describe: `${name} at the end over ${path}, a point per run`,
+    }).element, make('p', {class: 'words'}, `Rank correlation ${minus(rankCorrelation(x, y).toFixed(2))}.${words ? ` ${words}.` : ''}`));
+  }
+
+  private table(): {name: string; values: ArrayLike<number>}[] {
+    return [{name: 'run', values: this.run},
+      ...this.section.parameters.map((p) => ({name: p.unit === '1' ? p.name : `${p.name}_${p.unit}`, values: this.numbers.single(p.values)})),
+      {name: `${this.channel.name}_last_${this.channel.unit}`, values: this.last}];
+  }
+}
+
+function failuresPanel(section: CampaignSection): HTMLElement {
+  const rows = (most: number): HTMLElement[] => section.failures.slice(0, most).map((f) =>
+    make('tr', {}, make('th', {scope: 'row', class: 'number'}, String(f.run)), make('td', {}, f.reason)));
+  const body = make('tbody', {}, ...rows(failures_shown)), more = section.failures.length > failures_shown;
+  const all = make('button', {class: 'quiet all', onclick: () => {
+    body.replaceChildren(...rows(Infinity));
+    all.remove();
+  }}, `Show all ${section.failures.length}`);
+  return panel('Runs that failed', 'failed_runs', () => [
+    {name: 'run', values: section.failures.map((f) => f.run)}, {name: 'reason', values: section.failures.map((f) => f.reason)},
+  ], make('div', {class: 'scroll'}, make('table', {}, make('thead', {}, make('tr', {}, make('th', {class: 'number'}, 'run'), make('th', {}, 'why'))), body)), more && all);
+}
