@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "models/uniform_draw.h"
@@ -55,9 +56,11 @@ class Population {
   }
 
  private:
+  /// Children are often what was there before: neither mixed nor mutated, or of like parents.
   Individual judged(Chromosome chromosome) {
-    double const fitness = fitness_(decode(chromosome, options_));
-    return {std::move(chromosome), fitness};
+    auto const [known, fresh] = judged_.try_emplace(chromosome, 0.0);
+    if (fresh) known->second = fitness_(decode(chromosome, options_));
+    return {std::move(chromosome), known->second};
   }
 
   /// Members are sorted: the smallest of some drawn numbers is the fittest.
@@ -88,6 +91,7 @@ class Population {
   std::mt19937_64 random_;
   GeneticOptions options_;
   std::vector<Individual> members_;  ///< fittest first
+  std::map<Chromosome, double> judged_;
 };
 
 }  // namespace
