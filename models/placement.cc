@@ -14,7 +14,8 @@ namespace {
 using Eigen::Index;
 using Set = std::vector<Index>;
 
-constexpr Index most_starts = 200, most_polished = 24, fewest_polished = 2, most_sites_for_pairs = 300;
+constexpr Index most_starts = 200, fewest_starts = 40, most_polished = 24, fewest_polished = 2;
+constexpr Index most_sites_for_pairs = 300;
 constexpr double least_progress = 1e-10;  // of an exchange, relative
 constexpr double intact_share = 1e-3;     // of the intact set's V in a robust objective: settles ties
 
@@ -190,13 +191,19 @@ Set Search::polished(Set set) const {
   return set;
 }
 
+/// Every world makes each step as much dearer.
+Index effort(PlacementProblem const& problem, Index fewest, Index most) {
+  return std::max(fewest, most / Index(problem.worlds.size()));
+}
+
 /// What greedy starts from: single sites, then pairs while there is room, those that tell most first.
 std::vector<Set> starts_of(PlacementProblem const& problem, Index count) {
   RemainingVariance const none(problem, 1);
+  Index const most = effort(problem, fewest_starts, most_starts);
   std::vector<std::pair<double, Set>> single, pairs;
   for (Index i = 0; i < problem.sites(); ++i)
     if (problem.cost_of(i) <= problem.budget) single.push_back({-none.gains()[i], {i}});
-  if (count > 1 && Index(single.size()) < most_starts)
+  if (count > 1 && Index(single.size()) < most)
     for (auto const& [gain, site] : single) {
       auto state = none;
       state.add(site[0]);
@@ -208,7 +215,7 @@ std::vector<Set> starts_of(PlacementProblem const& problem, Index count) {
   for (auto* kind : {&single, &pairs}) {
     std::sort(kind->begin(), kind->end());
     for (auto& [gain, set] : *kind)
-      if (Index(starts.size()) < most_starts) starts.push_back(std::move(set));
+      if (Index(starts.size()) < most) starts.push_back(std::move(set));
   }
   return starts;
 }
@@ -315,7 +322,7 @@ Placement place(PlacementProblem const& problem, Index count, Index dead) {
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t s = 0; s < sets.size(); ++s)
     sets[s] = intact.exchanged(intact.grown(starts[s % starts.size()], s >= starts.size()));
-  keep_best(sets, intact, std::max<Index>(fewest_polished, most_polished / Index(problem.worlds.size())));
+  keep_best(sets, intact, effort(problem, fewest_polished, most_polished));
   if (problem.sites() <= most_sites_for_pairs) {
 #pragma omp parallel for schedule(dynamic)
     for (auto& set : sets) set = intact.polished(set);

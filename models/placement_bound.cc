@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int most_steps = 400, bisections = 60;
+constexpr int most_steps = 400, fewest_steps = 50, bisections = 60;
 constexpr double least_share = 1e-7;
 
 /// The relaxed problem at shares w.
@@ -99,7 +99,8 @@ double placement_bound(PlacementProblem const& problem, Index count, double tole
   count = std::min(count, problem.sites());
   VectorXd share = fitted(problem, VectorXd::Ones(problem.sites()), count);
   double bound = 0.0;
-  for (int step = 0; step < most_steps; ++step) {
+  int const steps = std::max(fewest_steps, most_steps / int(problem.worlds.size()));
+  for (int step = 0; step < steps; ++step) {
     auto const [value, slope] = relaxed(problem, share);
     Dual const dual = best_dual(problem, slope, count);
     bound = std::max(bound, value + slope.dot(share) - dual.value);

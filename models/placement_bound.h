@@ -14,7 +14,7 @@ namespace thermotwin::models {
 ///
 /// whatever w. The w come from the multiplicative algorithm w_i ← w_i √(s_i/p_i) with the prices p of that linear
 /// programme (Silvey, Titterington and Torsney 1978), which goes on until the bound is within `tolerance` of V(w).
-/// O(n³) per step at first; sites whose share vanishes drop out.
+/// O(m n³) per step at first; sites whose share vanishes drop out. At most 400 steps, 50 in many worlds.
 [[nodiscard]] double placement_bound(PlacementProblem const& problem, Eigen::Index count, double tolerance = 1e-3);
 
 }  // namespace thermotwin::models
