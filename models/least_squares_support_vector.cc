@@ -32,6 +32,21 @@ LeastSquaresSupportVector solve_least_squares(MatrixXd const& kernel, VectorXd c
   return fit;
 }
 
+LeastSquaresSupportVectors solve_least_squares_leaving_out(MatrixXd const& kernel, MatrixXd const& targets,
+                                                           double gamma) {
+  MatrixXd a = kernel, inverse = MatrixXd::Identity(kernel.rows(), kernel.cols());
+  a.diagonal().array() += 1.0 / gamma;
+  Eigen::LLT<Eigen::Ref<MatrixXd>>(a).solveInPlace(inverse);
+  VectorXd const eta = inverse.rowwise().sum();
+  double const sum = eta.sum();
+  LeastSquaresSupportVectors fit;
+  fit.intercepts = eta.transpose() * targets / sum;
+  fit.weights = inverse * targets - eta * fit.intercepts;
+  VectorXd const own = inverse.diagonal().array() - eta.array().square() / sum;
+  fit.left_out = own.cwiseInverse().asDiagonal() * fit.weights;
+  return fit;
+}
+
 ErrorModel fit_least_squares_support_vector(std::span<Batch const> batches, FitOptions const&) {
   auto const set = training_set(batches);
   require_samples(set, set.regressors.cols() + 2);

@@ -22,6 +22,19 @@ struct LeastSquaresSupportVector {
 LeastSquaresSupportVector solve_least_squares(Eigen::MatrixXd const& kernel, Eigen::VectorXd const& target,
                                               double gamma);
 
+/// Many targets on one kernel, a column each, by one factor; and by how much each sample misses what a machine trained
+/// on all others predicts, in closed form (Cawley & Talbot, Neural Networks 17 (2004) 1467):
+///
+///     y_i − f₋ᵢ(x_i) = α_i / (A⁻¹_ii − η_i²/1ᵀη)
+struct LeastSquaresSupportVectors {
+  Eigen::MatrixXd weights;        ///< α, samples × targets
+  Eigen::RowVectorXd intercepts;  ///< b
+  Eigen::MatrixXd left_out;       ///< y_i − f₋ᵢ(x_i), samples × targets
+};
+
+LeastSquaresSupportVectors solve_least_squares_leaving_out(Eigen::MatrixXd const& kernel,
+                                                           Eigen::MatrixXd const& targets, double gamma);
+
 /// K = exp(−‖x − x'‖²/(2σ²)), γ = 56.2 and σ² = 0.2 (paper 002); inputs and target each between 0 and 1, the range in
 /// which this σ² makes sense.
 ErrorModel fit_least_squares_support_vector(std::span<Batch const> batches, FitOptions const& options);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "models/contiguous_folds.h"
 #include "models/gaussian_kernel.h"
 #include "models/metrics.h"
 #include "tests/models/simulated_batch.h"
@@ -32,6 +33,26 @@ TEST(LeastSquaresSupportVector, SolvesTheWholeSystem) {
   EXPECT_NEAR(fit.weights.sum(), 0.0, 1e-9);
   VectorXd const left = kernel * fit.weights + fit.weights / gamma;
   EXPECT_LT(((left.array() + fit.intercept).matrix() - batch.error).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(LeastSquaresSupportVector, KnowsWhatEachSampleMissesTheOthersBy) {
+  constexpr Eigen::Index samples = 25;
+  auto const batch = random_walks(3, samples, 2);
+  MatrixXd const kernel = gaussian_kernel(squared_distances(batch.temperature_rise, batch.temperature_rise), 0.2);
+  MatrixXd targets(samples, 2);
+  targets << batch.error, batch.temperature_rise.col(0);
+  auto const fit = solve_least_squares_leaving_out(kernel, targets, 10.0);
+  for (Eigen::Index target = 0; target < 2; ++target) {
+    auto const one = solve_least_squares(kernel, targets.col(target), 10.0);
+    EXPECT_LT((fit.weights.col(target) - one.weights).cwiseAbs().maxCoeff(), 1e-11);
+    EXPECT_NEAR(fit.intercepts(target), one.intercept, 1e-11);
+    for (Eigen::Index i = 0; i < samples; ++i) {
+      auto const others = rows_outside({i, 1}, samples);
+      auto const trained = solve_least_squares(kernel(others, others), targets(others, target), 10.0);
+      double const predicted = kernel(i, others).dot(trained.weights) + trained.intercept;
+      EXPECT_NEAR(fit.left_out(i, target), targets(i, target) - predicted, 1e-10);
+    }
+  }
 }
 
 TEST(LeastSquaresSupportVector, CountsItsParametersAsTheTraceOfItsInfluence) {
