@@ -35,8 +35,8 @@ twin::Compensator compensator() {
   return {twin::SavedModel(model), settings};
 }
 
-/// The machine's side: 50 readings every 10 ms, each with its own time.
-void publish_readings(twin::Broker& broker, int rows) {
+/// The machine's side: 50 readings every 10 ms, each with its own time. When each row was handed over.
+void publish_readings(twin::Broker& broker, int rows, std::vector<Clock::time_point>& published) {
   twin::Topics const topics;
   auto const start = Clock::now();
   for (int row = 0; row < rows; ++row) {
@@ -47,22 +47,59 @@ void publish_readings(twin::Broker& broker, int rows) {
       broker.publish(topics.of({name_of_sensor(s), "degC"}),
                      twin::payload_of({name_of_sensor(s), value, "degC", time, "good"}));
     }
+    published[std::size_t(row)] = Clock::now();
   }
 }
 
-/// Counts what arrives at another listener, so that nothing but the broker and the client is in question.
-std::size_t distinct_messages(twin::Broker& broker, std::atomic<bool> const& done) {
+/// Counts what arrives at another listener, so that nothing but the broker and the client is in question, and how long
+/// after its readings an offset does.
+struct Heard {
+  std::size_t distinct = 0, repeated = 0;
+  twin::LatencyCount round_trip;
+};
+
+Heard listen(twin::Broker& broker, std::vector<Clock::time_point> const& published, std::atomic<bool> const& done) {
+  Heard heard;
   std::set<std::pair<std::string, long>> seen;
+  auto const offsets = twin::Topics{}.offset("X");
   auto last = Clock::now();
   while (!done || Clock::now() < last + 10s) {
     auto const message = broker.receive(Clock::now() + 100ms);
     if (!message) continue;
-    last = Clock::now();
-    if (auto const reading = twin::read_payload(message->payload); std::holds_alternative<twin::Reading>(reading))
-      seen.emplace(message->topic, std::lround(1e3 * std::get<twin::Reading>(reading).time));
+    if (message->topic != offsets) last = Clock::now();
+    auto const reading = std::get<twin::Reading>(twin::read_payload(message->payload));
+    auto const row = std::lround(reading.time / std::chrono::duration<double>(period).count());
+    if (!seen.emplace(message->topic, row).second)
+      ++heard.repeated;
+    else if (message->topic != offsets)
+      ++heard.distinct;
+    else if (row < long(published.size()))
+      heard.round_trip.add(std::chrono::duration<double>(message->arrived - published[std::size_t(row)]).count());
   }
-  return seen.size();
+  return heard;
 }
+
+/// What the process itself needs: 50 messages read, one decision made and written; no broker.
+void BM_FiftySensorsOneDecision(benchmark::State& state) {
+  twin::CompensationLoop loop(compensator(), {1e-3 * double(period.count()), 1.0, 15.0, 60.0});
+  twin::Topics const topics;
+  long row = 0;
+  std::vector<std::pair<std::string, std::string>> messages(sensors);
+  for (auto _ : state) {
+    state.PauseTiming();
+    double const time = 1e-3 * double(period.count()) * double(++row);
+    for (int s = 0; s < sensors; ++s)
+      messages[std::size_t(s)] = {
+          topics.of({name_of_sensor(s), "degC"}),
+          twin::payload_of({name_of_sensor(s), 20.0 + 1e-3 * double((row + s) % 7), "degC", time, "good"})};
+    state.ResumeTiming();
+    std::optional<twin::Decision> decision;
+    for (auto const& [topic, payload] : messages)
+      if (auto const made = loop.take(topic, payload, time)) decision = made;
+    if (decision) benchmark::DoNotOptimize(twin::payload_of({"X", decision->offset, "um", time, "good"}));
+  }
+}
+BENCHMARK(BM_FiftySensorsOneDecision)->Unit(benchmark::kMicrosecond);
 
 void BM_FiftySensorsAtHundredHertz(benchmark::State& state) {
   auto const rows = int(state.range(0)) * 100;
@@ -77,14 +114,15 @@ void BM_FiftySensorsAtHundredHertz(benchmark::State& state) {
     twin::CompensationSummary summary;
     std::thread compensation([&] { summary = twin::compensate(compensator(), options, stop); });
     twin::Topics const topics;
-    std::vector<std::string> all;
+    std::vector<std::string> all{topics.offset("X")};
     for (int s = 0; s < sensors; ++s) all.push_back(topics.of({name_of_sensor(s), "degC"}));
     twin::BrokerOptions listening = options.broker, sending = options.broker;
     listening.client = "listener";
     sending.client = "machine";
-    std::size_t arrived = 0;
+    Heard heard;
+    std::vector<Clock::time_point> handed_over(std::size_t(rows), Clock::now());
     twin::Broker listener(listening, all);
-    std::thread listen([&] { arrived = distinct_messages(listener, published); });
+    std::thread listening_thread([&] { heard = listen(listener, handed_over, published); });
     twin::Broker sender(sending, {});
     std::this_thread::sleep_for(2s);
     std::thread killer([&] {
@@ -93,19 +131,24 @@ void BM_FiftySensorsAtHundredHertz(benchmark::State& state) {
       std::this_thread::sleep_for(2s);
       process.start();
     });
-    publish_readings(sender, rows);
+    publish_readings(sender, rows, handed_over);
     killer.join();
     sender.flush(30s);
     published = true;
-    listen.join();
+    listening_thread.join();
     stop = true;
     compensation.join();
-    state.counters["lost"] = double(rows) * sensors - double(arrived);
+    state.counters["lost"] = double(rows) * sensors - double(heard.distinct);
+    state.counters["repeated"] = double(heard.repeated);
+    state.counters["taken"] = double(summary.messages);
+    for (auto const& [reason, count] : summary.refusals) state.counters["taken"] -= double(count);
     state.counters["messages"] = double(summary.messages);
     state.counters["decisions"] = double(summary.decisions);
     state.counters["reconnections"] = summary.reconnections;
     state.counters["median_ms"] = 1e3 * summary.latency.quantile(0.5);
     state.counters["p99_ms"] = 1e3 * summary.latency.quantile(0.99);
+    state.counters["round_median_ms"] = 1e3 * heard.round_trip.quantile(0.5);
+    state.counters["round_p99_ms"] = 1e3 * heard.round_trip.quantile(0.99);
   }
 }
 // Seconds; 600 for the ten minutes of the issue: --benchmark_filter=Fifty.*600

@@ -10,8 +10,10 @@
 #include <mqtt/async_client.h>
 #include <mutex>
 #include <string_view>
+#include <thread>
 
 #include "thermal/error.h"
+#include "twin/compensation/outbox.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -19,9 +21,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int at_least_once = 1;
-constexpr int most_waiting = 1'000'000;
+constexpr int most_at_paho = int(Outbox::Limits{}.sent) + 10;  ///< and what is announced
 constexpr auto patience_at_start = 10s;
 constexpr auto patience_at_end = 500ms;
+constexpr std::chrono::milliseconds shortest_delay = 250ms, longest_delay = 30s;
 constexpr char const* online = "online";
 constexpr char const* offline = "offline";
 
@@ -89,7 +92,7 @@ mqtt::connect_options connection(BrokerOptions const& options) {
   connect.set_mqtt_version(MQTTVERSION_3_1_1);
   connect.set_connect_timeout(5s);
   connect.set_keep_alive_interval(20s);
-  connect.set_max_inflight(1000);
+  connect.set_max_inflight(most_at_paho);
   if (!options.user.empty()) connect.set_user_name(options.user);
   if (!options.password_file.empty()) connect.set_password(first_line(options.password_file));
   if (options.url.starts_with("mqtts://")) connect.set_ssl(tls(options));
@@ -100,90 +103,98 @@ mqtt::connect_options connection(BrokerOptions const& options) {
 
 }  // namespace
 
-class Broker::Client {
+/// Paho's client serves for one connection: what it would keep of a broken one, the outbox keeps. (1.3.12 was seen to
+/// send packets again that a broker calls malformed, for ever.)
+class Broker::Client : private mqtt::iaction_listener {
  public:
   Client(BrokerOptions const& options, std::vector<std::string> const& topics);
-  ~Client();
+  ~Client() override;
 
-  bool publish(std::string const& topic, std::string const& payload, bool retained);
+  bool publish(std::string const& topic, std::string const& payload, bool retained) {
+    return outbox_.put(topic, payload, retained);
+  }
   std::optional<BrokerMessage> receive(std::chrono::steady_clock::time_point until);
-  [[nodiscard]] bool connected() const { return client_.is_connected(); }
-  [[nodiscard]] int reconnections() const { return std::max(0, connections_ - 1); }
-  bool flush(std::chrono::milliseconds patience);
+  [[nodiscard]] bool connected() { return outbox_.is_connected(); }
+  [[nodiscard]] int reconnections() const { return reconnections_; }
+  bool flush(std::chrono::milliseconds patience) { return outbox_.drained(Outbox::Clock::now() + patience); }
 
  private:
-  void connect(mqtt::connect_options options);
-  void on_connected();
-  void announce();
+  void open(bool afresh);
+  void leave();
   void keep(mqtt::const_message_ptr const& message);
+  void serve();
+  bool open_again();
+  void send(OutgoingMessage const& message);
+  void on_success(mqtt::token const& token) override { outbox_.acknowledged(number_of(token)); }
+  void on_failure(mqtt::token const&) override {}  // the connection broke: the outbox knows
+  static std::uint64_t number_of(mqtt::token const& token) {
+    return std::uint64_t(reinterpret_cast<std::uintptr_t>(token.get_user_context()));
+  }
 
-  mqtt::async_client client_;
-  std::string url_, status_topic_;
+  BrokerOptions options_;
   mqtt::const_string_collection_ptr topics_;
   mqtt::iasync_client::qos_collection qualities_;
-  std::atomic<int> connections_ = 0;
+  std::atomic<int> reconnections_ = 0;
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::deque<BrokerMessage> messages_;
+  Outbox outbox_{{}};
+  std::unique_ptr<mqtt::async_client> client_;
+  std::thread server_;  ///< Paho may keep it waiting; who publishes does not
 };
 
 Broker::Client::Client(BrokerOptions const& options, std::vector<std::string> const& topics)
-    : client_(
-          paho_url(options.url), options.client,
-          mqtt::create_options_builder().send_while_disconnected(true).max_buffered_messages(most_waiting).finalize(),
-          nullptr),
-      url_(options.url),
-      status_topic_(options.status_topic),
-      topics_(mqtt::string_collection::create(topics)),
-      qualities_(topics.size(), at_least_once) {
-  auto settings = connection(options);
-  settings.set_clean_session(true);  // forget what an earlier session left behind
-  connect(settings);
-  client_.disconnect()->wait();
-  client_.set_message_callback([this](mqtt::const_message_ptr const& message) { keep(message); });
-  client_.set_connected_handler([this](std::string const&) { on_connected(); });
-  settings.set_clean_session(false);
-  settings.set_automatic_reconnect(1s, 30s);
-  connect(settings);
-  if (!topics.empty() && !client_.subscribe(topics_, qualities_)->wait_for(patience_at_start))
-    throw thermal::InputError(fmt::format("the broker {} does not answer a subscription", url_));
-  announce();  // whoever is told that we are here is heard
+    : options_(options), topics_(mqtt::string_collection::create(topics)), qualities_(topics.size(), at_least_once) {
+  open(true);
+  client_->disconnect()->wait();
+  open(false);
+  server_ = std::thread([this] { serve(); });
 }
 
 Broker::Client::~Client() {
+  if (connected()) flush(patience_at_end);
+  outbox_.close();
+  server_.join();
   try {
-    client_.disable_callbacks();
-    if (!client_.is_connected()) return;
-    if (!status_topic_.empty()) client_.publish(status_topic_, offline, at_least_once, true)->wait_for(patience_at_end);
-    if (!topics_->empty()) client_.unsubscribe(topics_)->wait_for(patience_at_end);
-    client_.disconnect()->wait_for(patience_at_end);
+    leave();
   } catch (mqtt::exception const&) {
     // it is gone already, and its last will says so
   }
 }
 
-void Broker::Client::connect(mqtt::connect_options options) {
+void Broker::Client::leave() {
+  client_->disable_callbacks();
+  if (!client_->is_connected()) return;
+  if (!options_.status_topic.empty())
+    client_->publish(options_.status_topic, offline, at_least_once, true)->wait_for(patience_at_end);
+  if (!topics_->empty()) client_->unsubscribe(topics_)->wait_for(patience_at_end);
+  client_->disconnect()->wait_for(patience_at_end);
+}
+
+/// `afresh`: what an earlier session left behind is forgotten, and nothing subscribed. Otherwise a broker that lost its
+/// sessions is told again what we are waiting for, and whoever is told that we are here is heard.
+void Broker::Client::open(bool afresh) {
+  auto settings = connection(options_);
+  settings.set_clean_session(afresh);
+  client_.reset();
+  client_ = std::make_unique<mqtt::async_client>(
+      paho_url(options_.url), options_.client,
+      mqtt::create_options_builder().max_buffered_messages(most_at_paho).finalize(), nullptr);
+  client_->set_message_callback([this](mqtt::const_message_ptr const& message) { keep(message); });
+  client_->set_connection_lost_handler([this](std::string const&) { outbox_.disconnected(); });
   try {
-    if (!client_.connect(std::move(options))->wait_for(patience_at_start))
-      throw thermal::InputError(fmt::format("the broker {} does not answer", url_));
+    if (!client_->connect(settings)->wait_for(patience_at_start))
+      throw thermal::InputError(fmt::format("the broker {} does not answer", options_.url));
+    if (afresh) return;
+    if (!topics_->empty() && !client_->subscribe(topics_, qualities_)->wait_for(patience_at_start))
+      throw thermal::InputError(fmt::format("the broker {} does not answer a subscription", options_.url));
+    if (!options_.status_topic.empty()) client_->publish(options_.status_topic, online, at_least_once, true);
   } catch (mqtt::exception const& error) {
-    throw thermal::InputError(fmt::format("the broker {} cannot be reached: {}", url_, reason(error, url_)));
+    throw thermal::InputError(
+        fmt::format("the broker {} cannot be reached: {}", options_.url, reason(error, options_.url)));
   }
-}
-
-/// A broker that lost its sessions does not know what we are waiting for.
-void Broker::Client::on_connected() {
-  try {
-    if (++connections_ == 1) return;
-    if (!topics_->empty()) client_.subscribe(topics_, qualities_);
-    announce();
-  } catch (mqtt::exception const&) {
-    // the connection broke again: the next one will do
-  }
-}
-
-void Broker::Client::announce() {
-  if (!status_topic_.empty()) publish(status_topic_, online, true);
+  outbox_.connected();
+  if (!client_->is_connected()) outbox_.disconnected();  // it broke before that
 }
 
 void Broker::Client::keep(mqtt::const_message_ptr const& message) {
@@ -195,13 +206,35 @@ void Broker::Client::keep(mqtt::const_message_ptr const& message) {
   arrived_.notify_one();
 }
 
-bool Broker::Client::publish(std::string const& topic, std::string const& payload, bool retained) {
+void Broker::Client::serve() {
+  do
+    while (auto const message = outbox_.next()) send(*message);
+  while (open_again());
+}
+
+void Broker::Client::send(OutgoingMessage const& message) {
   try {
-    client_.publish(topic, payload, at_least_once, retained);
-    return true;
-  } catch (mqtt::exception const&) {
-    return false;
+    auto* const number = reinterpret_cast<void*>(std::uintptr_t(message.number));
+    client_->publish(message.topic, message.payload.data(), message.payload.size(), at_least_once, message.retained,
+                     number, *this);
+  } catch (mqtt::exception const& error) {
+    if (error.get_return_code() == MQTTASYNC_DISCONNECTED)
+      outbox_.disconnected();
+    else
+      outbox_.withdraw(message.number);
   }
+}
+
+/// False when we are to end.
+bool Broker::Client::open_again() {
+  for (auto delay = shortest_delay; !outbox_.closed_within(delay); delay = std::min(2 * delay, longest_delay)) try {
+      open(false);
+      ++reconnections_;
+      return true;
+    } catch (thermal::InputError const&) {
+      // the next attempt
+    }
+  return false;
 }
 
 std::optional<BrokerMessage> Broker::Client::receive(std::chrono::steady_clock::time_point until) {
@@ -210,19 +243,6 @@ std::optional<BrokerMessage> Broker::Client::receive(std::chrono::steady_clock::
   BrokerMessage message = std::move(messages_.front());
   messages_.pop_front();
   return message;
-}
-
-bool Broker::Client::flush(std::chrono::milliseconds patience) {
-  auto const until = std::chrono::steady_clock::now() + patience;
-  for (auto const& token : client_.get_pending_delivery_tokens()) {
-    auto const left = until - std::chrono::steady_clock::now();
-    try {
-      if (left <= 0s || !token->wait_for(std::chrono::duration_cast<std::chrono::milliseconds>(left))) return false;
-    } catch (mqtt::exception const&) {
-      return false;
-    }
-  }
-  return true;
 }
 
 Broker::Broker(BrokerOptions const& options, std::vector<std::string> const& topics)

@@ -27,9 +27,10 @@ struct BrokerMessage {
 
 /// A connection to a broker: MQTT 3.1.1, quality of service 1 in both directions.
 ///
-/// When it breaks, it is made anew, after 1, 2, 4, … at most 30 s; what is published meanwhile waits (up to a million
-/// messages), and the broker keeps what is sent to us, if it keeps sessions (mosquitto: `persistence true`). A session
-/// from before this connection is discarded.
+/// When it breaks, it is made anew, after ¼, ½, 1, … at most 30 s; what is published meanwhile waits (up to a million
+/// messages), and the broker keeps what is sent to us, if it keeps sessions (mosquitto: `persistence true`). What it
+/// acknowledged in the last seconds before is published again (Outbox): a message may come twice, and then late. A
+/// session from before this connection is discarded.
 class Broker {
  public:
   /// Connects and subscribes. InputError that names the broker and the reason: unreachable, refused, certificate.
@@ -45,7 +46,7 @@ class Broker {
 
   [[nodiscard]] bool connected() const;
   [[nodiscard]] int reconnections() const;
-  /// Waits until everything published has reached the broker; false when the time was too short.
+  /// Waits until the broker has acknowledged everything published; false when the time was too short.
   bool flush(std::chrono::milliseconds patience);
 
  private:

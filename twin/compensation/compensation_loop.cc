@@ -60,6 +60,7 @@ void CompensationLoop::keep(std::string const& topic, std::string_view payload, 
   auto const& reading = std::get<Reading>(message);
   if (reading.name != expected) return refuse(expected + ": another name than its topic's");
   if (!(std::abs(reading.time) <= furthest_time)) return refuse(expected + ": no such time");
+  if (reading.time <= read_[input->second]) return refuse("a time that is not newer: sent again, or a clock set back");
   if (pending_.size() >= most_pending || early_.size() >= most_early) return refuse("more messages than can be taken");
   early_.push_back({input->second, clock_.lead(reading.time, wall), reading});
   clock_.hear(input->second, early_.back().lead);
