@@ -158,6 +158,24 @@ TEST(Documentation, LeavesOutOnlyWhatATestCannotRun) {
   EXPECT_GT(run, 30U);
 }
 
+/// No line that looks like a command stands outside the blocks that are run or left out.
+TEST(Documentation, HidesNoCommandFromItsTest) {
+  std::regex const command(R"(^\s*(xvfb-run )?(build/)?thermotwin [a-z].*)");
+  int seen = 0;
+  for (auto const& name : chapters()) {
+    std::string known;
+    for (auto const& block : tests::command_blocks(root / name)) known += block.given + block.text;
+    std::istringstream lines(tests::contents(root / name));
+    for (std::string line; std::getline(lines, line);) {
+      if (!std::regex_match(line, command)) continue;
+      ++seen;
+      auto const text = line.substr(line.find_first_not_of(' '));
+      EXPECT_THAT(known, HasSubstr(text.substr(0, text.find(" -->")))) << name;
+    }
+  }
+  EXPECT_GT(seen, 60);
+}
+
 /// Commands that pages show exist, with the options that they show.
 TEST(Documentation, NamesCommandsAndOptionsThatThereAre) {
   std::string const program = THERMOTWIN_PROGRAM;

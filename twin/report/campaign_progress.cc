@@ -28,16 +28,6 @@ struct Moment {
   }
 };
 
-/// Runs first to last of all of them that part `number` holds.
-struct PartRuns {
-  std::int64_t number, first, last;
-};
-
-PartRuns runs_of(fs::path const& part, std::int64_t runs, std::int64_t per_part) {
-  std::int64_t const number = std::stoll(part.stem().string());
-  return {number, number * per_part, std::min(runs, (number + 1) * per_part) - 1};
-}
-
 bool is_part(fs::path const& file) {
   auto const name = file.stem().string();
   return (file.extension() == ".h5" || file.extension() == ".journal") && name.size() == part_digits &&
@@ -50,6 +40,28 @@ output::Json read_manifest(fs::path const& file) {
     if (!manifest.is_object() || !manifest.contains(key))
       throw thermal::InputError(fmt::format("{}: no campaign's manifest: it does not say '{}'", file.string(), key));
   return manifest;
+}
+
+/// Of the manifest.
+struct Size {
+  std::int64_t runs = 0, per_part = 0;
+};
+
+Size size_of(fs::path const& manifest_file) {
+  auto const manifest = read_manifest(manifest_file);
+  auto const number = [&](char const* key) { return std::stoll(manifest.at(key).get<std::string>()); };
+  return {number("runs"), number("runs_per_part")};
+}
+
+std::vector<WholePart> parts_among(std::vector<fs::path> const& files) {
+  auto const [runs, per_part] = size_of(files.front());
+  std::vector<WholePart> parts;
+  for (auto const& file : files) {
+    if (file.parent_path().filename() != "parts" || file.extension() != ".h5") continue;
+    std::int64_t const number = std::stoll(file.stem().string());
+    parts.push_back({file, number, number * per_part, std::min(runs, (number + 1) * per_part) - 1});
+  }
+  return parts;
 }
 
 output::Json step(std::string const& what, double at_s) { return {{"what", what}, {"at_s", at_s}}; }
@@ -72,26 +84,24 @@ std::vector<fs::path> campaign_files(fs::path const& folder) {
   return files;
 }
 
+std::vector<WholePart> whole_parts(fs::path const& folder) { return parts_among(campaign_files(folder)); }
+
 output::Json campaign_progress(fs::path const& folder) {
   auto const files = campaign_files(folder);
-  auto const manifest = read_manifest(files.front());
-  auto const number = [&](char const* key) { return std::stoll(manifest.at(key).get<std::string>()); };
-  std::int64_t const runs = number("runs"), per_part = number("runs_per_part");
+  std::int64_t const runs = size_of(files.front()).runs;
   Moment const moment{files.front()};
   std::vector<output::Json> parts;
   std::int64_t made = 0;
   double last = 0.0;
   for (auto const& file : files) {
     last = std::max(last, moment(file));
-    if (file.parent_path().filename() != "parts") continue;
-    auto const [part, first, end] = runs_of(file, runs, per_part);
-    if (file.extension() == ".journal") {
-      made += output::Journal::count(file);
-      continue;
-    }
-    made += end - first + 1;
-    auto const which = first == end ? fmt::format("run {}", first) : fmt::format("runs {} to {}", first, end);
-    parts.push_back(step(fmt::format("part {} is whole: {}", part, which), moment(file)));
+    if (file.extension() == ".journal") made += output::Journal::count(file);
+  }
+  for (auto const& part : parts_among(files)) {
+    made += part.last - part.first + 1;
+    auto const which = part.first == part.last ? fmt::format("run {}", part.first)
+                                               : fmt::format("runs {} to {}", part.first, part.last);
+    parts.push_back(step(fmt::format("part {} is whole: {}", part.number, which), moment(part.file)));
   }
   std::sort(parts.begin(), parts.end(), [](auto const& a, auto const& b) { return a["at_s"] < b["at_s"]; });
   if (parts.size() > parts_shown) parts.erase(parts.begin(), parts.end() - parts_shown);

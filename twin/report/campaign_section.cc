@@ -32,13 +32,6 @@ struct Group {
 };
 constexpr std::array<Group, 2> groups = {Group{"readings", "reading", "degC"}, {"displacements", "displacement", "um"}};
 
-std::vector<fs::path> whole_parts(fs::path const& folder) {
-  auto files = campaign_files(folder);
-  std::erase_if(files,
-                [](auto const& file) { return file.parent_path().filename() != "parts" || file.extension() != ".h5"; });
-  return files;
-}
-
 void append(Eigen::MatrixXd& all, Eigen::MatrixXd const& more) {
   if (more.rows() == 0) return;
   Eigen::Index const rows = all.rows();
@@ -47,10 +40,10 @@ void append(Eigen::MatrixXd& all, Eigen::MatrixXd const& more) {
 }
 
 /// The runs of all parts as if of one.
-CampaignRuns read_all(std::vector<fs::path> const& parts, std::int64_t every) {
+CampaignRuns read_all(std::vector<WholePart> const& parts, std::int64_t every) {
   CampaignRuns all;
   for (auto const& part : parts) {
-    auto runs = output::read_runs(part, {"parameters", "readings", "displacements", "summary"}, every);
+    auto runs = output::read_runs(part.file, {"parameters", "readings", "displacements", "summary"}, every);
     if (all.variables.empty()) {
       all = std::move(runs);
       continue;
@@ -161,23 +154,19 @@ Json parameters_json(CampaignRuns const& runs, ReportPage& page) {
   return list;
 }
 
-std::int64_t count_runs(std::vector<fs::path> const& parts) {
-  std::int64_t count = 0;
-  for (auto const& part : parts) count += std::int64_t(output::read_runs(part, {}).run.size());
-  return count;
-}
-
 }  // namespace
 
 Json campaign_json(fs::path const& folder, ReportPage& page, std::int64_t most) {
   auto const parts = whole_parts(folder);
   if (parts.empty()) return nullptr;
-  std::int64_t const made = count_runs(parts), every = (made + most - 1) / most;
+  std::int64_t made = 0;
+  for (auto const& part : parts) made += part.last - part.first + 1;
+  std::int64_t const every = (made + most - 1) / most;
   auto const runs = read_all(parts, every);
   Json failures = Json::array();
   std::size_t failed = 0;
   for (auto const& part : parts)
-    for (auto const& [run, reason] : output::read_failures(part))
+    for (auto const& [run, reason] : output::read_failures(part.file))
       if (failed++ < most_failures) failures.push_back({{"run", run}, {"reason", reason}});
   Json remarks = Json::array();
   if (every > 1)
