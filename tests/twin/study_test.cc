@@ -175,6 +175,8 @@ TEST(Study, MayCutOneRunInTwo) {
   auto const report = SmallStudy(text).report();
   auto const& figures = row(report, "all + linear").figures;
   EXPECT_GT(interval(figures.at("cross.rmse")).mean, interval(figures.at("self.rmse")).mean);
+  text.replace(text.find("\"ridge\""), 7, "\"twin ridge\"");
+  EXPECT_EQ(row(SmallStudy(text).report(), "all + twin ridge").refused, "the twin is calibrated on whole runs only");
 }
 
 TEST(Study, TreatsEachRunAsABatchOfItsOwn) {
@@ -287,6 +289,9 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
   EXPECT_THAT(with(all, "forward 2", "forward two"), HasSubstr("a number of sensors from 1 on is due"));
   EXPECT_THAT(with(all, "forward 2", "all 2"), HasSubstr("all sensors have no number"));
   EXPECT_THAT(with(all, "\"ridge\"", "\"rigde\""), HasSubstr("small.toml:5:21: no model 'rigde'; known: linear, "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"twin rigde\""),
+              HasSubstr("small.toml:5:21: no model 'rigde'; known: linear, "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"twins\""), HasSubstr("small.toml:5:21: no model 'twins'; known: "));
   EXPECT_THAT(with(all, "\"ridge\"", "\"linear\""), HasSubstr("small.toml:5:21: 'linear' is given twice"));
   EXPECT_THAT(with(all, "seeds = 5", "seeds = 3"), HasSubstr("'seeds' is 3; allowed is 5 to 1000"));
   EXPECT_THAT(with(all, "E_Z", "E_W"), HasSubstr("world 'v450': fast.toml has no displacement 'E_W'; did you mean"));
