@@ -27,7 +27,7 @@ Descent lowest_descent(NetworkLoss& loss, GeneticSearch const& search) {
 ErrorModel fit_genetic_back_propagation(std::span<Batch const> batches, FitOptions const& options) {
   NetworkSamples const samples(batches);
   auto loss = samples.loss();
-  auto const fitness = [&](Eigen::VectorXd const& parameters) { return 1.0 / loss(parameters); };
+  auto const fitness = [&](Eigen::VectorXd const& parameters) { return 1.0 / loss.rough(parameters); };
   auto const search = genetic_search(loss.parameters(), fitness, options.seed);
   auto const found = lowest_descent(loss, search);
   return samples.model(

@@ -14,9 +14,12 @@ using Eigen::VectorXd;
 /// A network's numbers where they lie in the row of all of them.
 template <class Row>
 struct Layout {
-  using Scalar = std::conditional_t<std::is_const_v<Row>, double const, double>;
-  using Matrix = std::conditional_t<std::is_const_v<Row>, MatrixXd const, MatrixXd>;
-  using Vector = std::conditional_t<std::is_const_v<Row>, VectorXd const, VectorXd>;
+  using Number = typename Row::Scalar;
+  using AnyMatrix = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
+  using AnyVector = Eigen::Matrix<Number, Eigen::Dynamic, 1>;
+  using Scalar = std::conditional_t<std::is_const_v<Row>, Number const, Number>;
+  using Matrix = std::conditional_t<std::is_const_v<Row>, AnyMatrix const, AnyMatrix>;
+  using Vector = std::conditional_t<std::is_const_v<Row>, AnyVector const, AnyVector>;
   Map<Matrix> weights;
   Map<Vector> output_weights, thresholds;
   Scalar& output_threshold;
@@ -61,7 +64,12 @@ VectorXd network_output(NetworkForm const& form, MatrixXd const& x) {
 }
 
 NetworkLoss::NetworkLoss(MatrixXd x, VectorXd y)
-    : x_(std::move(x)), y_(std::move(y)), hidden_(x_.rows(), hidden_nodes(x_.cols())) {}
+    : x_(std::move(x)),
+      y_(std::move(y)),
+      hidden_(x_.rows(), hidden_nodes(x_.cols())),
+      rough_x_(x_.cast<float>()),
+      rough_y_(y_.cast<float>()),
+      rough_hidden_(x_.rows(), hidden_nodes(x_.cols())) {}
 
 void NetworkLoss::forward(VectorXd const& parameters) {
   Layout<VectorXd const> const layout(parameters, x_.cols(), hidden_nodes(x_.cols()));
@@ -75,6 +83,17 @@ void NetworkLoss::forward(VectorXd const& parameters) {
 double NetworkLoss::operator()(VectorXd const& parameters) {
   forward(parameters);
   return 0.5 * residual_.squaredNorm();
+}
+
+double NetworkLoss::rough(VectorXd const& parameters) {
+  Eigen::VectorXf const row = parameters.cast<float>();
+  Layout<Eigen::VectorXf const> const layout(row, x_.cols(), hidden_nodes(x_.cols()));
+  rough_hidden_.matrix().noalias() = rough_x_ * layout.weights.transpose();
+  rough_hidden_.rowwise() -= layout.thresholds.transpose().array();
+  rough_hidden_ = (1.0F + (-rough_hidden_).exp()).inverse();
+  rough_residual_.noalias() = rough_hidden_.matrix() * layout.output_weights - rough_y_;
+  rough_residual_.array() -= layout.output_threshold;
+  return 0.5 * double(rough_residual_.squaredNorm());
 }
 
 double NetworkLoss::with_gradient(VectorXd const& parameters, VectorXd& gradient) {

@@ -30,6 +30,8 @@ class NetworkLoss {
   [[nodiscard]] Eigen::Index samples() const { return y_.size(); }
   [[nodiscard]] Eigen::Index parameters() const { return network_parameters(x_.cols()); }
   double operator()(Eigen::VectorXd const& parameters);
+  /// E in single precision, a part in 10⁵, in half the time: ranks the many of a genetic search.
+  double rough(Eigen::VectorXd const& parameters);
   /// E, and ∂E/∂parameters in `gradient`.
   double with_gradient(Eigen::VectorXd const& parameters, Eigen::VectorXd& gradient);
 
@@ -39,6 +41,9 @@ class NetworkLoss {
   Eigen::MatrixXd x_;
   Eigen::VectorXd y_, residual_;
   Eigen::ArrayXXd hidden_, back_;
+  Eigen::MatrixXf rough_x_;
+  Eigen::VectorXf rough_y_, rough_residual_;
+  Eigen::ArrayXXf rough_hidden_;
 };
 
 /// A training set with inputs and target between −1 and 1.

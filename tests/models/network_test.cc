@@ -63,6 +63,7 @@ TEST(NetworkLoss, GradientIsThatOfDifferences) {
   VectorXd const at = random_parameters(78, 5);
   VectorXd gradient;
   EXPECT_EQ(loss.with_gradient(at, gradient), loss(at));
+  EXPECT_NEAR(loss.rough(at), loss(at), 1e-5 * loss(at));
   for (Eigen::Index k = 0; k < 78; ++k) {
     double const step = 1e-5;
     double const difference =
