@@ -12,8 +12,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Set = std::vector<Index>;
 
-constexpr std::size_t most_starts = 12;
-constexpr double least_progress = 1e-9, least_sine_squared = 1e-9;
+constexpr std::size_t starts = 12;
+constexpr double least_gain = 1e-9, least_sine_squared = 1e-9;
 
 /// sin² of the angle of every pair under a Gram matrix.
 Eigen::ArrayXd sines_squared(Signatures const& signatures, MatrixXd const& gram) {
@@ -61,7 +61,7 @@ Set exchanged(Signatures const& signatures, Set set) {
       Set rest = set;
       rest.erase(rest.begin() + std::ptrdiff_t(k));
       auto const [site, with] = best_partner(signatures, rest, smallest);
-      if (with <= value * (1.0 + least_progress)) continue;
+      if (with <= value * (1.0 + least_gain)) continue;
       set[k] = site;
       value = with;
       better = true;
@@ -91,7 +91,7 @@ Set place_to_distinguish(Signatures const& signatures, Index count) {
   std::vector<std::pair<double, Index>> first;
   for (Index i = 0; i < sites; ++i) first.emplace_back(crowding(signatures, signatures.gram[std::size_t(i)]), i);
   std::sort(first.begin(), first.end());
-  first.resize(std::min(first.size(), most_starts));
+  first.resize(std::min(first.size(), starts));
   std::vector<Set> sets(first.size());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t s = 0; s < sets.size(); ++s) {

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double significance = 0.05;
+constexpr double dropped_above = 0.05;
 
 LinearRegression regression(TrainingSet const& set) {
   return linear_regression(set.regressors, set.error, {regressor_names(set), set.run_lengths, {}});
@@ -32,7 +32,7 @@ bool enough_samples(std::span<Batch const> batches, int order) {
 /// Why the larger of two neighbouring orders is refused; empty if it is not.
 std::string objection(LinearRegression const& before, LinearRegression const& after, TrainingSet const& set) {
   auto const inputs = static_cast<Index>(set.inputs.size());
-  if (after.p.tail(inputs).minCoeff() >= significance)
+  if (after.p.tail(inputs).minCoeff() >= dropped_above)
     return fmt::format("no coefficient of lag {} is significant", set.lags.back());
   for (Index k = 0; k < before.coefficients.size(); ++k)
     if (before.coefficients(k) * after.coefficients(k) < 0)

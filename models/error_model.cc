@@ -16,7 +16,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double other_period = 1e-3;
+constexpr double period_tolerance = 1e-3;
 
 struct Prediction {
   MatrixXd const& readings;
@@ -40,7 +40,7 @@ void check_period(ErrorModel const& model, Batch const& batch) {
   auto const* form = std::get_if<LinearForm>(&model.form);
   if (!form || form->lags.back() == 0) return;
   double const period = sample_period(batch);
-  if (std::abs(period - model.sample_period) > other_period * model.sample_period)
+  if (std::abs(period - model.sample_period) > period_tolerance * model.sample_period)
     throw std::invalid_argument(
         fmt::format("batch '{}' has a sample every {:.6g} s; the lags of the model '{}' count "
                     "samples of {:.6g} s",

@@ -13,7 +13,7 @@ namespace thermotwin::models {
 namespace {
 
 using Eigen::Index;
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// The next set of that size in lexical order; false after the last.
 bool advance(std::vector<Index>& set, Index sensors) {
@@ -53,8 +53,8 @@ BestSubset best_subset(SubsetValidation const& validation, int count) {
   if (count < 1 || count > sensors)
     throw std::invalid_argument(
         fmt::format("sets of {} among {} sensors; 1 to {} are possible", count, sensors, sensors));
-  BestSubset best{{}, infinite, {}};
-  Eigen::VectorXd with = Eigen::VectorXd::Constant(sensors, infinite), without = with;
+  BestSubset best{{}, unbounded, {}};
+  Eigen::VectorXd with = Eigen::VectorXd::Constant(sensors, unbounded), without = with;
   std::vector<Index> set(static_cast<std::size_t>(count));
   std::iota(set.begin(), set.end(), 0);
   do {

@@ -30,7 +30,7 @@ MatrixXd drawn_rows(MatrixXd const& points, int count, std::mt19937_64& generato
 }
 
 /// d_ik², centres × points.
-MatrixXd squared_distances(MatrixXd const& centres, MatrixXd const& points) {
+MatrixXd distances_from_centres(MatrixXd const& centres, MatrixXd const& points) {
   MatrixXd result(centres.rows(), points.rows());
   for (Index i = 0; i < centres.rows(); ++i)
     result.row(i) = (points.rowwise() - centres.row(i)).rowwise().squaredNorm().transpose();
@@ -53,14 +53,14 @@ MatrixXd memberships(MatrixXd const& squared, double exponent) {
 
 FuzzyClusters descend(MatrixXd const& points, MatrixXd const& first_centres, FuzzyOptions const& options) {
   FuzzyClusters clusters{{}, first_centres, {}};
-  MatrixXd squared = squared_distances(clusters.centres, points);
+  MatrixXd squared = distances_from_centres(clusters.centres, points);
   clusters.membership = memberships(squared, options.exponent);
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     MatrixXd const weights = clusters.membership.array().pow(options.exponent);
     // A centre that no point belongs to (more centres than different points) stays where it is.
     for (Index i = 0; i < weights.rows(); ++i)
       if (double const sum = weights.row(i).sum(); sum > 0) clusters.centres.row(i) = weights.row(i) * points / sum;
-    squared = squared_distances(clusters.centres, points);
+    squared = distances_from_centres(clusters.centres, points);
     MatrixXd membership = memberships(squared, options.exponent);
     clusters.descent.push_back((membership.array().pow(options.exponent) * squared.array()).sum());
     double const change = (membership - clusters.membership).cwiseAbs().maxCoeff();
@@ -103,8 +103,8 @@ FuzzyClusters fuzzy_c_means(MatrixXd const& points, int clusters, FuzzyOptions c
 
 double xie_beni(FuzzyClusters const& clusters, MatrixXd const& points) {
   double const scatter =
-      (clusters.membership.array().square() * squared_distances(clusters.centres, points).array()).sum();
-  MatrixXd between = squared_distances(clusters.centres, clusters.centres);
+      (clusters.membership.array().square() * distances_from_centres(clusters.centres, points).array()).sum();
+  MatrixXd between = distances_from_centres(clusters.centres, clusters.centres);
   between.diagonal().setConstant(std::numeric_limits<double>::infinity());
   double const nearest = between.minCoeff();
   double const size = points.rowwise().squaredNorm().maxCoeff();

@@ -19,13 +19,13 @@ namespace {
 constexpr int strategies_b_and_c = 2;    // main factor, fewest sensors
 constexpr double no_difference = 1e-12;  // of series of range 1
 
-VectorXd scaled(VectorXd const& x, GreyScaling scaling) {
+VectorXd dimensionless(VectorXd const& x, GreyScaling scaling) {
   double const low = scaling == GreyScaling::range ? x.minCoeff() : 0.0;
   double const unit = scaling == GreyScaling::range ? x.maxCoeff() - low : x.mean();
   if (unit == 0)
     throw std::invalid_argument(scaling == GreyScaling::range
                                     ? "grey relation of a series that never moves"
-                                    : "grey relation of a series of mean 0 scaled by its mean");
+                                    : "grey relation of a series of mean 0 dimensionless by its mean");
   return (x.array() - low) / unit;
 }
 
@@ -44,11 +44,11 @@ VectorXd grey_relational_grades(MatrixXd const& columns, VectorXd const& referen
   if (!(options.resolution > 0 && options.resolution <= 1))
     throw std::invalid_argument(
         fmt::format("grey relation with resolution {}: above 0, at most 1", options.resolution));
-  VectorXd const target = scaled(reference, options.scaling);
+  VectorXd const target = dimensionless(reference, options.scaling);
   MatrixXd difference(columns.rows(), columns.cols());
   for (Index i = 0; i < columns.cols(); ++i) {
     bool const against = options.align_signs && co_movement(columns.col(i), reference) < 0;
-    difference.col(i) = (scaled((against ? -1.0 : 1.0) * columns.col(i), options.scaling) - target).cwiseAbs();
+    difference.col(i) = (dimensionless((against ? -1.0 : 1.0) * columns.col(i), options.scaling) - target).cwiseAbs();
   }
   double const least = difference.minCoeff(), largest = difference.maxCoeff();
   if (largest < no_difference) return VectorXd::Ones(columns.cols());

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 /// The cross-check by nearest neighbours costs the square of the samples; it looks at no more than about these.
 constexpr Index cross_checked_samples = 400;
 constexpr int neighbours = 4;
-constexpr double significant_below = 0.05;
+constexpr double dependent_below = 0.05;
 
 std::vector<std::string> names(Batch const& batch, std::vector<Index> const& columns) {
   std::vector<std::string> result;
@@ -48,7 +48,7 @@ std::string doubts(Batch const& all, InformationScreen const& screen, std::vecto
                     fmt::join(names(all, saturated), ", ")));
   std::vector<Index> doubtful;
   for (Index const i : screen.kept)
-    if (screen.block_p_value(i) >= significant_below) doubtful.push_back(i);
+    if (screen.block_p_value(i) >= dependent_below) doubtful.push_back(i);
   if (!doubtful.empty())
     remarks.push_back(
         fmt::format("perhaps independent of the error (p >= 0.05 by permutation of blocks of {} samples): {}",

@@ -11,14 +11,14 @@ namespace thermotwin::models {
 
 namespace {
 
-constexpr double share_left = 0.01;
+constexpr double unexplained_share = 0.01;
 
 /// ‖R₂₂‖² / ‖R‖² after each number of pivots: row i of R is what pivot i explains in all columns.
 int pivots_needed(Eigen::MatrixXd const& R) {
   double const total = R.squaredNorm();
   double left = total;
   int count = 0;
-  while (left > share_left * total) left -= R.row(count++).squaredNorm();
+  while (left > unexplained_share * total) left -= R.row(count++).squaredNorm();
   return count;
 }
 

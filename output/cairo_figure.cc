@@ -23,7 +23,7 @@ constexpr double pt_per_mm = 72.0 / 25.4;
 constexpr double font_size = 7.0, rule = 0.5, tick_length = 2.5, gap = 2.5, row_height = 10.0;  // pt
 constexpr char const* font = "DejaVu Sans";
 
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using CairoSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Pen = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 cairo_status_t append(void* text, unsigned char const* bytes, unsigned length) {
@@ -31,12 +31,12 @@ cairo_status_t append(void* text, unsigned char const* bytes, unsigned length) {
   return CAIRO_STATUS_SUCCESS;
 }
 
-Surface surface_for(std::filesystem::path const& path, double width, double height, std::string& bytes) {
+CairoSurface surface_for(std::filesystem::path const& path, double width, double height, std::string& bytes) {
   if (path.extension() == ".svg")
     return {cairo_svg_surface_create_for_stream(append, &bytes, width, height), cairo_surface_destroy};
   if (path.extension() != ".pdf")
     throw thermal::InputError(fmt::format("{}: a figure is written as .svg or .pdf", path.string()));
-  Surface surface(cairo_pdf_surface_create_for_stream(append, &bytes, width, height), cairo_surface_destroy);
+  CairoSurface surface(cairo_pdf_surface_create_for_stream(append, &bytes, width, height), cairo_surface_destroy);
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
   return surface;
 }
@@ -312,7 +312,7 @@ FigureFrame write_figure(Figure const& figure, std::filesystem::path const& path
   check(figure);
   double const width = pt_per_mm * figure.width, height = pt_per_mm * figure.height;
   std::string bytes;
-  Surface const surface = surface_for(path, width, height, bytes);
+  CairoSurface const surface = surface_for(path, width, height, bytes);
   Pen const pen(cairo_create(surface.get()), cairo_destroy);
   cairo_select_font_face(pen.get(), font, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(pen.get(), font_size);

@@ -39,9 +39,9 @@ Shape shape_of(CampaignLayout const& layout, CampaignVariable const& variable, s
 }
 
 /// The file's groups and scales, and which scales a variable has.
-class Frame {
+class CampaignFrame {
  public:
-  Frame(hid_t file, CampaignLayout const& layout) : file_(file) {
+  CampaignFrame(hid_t file, CampaignLayout const& layout) : file_(file) {
     hdf5::set_attribute(file, "title", layout.title);
     hdf5::set_attribute(file, "Conventions", std::string("CF-1.8"));
     for (auto const& axis : layout.axes) scales_.emplace(axis.name, make_scale(axis));
@@ -101,7 +101,7 @@ void write_failures(hid_t file, CampaignPart const& part) {
 
 std::string part_image(CampaignLayout const& layout, CampaignPart const& part) {
   auto const file = hdf5::make_file_in_memory();
-  Frame frame(file, layout);
+  CampaignFrame frame(file, layout);
   std::vector<std::int64_t> numbers(static_cast<std::size_t>(part.count));
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = part.first + static_cast<std::int64_t>(i);
   auto run = hdf5::make_variable(file, "run", {H5T_STD_I64LE, {numbers.size()}}, "1", "number of the run");
@@ -154,7 +154,7 @@ std::string index_image(CampaignLayout const& layout, std::vector<CampaignPartFi
   std::int64_t runs = 0;
   for (auto const& part : parts) runs += part.count;
   auto const file = hdf5::make_file_in_memory();
-  Frame frame(file, layout);
+  CampaignFrame frame(file, layout);
   CampaignVariable const run{Kind::whole, "run", "1", "number of the run", {}};
   frame.set_run_scale(make_virtual(file, "run", "/run", H5T_STD_I64LE, {extent(runs)}, parts, run));
   for (auto const& variable : layout.variables) {

@@ -13,7 +13,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-Eigen::Vector3d const sensor_red(0.86, 0.15, 0.15), unknown_grey(0.75, 0.75, 0.75);
+Eigen::Vector3d const marker_red(0.86, 0.15, 0.15), unknown_grey(0.75, 0.75, 0.75);
 
 enum Id { fields = 1, deformed, sensors, colours, machine_shown, sensors_shown, view };
 
@@ -91,7 +91,7 @@ std::string sensor_proxies(ParaviewView const& how) {
       .set("PointSize", "14")
       .set("RenderPointsAsSpheres", "1");
   if (how.meaning == FieldMeaning::state)
-    return shown.set("AmbientColor", sensor_red).set("DiffuseColor", sensor_red).text();
+    return shown.set("AmbientColor", marker_red).set("DiffuseColor", marker_red).text();
   return shown.set("ColorArrayName", Texts{"", "", "", "0", field_names(how.meaning).temperature})
       .refer("LookupTable", {colours})
       .text();

@@ -31,7 +31,7 @@ double draught(DoorOpening const& door, double t) {
   return door.step * -std::expm1(-open / door.time_constant) * std::exp(-closed / door.time_constant);
 }
 
-void require_positive(double value, std::string const& place) {
+void require_time(double value, std::string const& place) {
   if (!(value > 0.0)) throw InputError(place + ": " + format_quantity(value, dimension::time) + " must be above 0 s");
 }
 
@@ -51,7 +51,7 @@ bool door_open(Ambient const& ambient, double t) {
 }
 
 void check(Ambient const& ambient) {
-  if (ambient.air_conditioning) require_positive(ambient.air_conditioning->period, "ambient.air_conditioning.period");
+  if (ambient.air_conditioning) require_time(ambient.air_conditioning->period, "ambient.air_conditioning.period");
   for (std::size_t i = 0; i < ambient.door_openings.size(); ++i) {
     DoorOpening const& door = ambient.door_openings[i];
     std::string const place = "ambient.door_openings[" + std::to_string(i) + "].";
@@ -59,8 +59,8 @@ void check(Ambient const& ambient) {
       throw InputError(place + "time: " + format_quantity(door.time, dimension::time) +
                        " is before the start of the run");
     }
-    require_positive(door.duration, place + "duration");
-    require_positive(door.time_constant, place + "time_constant");
+    require_time(door.duration, place + "duration");
+    require_time(door.time_constant, place + "time_constant");
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using thermal::InputError;
 
-constexpr double day = 86400.0;
+constexpr double seconds_per_day = 86400.0;
 
 std::vector<DrivenChannel> driven_channels(Experiment const& experiment) {
   std::vector<DrivenChannel> driven = experiment.driven;
@@ -139,7 +139,7 @@ void ExperimentCourse::add_switches(Experiment const& experiment) {
 void ExperimentCourse::add_clock(Experiment const& experiment) {
   std::vector<double> times = {0.0};
   std::vector<double> midnights = {-experiment.start_time_of_day};
-  for (double next = midnights.front() + day; next <= experiment.duration; next += day) {
+  for (double next = midnights.front() + seconds_per_day; next <= experiment.duration; next += seconds_per_day) {
     times.push_back(next);
     midnights.push_back(next);
   }
@@ -147,7 +147,7 @@ void ExperimentCourse::add_clock(Experiment const& experiment) {
   add({"time_of_day", "s", "clock"}, [last_midnight](double t) { return t - last_midnight.at(t); });
   add_jumps(last_midnight.jumps());
   auto const angle = [start = experiment.start_time_of_day](double t) {
-    return 2.0 * std::numbers::pi * (start + t) / day;
+    return 2.0 * std::numbers::pi * (start + t) / seconds_per_day;
   };
   add({"clock.day_cosine", "1", "1 at midnight, -1 at noon"}, [angle](double t) { return std::cos(angle(t)); });
   add({"clock.day_sine", "1", "1 at six in the morning"}, [angle](double t) { return std::sin(angle(t)); });

@@ -6,11 +6,10 @@
 
 #include "thermal/error.h"
 #include "thermal/fixed_blocks.h"
+#include "thermal/physical_constant.h"
 
 namespace thermotwin::thermal {
 namespace {
-
-constexpr double T20 = 293.15;
 
 template <class Values>
 std::vector<double> divided_difference(Values const& plus, Values const& minus, double step) {
@@ -207,7 +206,8 @@ void Evaluation::linearise(double const* state, double const* input, Linearisati
       }
   result.slope.resize(n);
   for (int i = 0; i < n; ++i)
-    result.slope[i] = 1.0 / (1.0 + net.capacity_slope()[std::size_t(i)] * (temperature_[std::size_t(i)] - T20));
+    result.slope[i] =
+        1.0 / (1.0 + net.capacity_slope()[std::size_t(i)] * (temperature_[std::size_t(i)] - reference_temperature));
   result.weights = weights_;
 }
 
@@ -235,8 +235,8 @@ std::span<double const> Evaluation::temperature_derivatives(double const* state,
   int const n = net.nodes();
   for (int i = 0; i < n; ++i) {
     auto const k = std::size_t(i);
-    double const rise = temperature_[k] - T20;
-    // y − T20 = rise + ½ s rise²  ⇒  dy = (1 + s rise) dT + ½ rise² ds
+    double const rise = temperature_[k] - reference_temperature;
+    // y − reference_temperature = rise + ½ s rise²  ⇒  dy = (1 + s rise) dT + ½ rise² ds
     temperature_rate_[k] = (state_derivative[i] - 0.5 * rise * rise * derivative.capacity_slope[k]) /
                            (1.0 + net.capacity_slope()[k] * rise);
   }

@@ -8,11 +8,10 @@
 #include "thermal/error.h"
 #include "thermal/laws.h"
 #include "thermal/nearest_name.h"
+#include "thermal/physical_constant.h"
 
 namespace thermotwin::thermal {
 namespace {
-
-constexpr double T20 = 293.15;
 
 std::vector<std::string> names_of(std::vector<NodeRange> const& ranges) {
   std::vector<std::string> names;
@@ -89,11 +88,11 @@ int Network::index_of(Port port) const {
 
 double Network::temperature_of_warm_state(int node, double y) const {
   double const slope = capacity_slope_[std::size_t(node)];
-  return T20 + (std::sqrt(1.0 + 2.0 * slope * (y - T20)) - 1.0) / slope;
+  return reference_temperature + (std::sqrt(1.0 + 2.0 * slope * (y - reference_temperature)) - 1.0) / slope;
 }
 
 double Network::state_of_temperature(int node, double temperature) const {
-  double const rise = temperature - T20;
+  double const rise = temperature - reference_temperature;
   return temperature + 0.5 * capacity_slope_[std::size_t(node)] * rise * rise;
 }
 

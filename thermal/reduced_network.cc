@@ -16,8 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double T20 = 293.15;
-
 /// V (VᵀCV)^−½, twice: what the first leaves of round-off the second takes away.
 MatrixXd orthonormal(MatrixXd shapes, VectorXd const& capacity) {
   for (int pass = 0; pass < 2; ++pass) {
@@ -46,7 +44,7 @@ ReducedNetwork::ReducedNetwork(Network const& network, LinearPart const& linear,
                                std::vector<SampledElement> const& elements)
     : network_(&network), elements_(elements), start_(network.nodes()) {
   check(network);
-  for (int i = 0; i < network.nodes(); ++i) start_[i] = network.signals()[std::size_t(i)] ? 0.0 : T20;
+  for (int i = 0; i < network.nodes(); ++i) start_[i] = network.signals()[std::size_t(i)] ? 0.0 : reference_temperature;
   project(linear, shapes);
   add_elements(linear);
 }

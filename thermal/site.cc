@@ -9,7 +9,7 @@
 namespace thermotwin::thermal {
 namespace {
 
-constexpr double tolerance = 1e-6;  // of typed coordinates [m]
+constexpr double typed_tolerance = 1e-6;  // of typed coordinates [m]
 
 Eigen::AlignedBox3d box_of(Body const& body, int cell) {
   if (body.shape != Body::Shape::block) return {};
@@ -103,10 +103,11 @@ Eigen::Vector3d local(Body const& body, Eigen::Vector3d const& position) {
 bool inside(Body const& body, Eigen::Vector3d const& place) {
   for (int d = 0; d < 3; ++d) {
     auto const& edges = body.edges[std::size_t(d)];
-    if (!edges.empty() && (place[d] < edges.front() - tolerance || place[d] > edges.back() + tolerance)) return false;
+    if (!edges.empty() && (place[d] < edges.front() - typed_tolerance || place[d] > edges.back() + typed_tolerance))
+      return false;
   }
   if (body.shape != Body::Shape::axial || !body.edges[1].empty()) return true;
-  return place[1] <= std::get<RingCell>(body.cells[0]).outer_radius + tolerance;
+  return place[1] <= std::get<RingCell>(body.cells[0]).outer_radius + typed_tolerance;
 }
 
 std::string text_of(Eigen::Vector3d const& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", p[0], p[1], p[2]); }
@@ -214,7 +215,8 @@ Site ring(Body const& body, std::string const& face_name, double position) {
   require_shape(body, Body::Shape::axial, "bar or cylinder: it has no rings");
   Site site = whole_face(body, face_name, fmt::format("face '{}' at {:.6g} m", face_name, position));
   auto const& edges = body.edges[0];
-  if (site.kind != Site::Kind::axial || position < edges.front() - tolerance || position > edges.back() + tolerance)
+  if (site.kind != Site::Kind::axial || position < edges.front() - typed_tolerance ||
+      position > edges.back() + typed_tolerance)
     throw InputError(fmt::format("{} lies outside of '{}'", site.place, body.name));
   auto const facets = std::move(site.contacts);
   site.contacts.clear();

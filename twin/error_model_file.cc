@@ -193,7 +193,7 @@ struct FormText {
 // ----------------------------------------------------------------------------------------------------------
 
 /// Puts a complaint where the table stands.
-struct Place {
+struct TablePlace {
   Location where;
   Index inputs;
 
@@ -207,7 +207,7 @@ struct Place {
   }
 };
 
-void read_scaling(ScalingTable const& table, Place const& place, auto& form) {
+void read_scaling(ScalingTable const& table, TablePlace const& place, auto& form) {
   form.input_offset = place.per_input(table.input_offset, "input_offset");
   form.input_scale = place.per_input(table.input_scale, "input_scale");
   place.check(form.input_scale.minCoeff() > 0 && table.target_scale > 0, "a scale is not positive");
@@ -215,7 +215,7 @@ void read_scaling(ScalingTable const& table, Place const& place, auto& form) {
   form.target_scale = table.target_scale;
 }
 
-LinearForm form_of(LinearTable const& table, Place const& place) {
+LinearForm form_of(LinearTable const& table, TablePlace const& place) {
   place.check(!table.lag.empty(),
               "'lag' is missing or empty; write for example lag = [{ samples = 0, coefficients = "
               "[0.5] }]");
@@ -230,7 +230,7 @@ LinearForm form_of(LinearTable const& table, Place const& place) {
   return form;
 }
 
-KernelForm form_of(KernelTable const& table, Place const& place) {
+KernelForm form_of(KernelTable const& table, TablePlace const& place) {
   place.check(!table.support.empty(), "'support' is missing or empty");
   KernelForm form;
   read_scaling(table, place, form);
@@ -246,7 +246,7 @@ KernelForm form_of(KernelTable const& table, Place const& place) {
   return form;
 }
 
-NetworkForm form_of(NetworkTable const& table, Place const& place) {
+NetworkForm form_of(NetworkTable const& table, TablePlace const& place) {
   place.check(!table.node.empty(), "'node' is missing or empty");
   NetworkForm form;
   read_scaling(table, place, form);
@@ -295,7 +295,7 @@ ErrorModel read_error_model(std::filesystem::path const& path) {
   if (read.inputs.empty()) throw FileError(table->where, "'inputs' is missing or empty");
   if (read.linear.has_value() + read.kernel.has_value() + read.network.has_value() != 1)
     throw FileError(table->where, "exactly one of [model.linear], [model.kernel] and [model.network] is due");
-  auto const place = [&](char const* key) { return Place{table->find(key)->where, Index(read.inputs.size())}; };
+  auto const place = [&](char const* key) { return TablePlace{table->find(key)->where, Index(read.inputs.size())}; };
   ErrorModel model{read.method, read.inputs, read.sample_period, read.parameters, {}, read.remark};
   if (read.linear) model.form = form_of(*read.linear, place("linear"));
   if (read.kernel) model.form = form_of(*read.kernel, place("kernel"));

@@ -255,13 +255,13 @@ Value EffectDraw::with(Value const& document, HiddenEffect const& effect, std::s
   throw InputError(fmt::format("{} cannot act on the other form of the machine", effect.hypothesis.label()));
 }
 
-SensorFault draw_fault(Value& document, RandomStream& stream) {
+HiddenFault draw_fault(Value& document, RandomStream& stream) {
   std::vector<Value*> sensors;
   for (auto* table : tables_of(document, "temperature_sensor"))
     if (texts_of(*table, "at") != std::vector<std::string>{"ambient"}) sensors.push_back(table);
   if (sensors.empty()) throw InputError("the machine has no sensor that could be faulty");
   Value& table = *sensors[std::size_t(stream.uniform() * double(sensors.size()))];
-  SensorFault fault;
+  HiddenFault fault;
   fault.sensor = name_in(table);
   fault.kind =
       std::array<char const*, 5>{"drift", "lag", "contact", "stuck", "jumping"}[std::size_t(5 * stream.uniform())];
@@ -282,7 +282,7 @@ SensorFault draw_fault(Value& document, RandomStream& stream) {
   return fault;
 }
 
-void break_sensor(output::Channel& channel, SensorFault const& fault, std::uint64_t seed, int run) {
+void break_sensor(output::Channel& channel, HiddenFault const& fault, std::uint64_t seed, int run) {
   Eigen::Index const rows = channel.values.size();
   if (fault.kind == "stuck") {
     auto const from = run == 0 ? Eigen::Index(fault.from * double(rows)) : 0;

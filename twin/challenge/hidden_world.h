@@ -29,7 +29,7 @@ struct HiddenEffect {
 };
 
 /// A sensor whose readings go wrong (physics.md §7 nos. 27 to 29).
-struct SensorFault {
+struct HiddenFault {
   std::string sensor;
   std::string kind;        ///< "drift", "lag", "contact", "stuck" or "jumping"
   double amplitude = 0.0;  ///< drift [K/s], lag [s], share of the way to the air [1], jump [K]; of a stuck one 0
@@ -44,7 +44,7 @@ struct HiddenWorld {
   Value healthy;  ///< the document without what is hidden
   Value hidden;
   std::vector<HiddenEffect> effects;
-  std::optional<SensorFault> fault;
+  std::optional<HiddenFault> fault;
   std::map<std::string, double> drawn;  ///< factor on each coefficient, or SI value of an instrument's key
 };
 

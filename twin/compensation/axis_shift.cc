@@ -9,7 +9,7 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double round_off = 1e-9;
+constexpr double step_round_off = 1e-9;
 
 void require(bool holds, char const* what, double value, char const* allowed) {
   if (!holds) throw thermal::InputError(fmt::format("{} of {:g}: it must be {}", what, value, allowed));
@@ -18,7 +18,7 @@ void require(bool holds, char const* what, double value, char const* allowed) {
 }  // namespace
 
 AxisShift::AxisShift(ShiftLimits const& limits)
-    : limits_(limits), largest_(limits.resolution * std::floor(limits.largest / limits.resolution + round_off)) {
+    : limits_(limits), largest_(limits.resolution * std::floor(limits.largest / limits.resolution + step_round_off)) {
   require(limits.resolution > 0 && std::isfinite(limits.resolution), "a resolution", limits.resolution, "positive");
   require(limits.dead_band >= 0, "a dead band", limits.dead_band, "0 or more");
   require(limits.slew > 0, "a slew limit", limits.slew, "positive");

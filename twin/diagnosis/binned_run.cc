@@ -8,13 +8,13 @@ namespace thermotwin::twin {
 namespace {
 
 /// Between two jumps, rows of equal length.
-struct Row {
+struct Stretch {
   double begin, end;
   bool after_jump;
 };
 
-std::vector<Row> rows_of(MeasuredRun const& run, double interval) {
-  std::vector<Row> rows;
+std::vector<Stretch> rows_of(MeasuredRun const& run, double interval) {
+  std::vector<Stretch> rows;
   double const end = run.time[run.time.size() - 1];
   for (double from = run.time[0]; from < end;) {
     double const to = std::min(run.course->next_jump(from), end);
@@ -26,7 +26,7 @@ std::vector<Row> rows_of(MeasuredRun const& run, double interval) {
   return rows;
 }
 
-void add_steps(BinnedRun& binned, Row const& row, int index, double first_step) {
+void add_steps(BinnedRun& binned, Stretch const& row, int index, double first_step) {
   double const length = row.end - row.begin;
   double step = row.after_jump ? std::min(first_step, length) : length;
   for (double at = row.begin; at < row.end - 1e-6;) {

@@ -7,6 +7,7 @@
 
 #include "thermal/error.h"
 #include "thermal/units.h"
+#include "twin/diagnosis/gap.h"
 #include "twin/diagnosis/prediction.h"
 
 namespace thermotwin::twin {
@@ -83,13 +84,6 @@ GapPair gap(Eigen::VectorXd const& before, Eigen::VectorXd const& after, Regimes
   }
   if (sum.samples == 0) return {NAN, NAN, 0};
   return {std::sqrt(sum.before / double(sum.samples)), std::sqrt(sum.after / double(sum.samples)), sum.samples};
-}
-
-std::string unit_of(MeasuredChannel const& channel, Machine const& machine) {
-  if (!channel.displacement) return "K";
-  auto const found = std::find_if(machine.displacements.begin(), machine.displacements.end(),
-                                  [&](auto const& d) { return d.name == channel.name; });
-  return found != machine.displacements.end() && found->rotation ? "urad" : "um";
 }
 
 ComparedChannel compare_channel(MeasuredChannel const& channel, std::string const& unit, Eigen::VectorXd const& before,

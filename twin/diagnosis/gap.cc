@@ -19,14 +19,14 @@ double spread(Eigen::VectorXd const& values) {
   return count > 0.0 ? std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count))) : NAN;
 }
 
+}  // namespace
+
 std::string unit_of(MeasuredChannel const& channel, Machine const& machine) {
   if (!channel.displacement) return "K";
   bool const rotation = std::any_of(machine.displacements.begin(), machine.displacements.end(),
                                     [&](auto const& d) { return d.rotation && d.name == channel.name; });
   return rotation ? "urad" : "um";
 }
-
-}  // namespace
 
 std::vector<ChannelGap> gaps(Machine const& before, Machine const& after, std::vector<BinnedRun> const& runs) {
   std::vector<ChannelGap> result;

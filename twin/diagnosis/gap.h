@@ -21,6 +21,9 @@ struct ChannelGap {
 [[nodiscard]] std::vector<ChannelGap> gaps(Machine const& before, Machine const& after,
                                            std::vector<BinnedRun> const& runs);
 
+/// In which people read a channel's gap: K, um, urad.
+[[nodiscard]] std::string unit_of(MeasuredChannel const& channel, Machine const& machine);
+
 /// All channels in one number: RMS over channels of each RMS over 0.1 K or 1 µm.
 struct WholeGap {
   double before = 0.0, after = 0.0;

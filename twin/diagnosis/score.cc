@@ -28,7 +28,7 @@ Way way_of(Hypothesis const& hypothesis) {
   return hypothesis.site == "machine" ? Way::air : Way::shared;
 }
 
-std::string table_name(std::size_t hypothesis) { return fmt::format("trial_{}", hypothesis); }
+std::string trial_table(std::size_t hypothesis) { return fmt::format("trial_{}", hypothesis); }
 
 /// The columns of many hypotheses at once: a machine that has them all, at amplitudes that change nothing.
 class SharedNetwork {
@@ -53,7 +53,7 @@ Machine SharedNetwork::with_all(Value document, std::vector<Hypothesis> const& h
                                 std::vector<std::size_t> const& shared, double amplitude) {
   for (std::size_t const h : shared)
     document =
-        with_hypothesis(std::move(document), hypotheses[h], table_name(h), amplitude * hypotheses[h].trial->largest);
+        with_hypothesis(std::move(document), hypotheses[h], trial_table(h), amplitude * hypotheses[h].trial->largest);
   return Machine::build(document);
 }
 
@@ -65,7 +65,7 @@ SharedNetwork::SharedNetwork(Value const& document, std::vector<Hypothesis> cons
   auto const& network = machine_.network();
   std::map<std::string, std::size_t> column_of;
   for (std::size_t k = 0; k < shared_.size(); ++k)
-    column_of[hypotheses[shared_[k]].effect->name + "." + table_name(shared_[k])] = k;
+    column_of[hypotheses[shared_[k]].effect->name + "." + trial_table(shared_[k])] = k;
   derivatives_.assign(shared_.size(), thermal::lengthened({}, network));
   for (std::size_t g = 0; g < network.groups().size(); ++g) {
     auto const& from = network.groups()[g];
@@ -94,7 +94,7 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
                std::vector<LinearisedRun> const& twins, Eigen::MatrixXd& columns) {
   double const unit = hypothesis.trial->largest;
   auto const at = [&](double amplitude) {
-    Machine machine = Machine::build(with_hypothesis(document, hypothesis, table_name(index), amplitude * unit));
+    Machine machine = Machine::build(with_hypothesis(document, hypothesis, trial_table(index), amplitude * unit));
     auto const& fitted = twins[0].machine().sensors;
     for (std::size_t s = 0; s < fitted.size(); ++s) machine.sensors[s].description.lag = fitted[s].description.lag;
     return machine;

@@ -51,7 +51,7 @@ struct GapLaw {
   }
 };
 
-std::map<std::string, std::shared_ptr<thermal::Law const>> const& correlations() {
+std::map<std::string, std::shared_ptr<thermal::Law const>> const& gap_correlations() {
   static std::map<std::string, std::shared_ptr<thermal::Law const>> const laws = {
       {"taylor", thermal::law_of<GapLaw<BeckerKayeTaylor>>()},
       {"becker_kaye", thermal::law_of<GapLaw<BeckerKaye>>()},
@@ -82,7 +82,7 @@ struct AnnularGap {
     for (auto const& pair : thermal::pair(a.site, b.site)) {
       double const wall = area ? *area * pair.share : pair.area;
       if (!(wall > 0.0)) throw thermal::InputError("annular_gap '" + name + "': neither side has an area; give one");
-      assembly.network().add(correlations().at(correlation), assembly.part(),
+      assembly.network().add(gap_correlations().at(correlation), assembly.part(),
                              {assembly.node(a, pair.a), assembly.node(b, pair.b)},
                              {wall, pair.resistance, 0.5 * diameter, gap}, {assembly.channel(speed)});
     }

@@ -20,7 +20,7 @@ using thermal::InputError;
 constexpr double revolution = 2.0 * std::numbers::pi;
 constexpr double micrometre = 1e-6;
 
-struct Specimen {
+struct ProbeSpecimen {
   double scale_error;
   double temperature_coefficient;
   double drift;
@@ -28,7 +28,7 @@ struct Specimen {
   double phase;
 };
 
-Specimen draw(DisplacementProbe const& probe, InstrumentChannel const& channel) {
+ProbeSpecimen draw(DisplacementProbe const& probe, InstrumentChannel const& channel) {
   auto const stream = [&](std::string const& property) {
     return RandomStream(channel.seed, channel.name + "/" + property);
   };
@@ -90,7 +90,8 @@ class Runout {
 };
 
 /// What the probe would show without noise and runout [m].
-FirstOrderLag apparent(DisplacementProbe const& probe, Specimen const& specimen, DisplacementCourse const& course) {
+FirstOrderLag apparent(DisplacementProbe const& probe, ProbeSpecimen const& specimen,
+                       DisplacementCourse const& course) {
   Eigen::VectorXd const air = course.air.array() - course.air[0];
   FirstOrderLag const fixture(course.time, air, probe.fixture_lag);
   Eigen::VectorXd const growth =
@@ -101,7 +102,7 @@ FirstOrderLag apparent(DisplacementProbe const& probe, Specimen const& specimen,
 
 class Conversion {
  public:
-  Conversion(DisplacementProbe const& probe, Specimen const& specimen, InstrumentChannel const& channel,
+  Conversion(DisplacementProbe const& probe, ProbeSpecimen const& specimen, InstrumentChannel const& channel,
              DisplacementCourse const& course)
       : probe_(probe),
         specimen_(specimen),
@@ -123,7 +124,7 @@ class Conversion {
 
  private:
   DisplacementProbe const& probe_;
-  Specimen const& specimen_;
+  ProbeSpecimen const& specimen_;
   FirstOrderLag apparent_;
   Runout runout_;
   RandomStream noise_;
@@ -140,7 +141,7 @@ double mean_sine(double from, double to) {
 Readings read(DisplacementProbe const& probe, InstrumentChannel const& channel, DisplacementCourse const& course,
               Eigen::VectorXd const& sample_times) {
   check(probe, channel, course);
-  Specimen const specimen = draw(probe, channel);
+  ProbeSpecimen const specimen = draw(probe, channel);
   Conversion conversion(probe, specimen, channel, course);
   FirstOrderLag const target(course.time, course.displacement, 0.0);
   std::vector<bool> const served = due(sample_times, probe.sampling_interval);

@@ -19,14 +19,14 @@ namespace {
 
 using thermal::InputError;
 
-constexpr double micrometre = 1e-6;
+constexpr double um = 1e-6;
 
-struct Specimen {
+struct LaserSpecimen {
   AirState environment_error;
   double material_temperature_error;
 };
 
-Specimen draw(LaserInterferometer const& laser, InstrumentChannel const& channel) {
+LaserSpecimen draw(LaserInterferometer const& laser, InstrumentChannel const& channel) {
   auto const within = [&](std::string const& property, double limit) {
     return RandomStream(channel.seed, channel.name + "/" + property).within(0.5 * limit, limit);
   };
@@ -43,7 +43,7 @@ Eigen::VectorXd or_constant(Eigen::VectorXd const& course, Eigen::Index points, 
 /// Everything between the reflector and the number on the screen.
 class Beam {
  public:
-  Beam(LaserInterferometer const& laser, Specimen const& specimen, LaserCourse const& course, double zeroed_at)
+  Beam(LaserInterferometer const& laser, LaserSpecimen const& specimen, LaserCourse const& course, double zeroed_at)
       : laser_(laser),
         specimen_(specimen),
         air_(course.time, course.air, 0.0),
@@ -77,7 +77,7 @@ class Beam {
   }
 
   LaserInterferometer const& laser_;
-  Specimen const& specimen_;
+  LaserSpecimen const& specimen_;
   FirstOrderLag air_;
   FirstOrderLag pressure_;
   FirstOrderLag material_;
@@ -115,8 +115,8 @@ class Recording {
     bool const turns_here = !laser_.overrun && target + 1 == static_cast<int>(targets_.size());
     double const actual = nominal + error + (turns_here ? turning_error_ : lost_motion);
     double const y = beam_.shown(actual, t) - nominal + laser_.noise * noise_.normal();
-    shown = quantised(y, laser_.resolution) / micrometre;
-    truth = (error + lost_motion) / micrometre;
+    shown = quantised(y, laser_.resolution) / um;
+    truth = (error + lost_motion) / um;
   }
 
   LaserInterferometer const& laser_;
@@ -162,7 +162,7 @@ LaserReadings read(LaserInterferometer const& laser, InstrumentChannel const& ch
   check(channel, course);
   std::vector<double> const targets = scenarios::targets(measurement);
   std::vector<double> const times = scenarios::measurement_times(measurement, duration);
-  Specimen const specimen = draw(laser, channel);
+  LaserSpecimen const specimen = draw(laser, channel);
   Recording recording(laser, channel, course, Beam(laser, specimen, course, times.front()), targets);
 
   output::Positioning shown = empty_table(measurement.axis, times, targets);

@@ -14,7 +14,7 @@ namespace {
 
 using thermal::InputError;
 
-constexpr double tolerance = 1e-4;  // of the integration: far below what the members differ by
+constexpr double run_tolerance = 1e-4;  // of the integration: far below what the members differ by
 
 std::vector<scenarios::Experiment> experiments_of(EnsembleOptions const& options, Machine const& machine,
                                                   std::uint64_t seed) {
@@ -76,7 +76,7 @@ std::vector<Part> Draw::member(int number) const {
   std::uint64_t const seed = options_.seed + std::uint64_t(number);
   Machine const machine = Machine::build(vary_parameters(document_, seed, 1.0, drawn));
   RunOptions run_options;
-  run_options.integration.relative_tolerance = run_options.integration.absolute_tolerance = tolerance;
+  run_options.integration.relative_tolerance = run_options.integration.absolute_tolerance = run_tolerance;
   run_options.node_temperatures = options_.every_node;
   run_options.stop = options_.stop;
   std::vector<Part> parts;

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
-using Sites = std::span<Index const>;
+using SiteSpan = std::span<Index const>;
 
 int members_of(Ensemble const& ensemble) { return ensemble.runs.back().member + 1; }
 
@@ -49,7 +49,7 @@ struct Sums {
     return *this;
   }
 
-  [[nodiscard]] LinearEstimate estimate(Sites sites, double noise_variance) const {
+  [[nodiscard]] LinearEstimate estimate(SiteSpan sites, double noise_variance) const {
     RowVectorXd const mean_x = x / rows, mean_y = y / rows;
     MatrixXd readings = xx / rows - mean_x.transpose() * mean_x;
     readings.diagonal().array() += noise_variance;
@@ -58,14 +58,14 @@ struct Sums {
   }
 };
 
-MatrixXd readings_of(Ensemble const& ensemble, Sites sites, Rows rows) {
+MatrixXd readings_of(Ensemble const& ensemble, SiteSpan sites, Rows rows) {
   MatrixXd readings(rows.count, Index(sites.size()));
   for (std::size_t s = 0; s < sites.size(); ++s)
     readings.col(Index(s)) = ensemble.rise.col(sites[s]).segment(rows.first, rows.count);
   return readings;
 }
 
-Sums sums_of(Ensemble const& ensemble, Sites sites, Rows rows) {
+Sums sums_of(Ensemble const& ensemble, SiteSpan sites, Rows rows) {
   return {readings_of(ensemble, sites, rows), ensemble.displacement.middleRows(rows.first, rows.count)};
 }
 
@@ -101,7 +101,7 @@ class ErrorSum {
 };
 
 /// Every run of every member by what its other runs teach.
-EstimateError by_other_runs(Ensemble const& ensemble, Sites sites, double noise_variance) {
+EstimateError by_other_runs(Ensemble const& ensemble, SiteSpan sites, double noise_variance) {
   ErrorSum sum(ensemble);
   for (auto const& run : ensemble.runs) {
     Rows const rows{run.first, run.rows};
@@ -141,11 +141,11 @@ models::PlacementProblem SnapshotMoments::problem(Index sites) const {
   return problem;
 }
 
-LinearEstimate SnapshotMoments::estimate(Sites sites) const {
+LinearEstimate SnapshotMoments::estimate(SiteSpan sites) const {
   return sums_of(*ensemble_, sites, {0, ensemble_->rise.rows()}).estimate(sites, noise_variance());
 }
 
-EstimateError SnapshotMoments::cross_validated(Sites sites) const {
+EstimateError SnapshotMoments::cross_validated(SiteSpan sites) const {
   if (teacher_ == Teacher::machine) return by_other_runs(*ensemble_, sites, noise_variance());
   Sums const all = sums_of(*ensemble_, sites, {0, ensemble_->rise.rows()});
   ErrorSum sum(*ensemble_);
@@ -168,7 +168,7 @@ EstimateError error_on(Ensemble const& ensemble, LinearEstimate const& estimate,
   return sum.result();
 }
 
-EstimateError SnapshotMoments::unseen(Ensemble const& others, Sites sites) const {
+EstimateError SnapshotMoments::unseen(Ensemble const& others, SiteSpan sites) const {
   if (teacher_ == Teacher::family) return error_on(others, estimate(sites), noise_variance());
   return SnapshotMoments(others, noise_, teacher_).cross_validated(sites);
 }

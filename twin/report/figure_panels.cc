@@ -208,7 +208,7 @@ void add_runs(std::vector<FigurePanel>& panels, std::vector<ShownRun> runs) {
       panels.push_back({fmt::format("positioning_{}_{}", run.path.stem().string(), axis.axis), positioning(axis)});
 }
 
-Eigen::VectorXd vector_of(Json const& list) {
+Eigen::VectorXd with_gaps(Json const& list) {
   Eigen::VectorXd values(Eigen::Index(list.size()));
   for (std::size_t i = 0; i < list.size(); ++i)
     values[Eigen::Index(i)] = list[i].is_null() ? std::nan("") : list[i].get<double>();
@@ -222,8 +222,8 @@ Figure free_heat(Json const& body) {
   TimeFigure figure("Heat / W", 0.0, end);
   int number = 0;
   for (auto const& run : body["runs"]) {
-    auto const time = vector_of(run["time_s"]), watts = vector_of(run["watts"]);
-    Eigen::VectorXd const half = two_sided_95 * vector_of(run["standard_error"]);
+    auto const time = with_gaps(run["time_s"]), watts = with_gaps(run["watts"]);
+    Eigen::VectorXd const half = two_sided_95 * with_gaps(run["standard_error"]);
     figure.add_band(time, watts - half, watts + half);
     ++number;
     figure.add(body["runs"].size() > 1 ? fmt::format("run {}", number) : "", time, watts);
@@ -260,8 +260,8 @@ Figure functions(Json const& axis) {
     std::size_t i = 1;
     for (char const* component : {"x", "y", "z"}) {
       bool const truth = std::string_view(source) == "true_um";
-      FigureLine line{fmt::format("{}{}", component, truth ? ", true" : ""), vector_of(axis["position_mm"]),
-                      vector_of(axis[source][component])};
+      FigureLine line{fmt::format("{}{}", component, truth ? ", true" : ""), with_gaps(axis["position_mm"]),
+                      with_gaps(axis[source][component])};
       output::set_style(line, i++);
       if (truth) line.dashes = {3.0, 2.0};
       figure.lines.push_back(line);

@@ -132,7 +132,7 @@ std::string_view name_of(ClaimVerdict::Answer answer) {
 }
 
 /// A field of a CSV file.
-std::string quoted(std::string const& text) {
+std::string in_quotes(std::string const& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string result = "\"";
   for (char const c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -198,7 +198,7 @@ std::string study_csv(StudyReport const& report) {
   for (auto const& name : names) text += fmt::format(",{0},{0} +-", name);
   text += "\n";
   for (auto const& row : rows) {
-    text += fmt::format("{},{},{},{},{}", quoted(row.world), quoted(row.selection), row.model, quoted(row.refused),
+    text += fmt::format("{},{},{},{},{}", in_quotes(row.world), in_quotes(row.selection), row.model, in_quotes(row.refused),
                         fmt::join(row.sensors, " "));
     for (auto const& name : names) {
       auto const of = interval(values_of(row.figures, name));

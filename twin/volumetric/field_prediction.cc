@@ -21,7 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int points_per_step = 10;
-constexpr double to_um = 1e6;
+constexpr double um_per_m = 1e6;
 
 /// The coordinate of evenly spaced points, from −1 to 1.
 VectorXd coordinates(Eigen::Index points) { return VectorXd::LinSpaced(points, -1.0, 1.0); }
@@ -49,12 +49,12 @@ FieldPrediction by_network(NineFunctions const& measured, std::uint64_t seed) {
     auto& shown = prediction.functions.values[axis];
     VectorXd const fine = coordinates(shown.cols());
     for (Eigen::Index i = 0; i < 3; ++i) {
-      auto const batch = batch_of(coordinates(given.cols()), to_um * given.row(i).transpose());
+      auto const batch = batch_of(coordinates(given.cols()), um_per_m * given.row(i).transpose());
       double const start = processor_time();
       auto const model = models::fit_back_propagation({&batch, 1}, {.seed = seed});
       prediction.training_time += processor_time() - start;
       prediction.remark = model.remark;
-      shown.row(i) = model.predict(batch_of(fine, VectorXd::Zero(fine.size()))).transpose() / to_um;
+      shown.row(i) = model.predict(batch_of(fine, VectorXd::Zero(fine.size()))).transpose() / um_per_m;
     }
   }
   return prediction;
@@ -163,7 +163,7 @@ PredictionScore score(FieldPrediction const& prediction, ErrorFunction const& tr
   auto const predicted = [&](Eigen::Vector3d const& q) { return prediction.functions.error(q); };
   ErrorField const real = without_rigid_motion(sample(truth, grid.positions()));
   ErrorField difference = without_rigid_motion(sample(predicted, grid.positions()));
-  VectorXd const shown = to_um * difference.errors.reshaped(), expected = to_um * real.errors.reshaped();
+  VectorXd const shown = um_per_m * difference.errors.reshaped(), expected = um_per_m * real.errors.reshaped();
   difference.errors -= real.errors;
   return {difference.root_mean_square(), difference.largest(), models::metrics(expected, shown).mape};
 }

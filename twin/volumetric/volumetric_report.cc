@@ -7,7 +7,7 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double to_um = 1e6;
+constexpr double in_um = 1e6;
 constexpr std::array<char const*, 3> pairs = {"XY", "XZ", "YZ"};
 
 std::string head(VolumetricStudy const& study) {
@@ -15,7 +15,7 @@ std::string head(VolumetricStudy const& study) {
   Eigen::Vector3d const travel = 1e3 * study.machine.workspace.travel();
   return fmt::format("\nvolume {:g} × {:g} × {:g} mm, chain {}, elements {}; {} steps per diagonal, noise {:.2f} µm\n",
                      travel[0], travel[1], travel[2], d.chain, d.convention, d.measurement.steps,
-                     to_um * study.measured.noise);
+                     in_um * study.measured.noise);
 }
 
 std::string squareness_table(VolumetricStudy const& study) {
@@ -24,12 +24,12 @@ std::string squareness_table(VolumetricStudy const& study) {
              truth = squareness_of(study.truth);
   for (int i = 0; i < 3; ++i)
     text += fmt::format("  {:<22} {:>10.1f} {:>10.1f} {:>10.1f} µrad\n",
-                        fmt::format("squareness {}", pairs[std::size_t(i)]), to_um * plain[i], to_um * joint[i],
-                        to_um * truth[i]);
+                        fmt::format("squareness {}", pairs[std::size_t(i)]), in_um * plain[i], in_um * joint[i],
+                        in_um * truth[i]);
   for (int axis = 0; axis < 3; ++axis) {
     auto const total = [&](NineFunctions const& f) {
       auto const& own = f.values[std::size_t(axis)];
-      return to_um * (own(axis, own.cols() - 1) - own(axis, 0));
+      return in_um * (own(axis, own.cols() - 1) - own(axis, 0));
     };
     text += fmt::format("  {:<22} {:>10.2f} {:>10.2f} {:>10.2f} µm\n", fmt::format("travel of {}", "XYZ"[axis]),
                         total(study.plain.functions), total(study.joint.functions), total(study.truth));
@@ -42,17 +42,17 @@ std::string squareness_table(VolumetricStudy const& study) {
   return text + fmt::format(
                     "  joint solution: rank {} of 14; closures of the plain one: rms {:.2f} µm per step, {:.2f} "
                     "by the laser's noise\n",
-                    study.joint.rank, to_um * study.plain.closure.rms(), to_um * study.plain.closure.noise);
+                    study.joint.rank, in_um * study.plain.closure.rms(), in_um * study.plain.closure.noise);
 }
 
 std::string prediction_table(VolumetricStudy const& study) {
   std::string text =
       fmt::format("\n  {:<14} {:>8} {:>8} {:>8} {:>12}\n", "prediction", "rms µm", "max µm", "MAPE %", "training ms");
   for (auto const& [prediction, score] : study.predictions)
-    text += fmt::format("  {:<14} {:>8.2f} {:>8.2f} {:>8.1f} {:>12.3f}  {}{}\n", prediction.method, to_um * score.rms,
-                        to_um * score.largest, score.mape, 1e3 * prediction.training_time, prediction.remark,
+    text += fmt::format("  {:<14} {:>8.2f} {:>8.2f} {:>8.1f} {:>12.3f}  {}{}\n", prediction.method, in_um * score.rms,
+                        in_um * score.largest, score.mape, 1e3 * prediction.training_time, prediction.remark,
                         prediction.method == study.chosen.method ? "  << compensates" : "");
-  return text + "  against the true field, without rigid motion; MAPE of components of at least 1 µm\n";
+  return text + "  against the true field, without rigid motion; MAPE of component_lists of at least 1 µm\n";
 }
 
 std::string verification_table(VolumetricStudy const& study) {
@@ -60,11 +60,11 @@ std::string verification_table(VolumetricStudy const& study) {
   std::string text = fmt::format("\n  {:<34} {:>10} {:>10}\n", "compensation, largest error in µm", "before", "after");
   for (std::size_t k = 0; k < 4; ++k)
     text += fmt::format("  {:<34} {:>10.2f} {:>10.2f}\n", fmt::format("diagonal {}, measured", diagonal_names[k]),
-                        to_um * before.diagonals[k], to_um * after.diagonals[k]);
+                        in_um * before.diagonals[k], in_um * after.diagonals[k]);
   text += fmt::format("  {:<34} {:>10.2f} {:>10.2f}  {:.0f} % less\n", "grid of 21 × 21 × 21, true",
-                      to_um * before.largest, to_um * after.largest, 100.0 * study.verification.reduction());
-  return text + fmt::format("  {:<34} {:>10.2f} {:>10.2f}\n", "  rms of the grid", to_um * before.root_mean_square,
-                            to_um * after.root_mean_square);
+                      in_um * before.largest, in_um * after.largest, 100.0 * study.verification.reduction());
+  return text + fmt::format("  {:<34} {:>10.2f} {:>10.2f}\n", "  rms of the grid", in_um * before.root_mean_square,
+                            in_um * after.root_mean_square);
 }
 
 std::string drift_table(VolumetricStudy const& study) {
@@ -74,9 +74,9 @@ std::string drift_table(VolumetricStudy const& study) {
   for (auto const& d : study.drift)
     text += fmt::format(
         "  {:>6.0f} min {:>9.2f} {:>9.2f} {:>12.2f}  {:>7.1f} {:>7.1f} {:>7.1f}  {:>7.2f} {:>7.2f} {:>7.2f}\n",
-        d.time / 60.0, to_um * d.moved, to_um * d.uncompensated, to_um * d.compensated, to_um * d.squareness[0],
-        to_um * d.squareness[1], to_um * d.squareness[2], to_um * d.linear_totals[0], to_um * d.linear_totals[1],
-        to_um * d.linear_totals[2]);
+        d.time / 60.0, in_um * d.moved, in_um * d.uncompensated, in_um * d.compensated, in_um * d.squareness[0],
+        in_um * d.squareness[1], in_um * d.squareness[2], in_um * d.linear_totals[0], in_um * d.linear_totals[1],
+        in_um * d.linear_totals[2]);
   return text +
          "  largest over the grid in µm: change since the measurement; error without rigid motion, bare and with "
          "the table\n";
@@ -88,25 +88,25 @@ Json numbers(Eigen::Vector3d const& v, double factor) { return {factor * v[0], f
 
 Json state_json(VolumeState const& state) {
   Json json;
-  for (std::size_t k = 0; k < 4; ++k) json["diagonals_um"][std::string(diagonal_names[k])] = to_um * state.diagonals[k];
-  json["grid_largest_um"] = to_um * state.largest;
-  json["grid_rms_um"] = to_um * state.root_mean_square;
+  for (std::size_t k = 0; k < 4; ++k) json["diagonals_um"][std::string(diagonal_names[k])] = in_um * state.diagonals[k];
+  json["grid_largest_um"] = in_um * state.largest;
+  json["grid_rms_um"] = in_um * state.root_mean_square;
   return json;
 }
 
 Json identification_json(VolumetricStudy const& study) {
-  Json json = {{"squareness_plain_urad", numbers(squareness_of(study.plain.functions), to_um)},
-               {"squareness_joint_urad", numbers(squareness_of(study.joint.functions), to_um)},
-               {"squareness_true_urad", numbers(squareness_of(study.truth), to_um)},
+  Json json = {{"squareness_plain_urad", numbers(squareness_of(study.plain.functions), in_um)},
+               {"squareness_joint_urad", numbers(squareness_of(study.joint.functions), in_um)},
+               {"squareness_true_urad", numbers(squareness_of(study.truth), in_um)},
                {"rank", study.joint.rank},
-               {"closure_rms_um", to_um * study.plain.closure.rms()},
-               {"closure_noise_um", to_um * study.plain.closure.noise}};
+               {"closure_rms_um", in_um * study.plain.closure.rms()},
+               {"closure_noise_um", in_um * study.plain.closure.noise}};
   for (std::size_t k = 0; k < 4; ++k)
     json["mirror_mrad"][std::string(diagonal_names[k])] = 1e3 * study.joint.misalignment[k].norm();
   return json;
 }
 
-Json components(Eigen::Matrix3Xd const& vectors, double factor) {
+Json component_lists(Eigen::Matrix3Xd const& vectors, double factor) {
   Json json;
   for (int i = 0; i < 3; ++i) {
     Eigen::VectorXd const row = factor * vectors.row(i).transpose();
@@ -117,9 +117,9 @@ Json components(Eigen::Matrix3Xd const& vectors, double factor) {
 
 Json field_json(VolumetricStudy const& study) {
   return {{"points", study.table.grid.points},
-          {"position_mm", components(study.before.positions, 1e3)},
-          {"before_um", components(study.before.errors, to_um)},
-          {"after_um", components(study.after.errors, to_um)}};
+          {"position_mm", component_lists(study.before.positions, 1e3)},
+          {"before_um", component_lists(study.before.errors, in_um)},
+          {"after_um", component_lists(study.after.errors, in_um)}};
 }
 
 Json functions_json(VolumetricStudy const& study, int axis) {
@@ -134,8 +134,8 @@ Json functions_json(VolumetricStudy const& study, int axis) {
   }
   return {{"axis", std::string(1, "XYZ"[axis])},
           {"position_mm", positions},
-          {"predicted_um", components(predicted, to_um)},
-          {"true_um", components(truth, to_um)}};
+          {"predicted_um", component_lists(predicted, in_um)},
+          {"true_um", component_lists(truth, in_um)}};
 }
 
 }  // namespace
@@ -159,8 +159,8 @@ std::string volumetric_json(VolumetricStudy const& study) {
   for (auto const& [prediction, score] : study.predictions)
     json["predictions"].push_back({{"method", prediction.method},
                                    {"remark", prediction.remark},
-                                   {"rms_um", to_um * score.rms},
-                                   {"largest_um", to_um * score.largest},
+                                   {"rms_um", in_um * score.rms},
+                                   {"largest_um", in_um * score.largest},
                                    {"mape_percent", score.mape},
                                    {"training_s", prediction.training_time}});
   json["compensated_by"] = study.chosen.method;
@@ -171,11 +171,11 @@ std::string volumetric_json(VolumetricStudy const& study) {
   json["drift"] = Json::array();
   for (auto const& point : study.drift)
     json["drift"].push_back({{"time_s", point.time},
-                             {"moved_um", to_um * point.moved},
-                             {"uncompensated_um", to_um * point.uncompensated},
-                             {"compensated_um", to_um * point.compensated},
-                             {"squareness_urad", numbers(point.squareness, to_um)},
-                             {"linear_totals_um", numbers(point.linear_totals, to_um)}});
+                             {"moved_um", in_um * point.moved},
+                             {"uncompensated_um", in_um * point.uncompensated},
+                             {"compensated_um", in_um * point.compensated},
+                             {"squareness_urad", numbers(point.squareness, in_um)},
+                             {"linear_totals_um", numbers(point.linear_totals, in_um)}});
   json["field"] = field_json(study);
   json["functions"] = Json::array();
   for (int axis = 0; axis < 3; ++axis) json["functions"].push_back(functions_json(study, axis));
