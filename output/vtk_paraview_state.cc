@@ -62,7 +62,7 @@ std::string escaped(std::string const& path) {
 
 using Colours = std::vector<std::array<double, 3>>;
 
-Colours const viridis = {
+Colours const blue_to_yellow = {
     {0.267, 0.005, 0.329}, {0.230, 0.322, 0.546}, {0.128, 0.567, 0.551}, {0.369, 0.789, 0.383}, {0.993, 0.906, 0.144}};
 Colours const blue_white_red = {
     {0.020, 0.188, 0.380}, {0.263, 0.576, 0.765}, {0.969, 0.969, 0.969}, {0.839, 0.376, 0.302}, {0.404, 0.0, 0.122}};
@@ -100,7 +100,7 @@ std::string sensor_proxies(ParaviewView const& how) {
 std::string shown_proxies(ParaviewView const& how) {
   Eigen::Vector3d const from = axes_of_view(how.up) * Eigen::Vector3d(0.75, -1.0, 0.62).normalized();
   return Proxy("lookup_tables", "PVLookupTable", colours)
-             .set("RGBPoints", spread(how.meaning == FieldMeaning::state ? viridis : blue_white_red, how.lowest_degC,
+             .set("RGBPoints", spread(how.meaning == FieldMeaning::state ? blue_to_yellow : blue_white_red, how.lowest_degC,
                                       how.highest_degC))
              .set("ColorSpace", "0")
              .set("NanColor", unknown_grey)

@@ -102,7 +102,7 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   options.progress = files.progress;
   report.diagnosis = diagnose(document, fitted, options);
   if (identify_nothing(report.diagnosis))
-    report.remarks.push_back(
+    report.remarks.emplace_back(
         "the data identify no number of the machine and no effect: the runs are too short, or too little happens in "
         "them; nothing can be said about what is missing");
   Machine const amended_machine = Machine::build(report.diagnosis.document);
