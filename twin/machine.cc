@@ -16,6 +16,21 @@ namespace thermotwin::twin {
 
 using thermal::InputError;
 
+/// What stands at the top of the file, before any table.
+struct HeadDescription {
+  std::string name, title;
+  std::string up = "z";
+
+  [[nodiscard]] Eigen::Vector3d upwards() const { return Eigen::Vector3d::Unit(up[0] - 'x'); }
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("name", &HeadDescription::name, "short, as other files refer to it");
+    f("title", &HeadDescription::title, "one line for people");
+    f.choice("up", &HeadDescription::up, {"x", "y", "z"}, "axis that points upwards");
+  }
+};
+
 namespace {
 
 std::vector<std::string> const& own_tables() {
@@ -46,21 +61,6 @@ std::vector<std::string> known_keys() {
   for (auto const& entry : effect_catalogue()) keys.push_back(entry.name);
   return keys;
 }
-
-/// What stands at the top of the file, before any table.
-struct HeadDescription {
-  std::string name, title;
-  std::string up = "z";
-
-  [[nodiscard]] Eigen::Vector3d upwards() const { return Eigen::Vector3d::Unit(up[0] - 'x'); }
-
-  template <class Fields>
-  static void fields(Fields& f) {
-    f.name("name", &HeadDescription::name, "short, as other files refer to it");
-    f("title", &HeadDescription::title, "one line for people");
-    f.choice("up", &HeadDescription::up, {"x", "y", "z"}, "axis that points upwards");
-  }
-};
 
 /// The document's own keys, without its tables.
 HeadDescription head_of(Value const& document) {

@@ -104,8 +104,8 @@ void put_statistics(Named& figures, Answer const& fit, std::vector<VectorXd> con
 
 }  // namespace
 
-Fit fit_model(NamedModel const& named, Question const& question, std::vector<Index> const& columns,
-              std::uint64_t seed) {
+FittedModel fit_model(NamedModel const& named, Question const& question, std::vector<Index> const& columns,
+                      std::uint64_t seed) {
   std::vector<Index> own;
   for (auto const column : columns)
     own.push_back(std::find(question.columns.begin(), question.columns.end(), column) - question.columns.begin());

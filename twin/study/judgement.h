@@ -10,14 +10,14 @@
 namespace thermotwin::twin {
 
 /// A model fitted for a question, or why it was not.
-struct Fit {
+struct FittedModel {
   models::ErrorModel model;
   std::string refused;  ///< empty if it was fitted
 };
 
 /// On the question's sensors `columns` (of the world's, ascending). The twin alone adds nothing to what it says.
-[[nodiscard]] Fit fit_model(NamedModel const& named, Question const& question, std::vector<Eigen::Index> const& columns,
-                            std::uint64_t seed);
+[[nodiscard]] FittedModel fit_model(NamedModel const& named, Question const& question,
+                                    std::vector<Eigen::Index> const& columns, std::uint64_t seed);
 
 /// A question and the model that answers it.
 struct Answer {

@@ -22,11 +22,11 @@ struct Repetition {
   std::size_t world;
   int number;  ///< within its world
   Questions questions;
-  std::vector<Question const*> all;                       ///< fits, then validations
-  std::vector<std::vector<Choice>> choices;               ///< per question, per selection
-  std::vector<std::vector<std::map<Columns, Fit>>> fits;  ///< per question, per model
-  std::vector<Question> less_twin;                        ///< what a model beside a twin is asked, if any is
-  std::vector<std::string> twin_refused;                  ///< per question; empty: it was calibrated
+  std::vector<Question const*> all;                               ///< fits, then validations
+  std::vector<std::vector<Choice>> choices;                       ///< per question, per selection
+  std::vector<std::vector<std::map<Columns, FittedModel>>> fits;  ///< per question, per model
+  std::vector<Question> less_twin;                                ///< what a model beside a twin is asked, if any is
+  std::vector<std::string> twin_refused;                          ///< per question; empty: it was calibrated
 
   [[nodiscard]] Question const& asked(std::size_t question, NamedModel const& model) const {
     return model.twin ? less_twin[question] : *all[question];
@@ -87,7 +87,7 @@ void StudyRunner::ask() {
     for (auto const* list : {&repetition.questions.fits, &repetition.questions.validations})
       for (auto const& question : *list) repetition.all.push_back(&question);
     repetition.choices.assign(repetition.all.size(), std::vector<Choice>(selections_.size()));
-    repetition.fits.assign(repetition.all.size(), std::vector<std::map<Columns, Fit>>(models_.size()));
+    repetition.fits.assign(repetition.all.size(), std::vector<std::map<Columns, FittedModel>>(models_.size()));
   }
 }
 
@@ -133,7 +133,7 @@ void StudyRunner::fit_all() {
     Repetition* repetition;
     std::size_t question, model;
     Columns const* columns;
-    Fit* fit;
+    FittedModel* fit;
   };
   std::vector<Task> tasks;
   for (auto& repetition : repetitions_)

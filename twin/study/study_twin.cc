@@ -16,7 +16,7 @@ using thermal::InputError;
 
 constexpr std::uint64_t first_seed = 77'000;  // of the files that twins start from
 constexpr int iterations = 12;
-constexpr double tolerance = 1e-6;
+constexpr double run_tolerance = 1e-6;
 
 Value calibrated(WorldRuns const& runs, int repetition, std::vector<std::size_t> const& training) {
   std::map<std::string, double> drawn;
@@ -42,7 +42,7 @@ TwinCourses twin_courses(StudyWorld const& world, WorldData const& data, int rep
     Machine const twin = Machine::build(calibrated(runs, repetition, question.runs));
     TwinCourses courses;
     RunOptions options;
-    options.integration.relative_tolerance = options.integration.absolute_tolerance = tolerance;
+    options.integration.relative_tolerance = options.integration.absolute_tolerance = run_tolerance;
     for (auto const& experiment : runs.experiments)
       courses.runs.push_back(true_batch(world, data, run(twin, *experiment, options).dataset));
     return courses;
