@@ -198,8 +198,8 @@ std::string study_csv(StudyReport const& report) {
   for (auto const& name : names) text += fmt::format(",{0},{0} +-", name);
   text += "\n";
   for (auto const& row : rows) {
-    text += fmt::format("{},{},{},{},{}", in_quotes(row.world), in_quotes(row.selection), row.model, in_quotes(row.refused),
-                        fmt::join(row.sensors, " "));
+    text += fmt::format("{},{},{},{},{}", in_quotes(row.world), in_quotes(row.selection), row.model,
+                        in_quotes(row.refused), fmt::join(row.sensors, " "));
     for (auto const& name : names) {
       auto const of = interval(values_of(row.figures, name));
       text += fmt::format(",{},{}", number(of.mean), of.values > 1 ? number(of.half) : "");
