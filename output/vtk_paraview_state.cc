@@ -100,8 +100,8 @@ std::string sensor_proxies(ParaviewView const& how) {
 std::string shown_proxies(ParaviewView const& how) {
   Eigen::Vector3d const from = axes_of_view(how.up) * Eigen::Vector3d(0.75, -1.0, 0.62).normalized();
   return Proxy("lookup_tables", "PVLookupTable", colours)
-             .set("RGBPoints", spread(how.meaning == FieldMeaning::state ? blue_to_yellow : blue_white_red, how.lowest_degC,
-                                      how.highest_degC))
+             .set("RGBPoints", spread(how.meaning == FieldMeaning::state ? blue_to_yellow : blue_white_red,
+                                      how.lowest_degC, how.highest_degC))
              .set("ColorSpace", "0")
              .set("NanColor", unknown_grey)
              .set("ScalarRangeInitialized", "1")

@@ -194,13 +194,17 @@ void add_challenge_command(CLI::App& app) {
   command->add_option("--machine,-m", options->machine, "the nominal machine, file or name")->capture_default_str();
   command->add_option("--seed", options->seed, "the same seed draws the same challenge")->capture_default_str();
   command->add_option("--kind", *kind, "one, none, outside, two or sensor; default: what the seed stands for");
-  command->add_option("--output,-o", *folder, "folder to write; it must be empty or absent")->required();
+  auto* to = command->add_option_group("to");
+  to->add_option("--output,-o", *folder, "folder to write; it must be empty or absent");
+  auto key = std::make_shared<bool>(false);
+  to->add_flag("--key", *key, "write nothing, and print what would be hidden");
+  to->require_option(1);
   command->add_option("--run", *further, "experiment file: one more run of the challenge that is in the folder");
-  command->callback([options, folder, kind, further] {
+  command->callback([options, folder, kind, further, key] {
     options->folder = *folder;
     if (!further->empty()) options->further_run = *further;
     if (!kind->empty()) options->kind = case_kind(*kind);
-    fmt::print("{}", write_challenge(*options));
+    fmt::print("{}", *key ? challenge_key(*options) : write_challenge(*options));
   });
 }
 

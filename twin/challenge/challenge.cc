@@ -118,7 +118,16 @@ std::string write_further_run(ChallengeOptions const& options) {
   return fmt::format("{}: one more run, {:.0f} h\n", target.string(), experiment.duration / 3600.0);
 }
 
+HiddenWorld world_of(ChallengeOptions const& options, Value const& nominal) {
+  return draw_hidden_world(nominal, options.seed, options.kind.value_or(case_kind(options.seed)));
+}
+
 }  // namespace
+
+std::string challenge_key(ChallengeOptions const& options) {
+  Value const nominal = read_toml(machine_file(options.machine));
+  return sealed(world_of(options, nominal), Machine::build(nominal).name).dump() + "\n";
+}
 
 std::string write_challenge(ChallengeOptions const& options) {
   if (options.further_run) return write_further_run(options);
@@ -126,7 +135,7 @@ std::string write_challenge(ChallengeOptions const& options) {
   auto const file = machine_file(options.machine);
   Value const nominal = read_toml(file);
   Machine const nominal_machine = Machine::build(nominal);
-  auto const world = draw_hidden_world(nominal, options.seed, options.kind.value_or(case_kind(options.seed)));
+  auto const world = world_of(options, nominal);
   auto const runs = challenge_runs(nominal_machine.limits, options.seed);
   Machine const hidden = Machine::build(world.hidden), healthy = Machine::build(world.healthy);
 

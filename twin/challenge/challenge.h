@@ -33,4 +33,7 @@ struct ChallengeOptions {
 /// which does not tell what is hidden.
 std::string write_challenge(ChallengeOptions const& options);
 
+/// What the options' challenge would hide: the first keys of sealed.json, one line of JSON, without the runs.
+[[nodiscard]] std::string challenge_key(ChallengeOptions const& options);
+
 }  // namespace thermotwin::twin

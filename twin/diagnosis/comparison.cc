@@ -3,62 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 
 #include "thermal/error.h"
-#include "thermal/units.h"
 #include "twin/diagnosis/gap.h"
 #include "twin/diagnosis/prediction.h"
+#include "twin/diagnosis/regimes.h"
 
 namespace thermotwin::twin {
 namespace {
-
-constexpr double distinct_speed = 10.0;  // rpm
-constexpr std::size_t most_speeds = 8;
-
-/// Names of a run's regimes, and for each row the one that it belongs to.
-struct Regimes {
-  std::vector<std::string> names;
-  std::vector<std::size_t> of_row;
-};
-
-std::vector<double> speeds_of(MeasuredRun const& run) {
-  auto const& channels = run.course->channels();
-  auto const speed =
-      std::find_if(channels.begin(), channels.end(), [](auto const& c) { return c.name == "spindle.speed"; });
-  std::vector<double> values(channels.size()), speeds;
-  for (double const t : run.time) {
-    run.course->evaluate(t, values);
-    double const si = speed == channels.end() ? 0.0 : values[std::size_t(speed - channels.begin())];
-    speeds.push_back(distinct_speed * std::round(thermal::to_unit(si, "rpm") / distinct_speed));
-  }
-  return speeds;
-}
-
-Regimes regimes_of(MeasuredRun const& run) {
-  auto speeds = speeds_of(run);
-  double const fastest = *std::max_element(speeds.begin(), speeds.end());
-  std::map<double, std::size_t> order;
-  for (double const speed : speeds) order[speed] = 0;
-  if (order.size() == 1) return {{}, std::vector<std::size_t>(speeds.size(), 0)};
-  bool const quarters = order.size() > most_speeds;
-  if (quarters) {
-    order.clear();
-    for (double& speed : speeds) {
-      speed = fastest / 4.0 * std::ceil(4.0 * speed / fastest);
-      order[speed] = 0;
-    }
-  }
-  Regimes regimes;
-  for (auto& [speed, index] : order) {
-    index = regimes.names.size();
-    regimes.names.push_back(speed == 0.0 ? "idle"
-                            : quarters   ? fmt::format("to {:.0f} rpm", speed)
-                                         : fmt::format("{:.0f} rpm", speed));
-  }
-  for (double const speed : speeds) regimes.of_row.push_back(order.at(speed));
-  return regimes;
-}
 
 double mean_of_finite(Eigen::VectorXd const& values) {
   double sum = 0.0;
@@ -100,7 +52,7 @@ ComparedChannel compare_channel(MeasuredChannel const& channel, std::string cons
 }
 
 ComparedRun compare_run(Machine const& before, Machine const& after, MeasuredRun const& run) {
-  auto const regimes = regimes_of(run);
+  auto const regimes = speed_regimes(run, run.time);
   Eigen::MatrixXd const was = predict(before, run), is = predict(after, run);
   ComparedRun result{run.name, regimes.names, {}, run.remarks};
   for (std::size_t c = 0; c < run.channels.size(); ++c)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "twin/diagnosis/disagreement.h"
 #include "twin/diagnosis/estimation.h"
 #include "twin/diagnosis/faulty_sensor.h"
 #include "twin/diagnosis/free_heat.h"
@@ -53,7 +54,9 @@ struct Diagnosis {
     none_known,  ///< heat that no effect of the catalogue explains
   };
   Verdict verdict = Verdict::nothing;
-  std::vector<Explanation> explanations;  ///< of `none_known`: what stands in for it, and does not suffice
+  std::vector<Disagreement> disagreement;       ///< of the calibrated machine, before any effect was added
+  std::vector<Disagreement> disagreement_left;  ///< of the amended one; empty where nothing was added
+  std::vector<Explanation> explanations;        ///< of `none_known`: what stands in for it, and does not suffice
   /// Bodies that the missing heat enters, and whether it does so while the spindle turns or while it stands.
   std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "thermal/units.h"
@@ -12,6 +13,8 @@ namespace thermotwin::twin {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_places = 6;
 
 std::string amplitude_text(Finding const& finding) {
   std::string const unit = readable_unit(finding.amplitude, finding.hypothesis.dimension());
@@ -64,6 +67,45 @@ Json json_of(std::vector<ChannelGap> const& gaps) {
                     {"after", unit * gap.after}});
   }
   return list;
+}
+
+double in_unit(std::string const& unit, double si) { return unit == "K" ? si : 1e6 * si; }
+
+Json json_of(std::vector<Disagreement> const& cells) {
+  Json list = Json::array();
+  for (auto const& cell : cells)
+    list.push_back({{"run", cell.run},
+                    {"channel", cell.channel},
+                    {"unit", cell.unit},
+                    {"cut", cell.cut},
+                    {"part", cell.part},
+                    {"mean", in_unit(cell.unit, cell.mean)},
+                    {"rms", in_unit(cell.unit, cell.rms)},
+                    {"power", cell.power},
+                    {"p_value", cell.p_value},
+                    {"significant", cell.significant}});
+  return list;
+}
+
+/// Where and when: of each channel that disagrees significantly, the speed at which it does so most.
+std::string words_of(std::vector<Disagreement> const& cells) {
+  std::map<std::string, Disagreement const*> worst;
+  for (auto const& cell : cells) {
+    if (!cell.significant || cell.cut == "time") continue;
+    auto& most = worst[cell.channel];
+    if (!most || cell.power > most->power) most = &cell;
+  }
+  if (worst.empty()) return "The calibrated twin disagrees significantly with no channel at any time.\n\n";
+  std::vector<Disagreement const*> order;
+  for (auto const& [channel, cell] : worst) order.push_back(cell);
+  std::stable_sort(order.begin(), order.end(), [](auto const* a, auto const* b) { return a->power > b->power; });
+  order.resize(std::min(order.size(), most_places));
+  std::string text = "Where and when the calibrated twin disagrees most (power of the residual, noise alone: 1):\n";
+  for (auto const* cell : order)
+    text += fmt::format("  {:<12} {:<10} {:<16} {:>8.3f} {} {} the twin, RMS {:.3f}; power {:.1f}\n", cell->channel,
+                        cell->run, cell->part, std::abs(in_unit(cell->unit, cell->mean)), cell->unit,
+                        cell->mean < 0.0 ? "below" : "above", in_unit(cell->unit, cell->rms), cell->power);
+  return text + "\n";
 }
 
 std::string table_of(std::vector<ChannelGap> const& gaps) {
@@ -155,6 +197,7 @@ std::string report_json(DiagnosisReport const& report) {
   auto const gap = whole(report.held_out.empty() ? report.fitted : report.held_out);
   json["gap"] = {{"before", gap.before}, {"after", gap.after}};
   json["gaps"] = {{"fitted", json_of(report.fitted)}, {"held_out", json_of(report.held_out)}};
+  json["disagreement"] = {{"before", json_of(diagnosis.disagreement)}, {"after", json_of(diagnosis.disagreement_left)}};
   json["unaccounted_heat"] = Json::array();
   for (std::size_t i = 0; i < std::min<std::size_t>(3, diagnosis.scan.size()); ++i)
     json["unaccounted_heat"].push_back(json_of(diagnosis.scan[i]));
@@ -186,6 +229,7 @@ std::string report_text(DiagnosisReport const& report) {
     text += fmt::format("{} {}.\n\n", sensor->name,
                         sensor->dead ? "shows nothing in a run" : "jumps about as no body's temperature does");
   text += words_of_heat(diagnosis);
+  text += words_of(diagnosis.disagreement);
   auto const& shown = report.held_out.empty() ? report.fitted : report.held_out;
   text += fmt::format("Error of the twin on {} data, RMS:\n{}", report.held_out.empty() ? "the fitted" : "unseen",
                       table_of(shown));

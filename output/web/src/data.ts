@@ -117,6 +117,20 @@ export interface Gap {
   after: number;
 }
 
+/** Of one channel in one part of a run. */
+export interface Disagreement {
+  run: string;
+  channel: string;
+  unit: string;
+  cut: string;
+  part: string;
+  mean: number;
+  rms: number;
+  power: number;
+  p_value: number;
+  significant: boolean;
+}
+
 export interface DiagnosisSection {
   kind: 'diagnosis';
   name: string;
@@ -127,6 +141,7 @@ export interface DiagnosisSection {
   where: {body: string; regime: string}[];
   gap: {before: number; after: number};
   gaps: {fitted: Gap[]; held_out: Gap[]};
+  disagreement?: {before: Disagreement[]; after: Disagreement[]};
   unaccounted_heat: FreeHeat[];
   estimates: {name: string; estimate: number; standard_error: number; prior: number}[];
   remarks: string[];

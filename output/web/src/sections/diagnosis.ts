@@ -4,6 +4,7 @@ import type {DiagnosisSection, Finding, Gap} from '../data';
 import {colourBar, make, panel} from '../dom';
 import {roundTicks, unitText} from '../format';
 import type {PageState} from '../signal';
+import {disagreementPanel} from './disagreement';
 import {freeHeatPanel} from './free_heat';
 
 const verdicts: Record<string, string> = {
@@ -17,6 +18,7 @@ export function diagnosisSection(section: DiagnosisSection, state: PageState): H
     section.effects.length > 0 && candidatesPanel(section.effects),
     section.gaps.held_out.length > 0 && gapPanel('Gap on data held out', 'gap_held_out', section.gaps.held_out),
     section.gaps.fitted.length > 0 && gapPanel('Gap on the fitted data', 'gap_fitted', section.gaps.fitted),
+    section.disagreement && disagreementPanel(section.disagreement.before, section.disagreement.after),
     residualHeatMap([...section.gaps.fitted, ...section.gaps.held_out]),
     section.heat && freeHeatPanel('Heat that no effect explains', 'unknown_heat', [section.heat], state),
     section.unaccounted_heat.length > 0 && freeHeatPanel('Unaccounted heat, before any effect was added', 'unaccounted_heat',
