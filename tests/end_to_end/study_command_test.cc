@@ -1,5 +1,6 @@
 #include <array>
 #include <cstdio>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -31,7 +32,7 @@ test = ["batch_004_K05"]
 TEST(StudyCommand, GivesTheSameBytesWithOneThreadAndTwo) {
   TemporaryDirectory const directory;
   tests::put(directory / "study.toml", study);
-  std::string const program = std::string(THERMOTWIN_PROGRAM) + " study " + (directory / "study.toml").string();
+  std::string const program = fmt::format("{} study {}", THERMOTWIN_PROGRAM, (directory / "study.toml").string());
   auto const text = answer("OMP_NUM_THREADS=1 " + program + " -o " + (directory / "one").string());
   answer("OMP_NUM_THREADS=2 " + program + " -o " + (directory / "two").string());
   EXPECT_THAT(text, HasSubstr("v450: least RMSE where no model had been: "));
@@ -45,8 +46,8 @@ TEST(StudyCommand, GivesTheSameBytesWithOneThreadAndTwo) {
 TEST(StudyCommand, OverwritesNothing) {
   TemporaryDirectory const directory;
   tests::put(directory / "study.toml", study);
-  auto const complaint = answer(std::string(THERMOTWIN_PROGRAM) + " study " + (directory / "study.toml").string() +
-                                    " -o " + directory.path().string(),
+  auto const complaint = answer(fmt::format("{} study {} -o {}", THERMOTWIN_PROGRAM,
+                                            (directory / "study.toml").string(), directory.path().string()),
                                 2);
   EXPECT_THAT(complaint, HasSubstr("is not empty; what is there is not overwritten"));
   EXPECT_EQ(directory.files(), std::vector<std::string>{"study.toml"});
@@ -54,7 +55,7 @@ TEST(StudyCommand, OverwritesNothing) {
 
 TEST(StudyCommand, KnowsTheShippedStudiesByName) {
   TemporaryDirectory const directory;
-  EXPECT_THAT(answer(std::string(THERMOTWIN_PROGRAM) + " study paper_04 -o " + (directory / "out").string(), 2),
+  EXPECT_THAT(answer(fmt::format("{} study paper_04 -o {}", THERMOTWIN_PROGRAM, (directory / "out").string()), 2),
               HasSubstr("there is no study 'paper_04'; did you mean 'paper_004'?"));
 }
 

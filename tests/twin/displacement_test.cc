@@ -272,13 +272,13 @@ housing_expansion = "12e-6 1/K"
 }
 
 TEST(Displacement, CompensationLeftOnTakesOffWhatItsSensorReads) {
-  auto const built = machine(std::string(axial) + R"(
+  auto const built = machine(fmt::format("{}{}", axial, R"(
 [[compensation]]
 name = "controller"
 displacement = "E_Z"
 at = "head"
 gain = "0.6 um/K"
-)");
+)"));
   auto const warm_head = [](std::string const& body, Eigen::Vector3d const&) { return body == "head" ? 2.0 : 0.0; };
   EXPECT_NEAR(response(built, channel(built, "E_Z"), warm_head), -1.2e-6, 1e-15);
 }
@@ -322,7 +322,7 @@ TEST(Displacement, ScrewKnowsItsSeatsAndWhatItIsMeasuredAgainst) {
 }
 
 TEST(Displacement, ScrewAtTheTemperatureOfItsSurroundingsHasNoError) {
-  auto const built = machine(std::string(screw) + "seats = \"shaft\"\nreference = \"shaft\"\n").screws.at(0);
+  auto const built = machine(fmt::format("{}{}", screw, "seats = \"shaft\"\nreference = \"shaft\"\n")).screws.at(0);
   std::vector<double> const rise(8, 6.0);
   double seat = 0.0, strain = 0.0;
   for (auto const& [node, weight] : built.seat_growth) seat += 6.0 * weight;
