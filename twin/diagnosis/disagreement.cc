@@ -13,7 +13,7 @@ namespace thermotwin::twin {
 namespace {
 
 constexpr double false_discoveries = 0.01;
-constexpr int fewest_rows = 3;
+constexpr int fewest_rows_of_part = 3;
 
 /// One channel of one run: its residual, NaN where nothing was measured, and the same whitened, 0 there.
 struct ChannelResidual {
@@ -39,7 +39,7 @@ void add_part(std::vector<Disagreement>& cells, Disagreement cell, ChannelResidu
     power += residual.whitened[row] * residual.whitened[row];
     ++rows;
   }
-  if (rows < fewest_rows) return;
+  if (rows < fewest_rows_of_part) return;
   cell.mean /= rows;
   cell.rms = std::sqrt(squares / rows);
   cell.power = power / rows;
