@@ -52,7 +52,7 @@ std::string prediction_table(VolumetricStudy const& study) {
     text += fmt::format("  {:<14} {:>8.2f} {:>8.2f} {:>8.1f} {:>12.3f}  {}{}\n", prediction.method, in_um * score.rms,
                         in_um * score.largest, score.mape, 1e3 * prediction.training_time, prediction.remark,
                         prediction.method == study.chosen.method ? "  << compensates" : "");
-  return text + "  against the true field, without rigid motion; MAPE of component_lists of at least 1 µm\n";
+  return text + "  against the true field, without rigid motion; MAPE of components of at least 1 µm\n";
 }
 
 std::string verification_table(VolumetricStudy const& study) {
