@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""fixed_part.py PROGRAM FOLDER: the first ten worlds of HIDE-1000, made, diagnosed and scored.
+"""fixed_part.py PROGRAM FOLDER: four worlds of HIDE-1000, made, diagnosed and scored.
 
 Holds what must never happen, however much remains unnamed: an error, an alarm where nothing is hidden, a name that
 excludes the truth where the truth is in the catalogue, an amended machine that is further from unseen data than the
@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-SEEDS = (1, 10)
+SEEDS = (7, 10)
 
 
 def scorer():

@@ -138,7 +138,6 @@ void Diagnostician::calibrate() {
   estimation_.emplace(expected_estimation(document_, runs_));
   expected_ = estimation_->noise();
   fit_ = estimation_->fit(estimation_->prior_mean(), 12);
-  diagnosis_.disagreement = disagreements(*estimation_, fit_.x, machine_);
   listen_to_noise();
 }
 
@@ -366,8 +365,8 @@ Diagnosis Diagnostician::operator()() {
   if (diagnosis_.verdict == Diagnosis::Verdict::none_known) diagnosis_.unknown_heat = diagnosis_.scan[0];
   diagnosis_.amended = fit_;
   diagnosis_.effects = estimation_->effects();
-  if (!diagnosis_.effects.empty())
-    diagnosis_.disagreement_left = disagreements(plain_->with(expected_).with(diagnosis_.effects), fit_.x, machine_);
+  diagnosis_.disagreement = disagreements(plain_->with(estimation_->noise()), diagnosis_.calibrated.x, machine_);
+  if (!diagnosis_.effects.empty()) diagnosis_.disagreement_left = disagreements(*estimation_, fit_.x, machine_);
   diagnosis_.unknowns = estimation_->unknowns();
   diagnosis_.document = estimation_->document_at(fit_.x);
   take_joint_estimates();

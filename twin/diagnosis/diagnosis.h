@@ -54,7 +54,8 @@ struct Diagnosis {
     none_known,  ///< heat that no effect of the catalogue explains
   };
   Verdict verdict = Verdict::nothing;
-  std::vector<Disagreement> disagreement;       ///< of the calibrated machine, before any effect was added
+  /// Of the calibrated machine, before any effect was added, beside the noise that the amended one leaves.
+  std::vector<Disagreement> disagreement;
   std::vector<Disagreement> disagreement_left;  ///< of the amended one; empty where nothing was added
   std::vector<Explanation> explanations;        ///< of `none_known`: what stands in for it, and does not suffice
   /// Bodies that the missing heat enters, and whether it does so while the spindle turns or while it stands.
