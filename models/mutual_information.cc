@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "models/quantile.h"
+
 namespace thermotwin::models {
 
 namespace {
@@ -29,13 +31,6 @@ void check(VectorXd const& x, VectorXd const& y) {
 }
 
 bool constant(VectorXd const& x) { return x.maxCoeff() == x.minCoeff(); }
-
-double quantile(std::vector<double> const& sorted, double share) {
-  double const at = share * static_cast<double>(sorted.size() - 1);
-  auto const below = static_cast<std::size_t>(at);
-  double const above = sorted[std::min(below + 1, sorted.size() - 1)];
-  return sorted[below] + (at - static_cast<double>(below)) * (above - sorted[below]);
-}
 
 double freedman_diaconis(VectorXd const& x) {
   std::vector<double> sorted(x.begin(), x.end());

@@ -15,6 +15,9 @@ struct Ticks {
 /// A span below the smallest is shown as one of that size: what differs by less is one colour, not noise [K].
 [[nodiscard]] Ticks round_ticks(double low, double high, double smallest_span = 0.4);
 
+/// Displacement as it is shown at most, of the machine's diagonal.
+inline constexpr double largest_shown = 0.05;
+
 /// 1, 2 or 5 times a power of ten, the largest that is not above x > 0.
 [[nodiscard]] double round_down(double x);
 

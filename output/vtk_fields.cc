@@ -41,7 +41,6 @@ namespace {
 
 using thermal::InputError;
 
-constexpr double deformed_share = 0.05;    // displacement, of the machine's diagonal
 constexpr double least_difference = 1e-3;  // K, of the colours' ends
 
 void add_texts(vtkFieldData& data, std::string const& name, std::vector<std::string> const& texts) {
@@ -253,7 +252,7 @@ void FieldSeries::arrange(Frame const& frame) {
   view.highest_degC = ticks.first + (ticks.count - 1) * ticks.step;
   view.centre = 0.5 * (low + high);
   view.size = (high - low).norm();
-  view.magnification = largest_m_ > 0.0 ? round_down(deformed_share * view.size / largest_m_) : 1.0;
+  view.magnification = largest_m_ > 0.0 ? round_down(largest_shown * view.size / largest_m_) : 1.0;
   view.up = options_.up;
   view.with_sensors = !options_.sensors.empty();
   write_paraview_state(directory_, view);

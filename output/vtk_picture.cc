@@ -23,6 +23,7 @@
 #include "output/atomic_file.h"
 #include "output/display.h"
 #include "output/picture.h"
+#include "output/picture_scale.h"
 #include "output/vtk_grid.h"
 #include "output/vtk_page.h"
 #include "output/vtk_view.h"
@@ -33,8 +34,6 @@ namespace {
 
 constexpr Colour edge_ink = {0.86, 0.88, 0.91};
 constexpr Colour sensor_red = {0.86, 0.15, 0.15};
-
-constexpr double largest_shown = 0.05;  // displacement, of the machine's diagonal
 
 /// The machine's skin at rest or deformed, coloured by temperature.
 class Skin {

@@ -40,8 +40,6 @@ using VectorHandle = Handle<N_Vector, free_vector>;
 using MatrixHandle = Handle<SUNMatrix, free_matrix>;
 using SolverHandle = Handle<SUNLinearSolver, free_solver>;
 
-double* data(N_Vector v) { return N_VGetArrayPointer(v); }
-
 /// The course, asked by the network's channel order and never across a jump.
 class OperatingPoint {
  public:

@@ -7,11 +7,9 @@
 namespace thermotwin::thermal {
 namespace {
 
-double* values(N_Vector v) { return N_VGetArrayPointer(v); }
-
 void linear_sum(realtype a, N_Vector first, realtype b, N_Vector second, N_Vector sum) {
-  double const *x = values(first), *y = values(second);
-  double* z = values(sum);
+  double const *x = data(first), *y = data(second);
+  double* z = data(sum);
   for_blocks(N_VGetLength(sum), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
 #pragma omp simd
     for (auto i = begin; i < end; ++i) z[i] = a * x[i] + b * y[i];
@@ -19,15 +17,15 @@ void linear_sum(realtype a, N_Vector first, realtype b, N_Vector second, N_Vecto
 }
 
 void fill(realtype value, N_Vector v) {
-  double* z = values(v);
+  double* z = data(v);
   for_blocks(N_VGetLength(v), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto i = begin; i < end; ++i) z[i] = value;
   });
 }
 
 void scale(realtype factor, N_Vector from, N_Vector to) {
-  double const* x = values(from);
-  double* z = values(to);
+  double const* x = data(from);
+  double* z = data(to);
   for_blocks(N_VGetLength(to), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
 #pragma omp simd
     for (auto i = begin; i < end; ++i) z[i] = factor * x[i];
@@ -36,13 +34,13 @@ void scale(realtype factor, N_Vector from, N_Vector to) {
 
 /// The first of the added vectors is the sum's own place where they are the same.
 int linear_combination(int count, realtype* factors, N_Vector* vectors, N_Vector result) {
-  double* z = values(result);
+  double* z = data(result);
   for_blocks(N_VGetLength(result), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    double const* x = values(vectors[0]);
+    double const* x = data(vectors[0]);
 #pragma omp simd
     for (auto i = begin; i < end; ++i) z[i] = factors[0] * x[i];
     for (int k = 1; k < count; ++k) {
-      double const* y = values(vectors[k]);
+      double const* y = data(vectors[k]);
       double const factor = factors[k];
 #pragma omp simd
       for (auto i = begin; i < end; ++i) z[i] += factor * y[i];
@@ -52,11 +50,11 @@ int linear_combination(int count, realtype* factors, N_Vector* vectors, N_Vector
 }
 
 int scale_add_multi(int count, realtype* factors, N_Vector added, N_Vector* to, N_Vector* results) {
-  double const* x = values(added);
+  double const* x = data(added);
   for_blocks(N_VGetLength(added), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (int k = 0; k < count; ++k) {
-      double const* y = values(to[k]);
-      double* z = values(results[k]);
+      double const* y = data(to[k]);
+      double* z = data(results[k]);
       double const factor = factors[k];
 #pragma omp simd
       for (auto i = begin; i < end; ++i) z[i] = factor * x[i] + y[i];
@@ -66,7 +64,7 @@ int scale_add_multi(int count, realtype* factors, N_Vector added, N_Vector* to, 
 }
 
 realtype weighted_norm(N_Vector v, N_Vector weights) {
-  double const *x = values(v), *w = values(weights);
+  double const *x = data(v), *w = data(weights);
   double const sum = sum_of_blocks(N_VGetLength(v), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
     double part = 0.0;
 #pragma omp simd reduction(+ : part)

@@ -180,12 +180,9 @@ TEST(Documentation, HidesNoCommandFromItsTest) {
 TEST(Documentation, NamesCommandsAndOptionsThatThereAre) {
   std::string const program = THERMOTWIN_PROGRAM;
   std::map<std::string, std::string> help;
-  std::vector<fs::path> pages = {root / "README.md"};
-  for (auto const& entry : fs::directory_iterator(root / "docs"))
-    if (entry.path().extension() == ".md") pages.push_back(entry.path());
   int seen = 0;
-  for (auto const& page : pages) {
-    std::istringstream lines(tests::contents(page));
+  for (auto const& page : chapters()) {
+    std::istringstream lines(tests::contents(root / page));
     for (std::string line; std::getline(lines, line);) {
       std::istringstream words(line.substr(0, line.find(" #")));
       std::string word, command;

@@ -15,8 +15,7 @@ constexpr std::size_t most_reasons = 100;
 constexpr std::size_t most_pending = 100'000;  ///< between two decisions
 constexpr double hesitation = 0.5;  ///< by which processes may be late before that is taken for silence [s, our clock]
 constexpr std::size_t most_early = 1000;
-constexpr double round_off = 1e-3;  ///< of a cycle
-constexpr double never = -std::numeric_limits<double>::infinity();
+constexpr double round_off = 1e-3;      ///< of a cycle
 constexpr double furthest_time = 1e11;  ///< so that seconds and their fractions are still numbers [s]
 
 void require(bool holds, char const* what, double value) {

@@ -6,17 +6,16 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double not_yet = -std::numeric_limits<double>::infinity();
 constexpr double drift = 1e-3;
 
 }  // namespace
 
 ModelClock::ModelClock(double speed, double tolerance, std::size_t senders)
-    : speed_(speed), tolerance_(tolerance), leads_(senders, {not_yet, not_yet}), most_have_(not_yet), ahead_(not_yet) {}
+    : speed_(speed), tolerance_(tolerance), leads_(senders, {never, never}), most_have_(never), ahead_(never) {}
 
 void ModelClock::hear(std::size_t sender, double lead) {
   auto& [last, largest] = leads_[sender];
-  double const confirmed = last == not_yet ? lead : std::min(lead, last);
+  double const confirmed = last == never ? lead : std::min(lead, last);
   last = lead;
   if (confirmed <= largest) return;
   largest = confirmed;
@@ -27,8 +26,8 @@ void ModelClock::hear(std::size_t sender, double lead) {
   most_have_ = *median;
 }
 
-bool ModelClock::heard(std::size_t sender) const { return leads_[sender].last > not_yet; }
-bool ModelClock::started() const { return ahead_ > not_yet; }
+bool ModelClock::heard(std::size_t sender) const { return leads_[sender].last > never; }
+bool ModelClock::started() const { return ahead_ > never; }
 
 void ModelClock::follow(double lead, double wall) {
   if (!started()) wall_ = wall;

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace thermotwin::twin {
+
+inline constexpr double never = -std::numeric_limits<double>::infinity();  ///< a time before all others [s]
 
 /// The senders' time, learnt from the stamps t of their messages and our own w [s, steady] when those came. A stamp
 /// leads our clock by m = t − speed · w, the more the less its message was delayed:

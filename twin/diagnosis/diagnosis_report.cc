@@ -56,20 +56,19 @@ Json json_of(FreeHeat const& heat) {
   return {{"body", heat.site.body}, {"watts", sum / time}, {"gain", heat.gain}, {"runs", runs}};
 }
 
+double in_unit(std::string const& unit, double si) { return unit == "K" ? si : 1e6 * si; }
+
 Json json_of(std::vector<ChannelGap> const& gaps) {
   Json list = Json::array();
   for (auto const& gap : gaps) {
-    double const unit = gap.displacement ? 1e6 : 1.0;
     list.push_back({{"run", gap.run},
                     {"channel", gap.channel},
                     {"unit", gap.unit},
-                    {"before", unit * gap.before},
-                    {"after", unit * gap.after}});
+                    {"before", in_unit(gap.unit, gap.before)},
+                    {"after", in_unit(gap.unit, gap.after)}});
   }
   return list;
 }
-
-double in_unit(std::string const& unit, double si) { return unit == "K" ? si : 1e6 * si; }
 
 Json json_of(std::vector<Disagreement> const& cells) {
   Json list = Json::array();
@@ -111,9 +110,8 @@ std::string words_of(std::vector<Disagreement> const& cells) {
 std::string table_of(std::vector<ChannelGap> const& gaps) {
   std::string text = fmt::format("  {:<20} {:<10} {:>10} {:>10}\n", "run", "channel", "before", "after");
   for (auto const& gap : gaps) {
-    double const unit = gap.displacement ? 1e6 : 1.0;
-    text += fmt::format("  {:<20} {:<10} {:>10.3f} {:>10.3f} {}\n", gap.run, gap.channel, unit * gap.before,
-                        unit * gap.after, gap.unit);
+    text += fmt::format("  {:<20} {:<10} {:>10.3f} {:>10.3f} {}\n", gap.run, gap.channel, in_unit(gap.unit, gap.before),
+                        in_unit(gap.unit, gap.after), gap.unit);
   }
   return text;
 }

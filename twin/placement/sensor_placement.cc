@@ -9,6 +9,7 @@
 
 #include "models/placement.h"
 #include "models/placement_bound.h"
+#include "models/quantile.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
 #include "twin/file/document.h"
@@ -78,10 +79,7 @@ class Proposal {
 
 double quantile(Eigen::VectorXd values, double share) {
   std::sort(values.begin(), values.end());
-  double const place = share * double(values.size() - 1);
-  auto const below = Index(place);
-  auto const above = std::min(below + 1, values.size() - 1);
-  return values[below] + (place - double(below)) * (values[above] - values[below]);
+  return models::quantile({values.data(), std::size_t(values.size())}, share);
 }
 
 Sites without(Sites sites, Index site) {

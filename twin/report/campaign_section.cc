@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "models/quantile.h"
 #include "output/campaign_file.h"
 #include "twin/diagnosis/run_files.h"
 #include "twin/file/value.h"
@@ -62,14 +63,6 @@ Values const* axis_of(CampaignRuns const& runs, std::string const& name) {
   return nullptr;
 }
 
-/// Of numbers in order.
-double quantile(std::vector<double> const& ordered, double share) {
-  double const place = share * double(ordered.size() - 1);
-  auto const below = std::size_t(place);
-  if (below + 1 >= ordered.size()) return ordered.back();
-  return ordered[below] + (place - double(below)) * (ordered[below + 1] - ordered[below]);
-}
-
 /// Shares × times, of run × (time × channel).
 Eigen::MatrixXd quantiles(Eigen::MatrixXd const& values, Eigen::Index channel, Eigen::Index channels) {
   Eigen::Index const times = values.cols() / channels;
@@ -81,7 +74,7 @@ Eigen::MatrixXd quantiles(Eigen::MatrixXd const& values, Eigen::Index channel, E
       if (std::isfinite(value)) known.push_back(value);
     if (known.empty()) continue;
     std::sort(known.begin(), known.end());
-    for (std::size_t s = 0; s < shares.size(); ++s) result(Eigen::Index(s), t) = quantile(known, shares[s]);
+    for (std::size_t s = 0; s < shares.size(); ++s) result(Eigen::Index(s), t) = models::quantile(known, shares[s]);
   }
   return result;
 }

@@ -1,4 +1,4 @@
-import {cividis, css, gradient} from '../colours';
+import {cividis, gradient} from '../colours';
 import type {Column} from '../csv';
 import type {DiagnosisSection, Finding, Gap} from '../data';
 import {colourBar, make, panel} from '../dom';
@@ -6,6 +6,7 @@ import {roundTicks, unitText} from '../format';
 import type {PageState} from '../signal';
 import {disagreementPanel} from './disagreement';
 import {freeHeatPanel} from './free_heat';
+import {heatCell} from './heat_cell';
 
 const verdicts: Record<string, string> = {
   nothing: 'Nothing missing', effect: 'Effect found', either: 'Either, or', sensor: 'Sensor at fault', none_known: 'Unknown heat',
@@ -139,10 +140,7 @@ function residualHeatMap(gaps: Gap[]): HTMLElement | false {
   const highest = ticks[ticks.length - 1]!;
   const cell = (gap: Gap | undefined, x: number | undefined): HTMLElement => {
     if (!gap || x === undefined) return make('td', {}, '–');
-    const share = scaled(gap, x) / highest, box = make('td', {class: 'cell', title: `${x.toPrecision(3)} ${unitText(gap.unit)}`}, size(x));
-    box.style.background = css(cividis(share));
-    box.style.color = share > 0.5 ? '#101418' : '#ffffff';
-    return box;
+    return heatCell(scaled(gap, x) / highest, `${x.toPrecision(3)} ${unitText(gap.unit)}`, size(x));
   };
   const rows = channels.map((channel) => {
     const unit = gaps.find((g) => g.channel === channel)!.unit;

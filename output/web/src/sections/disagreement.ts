@@ -1,7 +1,8 @@
-import {cividis, css, gradient} from '../colours';
+import {cividis, gradient} from '../colours';
 import type {Disagreement} from '../data';
 import {colourBar, make, panel} from '../dom';
 import {unitText} from '../format';
+import {heatCell} from './heat_cell';
 
 const cuts: Record<string, string> = {regime: 'by regime', speed: 'by speed', time: 'over time'};
 const largest_power = 100;
@@ -51,8 +52,5 @@ function cell(found: Disagreement, after: Disagreement | undefined, unit: string
   const mean = found.mean.toFixed(Math.abs(found.mean) < 10 ? 2 : 1).replace('-', '−');
   const words = [`mean ${mean} ${unit}, RMS ${found.rms.toPrecision(3)} ${unit}`,
     `power ${found.power.toPrecision(3)}${after ? `, with the effects ${after.power.toPrecision(3)}` : ''}`];
-  const box = make('td', {class: 'cell', title: words.join('; ')}, found.significant ? make('strong', {}, mean) : mean);
-  box.style.background = css(cividis(share));
-  box.style.color = share > 0.5 ? '#101418' : '#ffffff';
-  return box;
+  return heatCell(share, words.join('; '), found.significant ? make('strong', {}, mean) : mean);
 }
