@@ -99,7 +99,7 @@ class BrokerProcess {
 
   [[nodiscard]] int port() const { return port_; }
   [[nodiscard]] std::string url(std::string const& scheme = "mqtt") const {
-    return scheme + "://localhost:" + std::to_string(port_);
+    return scheme + "://127.0.0.1:" + std::to_string(port_);
   }
 
  private:

@@ -11,7 +11,7 @@ namespace thermotwin::twin {
 
 /// How to reach an MQTT broker, and what it shall say when we vanish.
 struct BrokerOptions {
-  std::string url = "mqtt://localhost:1883";  ///< mqtts:// for TLS
+  std::string url = "mqtt://127.0.0.1:1883";  ///< mqtts:// for TLS
   std::string client;                         ///< unique at the broker: who comes with the same name ends the other
   std::string user;
   std::filesystem::path password_file;  ///< its first line
