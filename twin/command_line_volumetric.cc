@@ -16,12 +16,14 @@ namespace {
 struct VolumetricArguments {
   VolumetricFiles files;
   std::string machine, at = "0 s", resolution = "0.1 um";
+  std::vector<std::string> settings;
   bool json = false;
 };
 
 void add_options(CLI::App& command, VolumetricArguments& arguments) {
   auto& options = arguments.files.options;
   command.add_option("machine", arguments.machine, "machine file or name, with a table [volumetric]")->required();
+  command.add_option("--set", arguments.settings, "change a parameter: volumetric.drawn.angular=\"5 urad\"");
   command.add_option("--seed", options.seed, "of the measurement")->capture_default_str();
   command.add_option("--method", options.method, "of prediction: interpolation, ls_svm, ls_svm_chosen, network")
       ->capture_default_str();
@@ -45,6 +47,7 @@ void add_volumetric_command(CLI::App& app) {
   command->callback([arguments] {
     auto& files = arguments->files;
     files.machine = machine_file(arguments->machine);
+    for (auto const& text : arguments->settings) files.settings.push_back(setting(text));
     files.options.measured_at = thermal::parse_value(arguments->at, thermal::dimension::time);
     files.options.resolution = thermal::parse_value(arguments->resolution, thermal::dimension::length);
     auto const study = volumetric_files(files);

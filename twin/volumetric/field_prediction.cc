@@ -71,7 +71,7 @@ FieldPrediction interpolated(NineFunctions const& measured, std::uint64_t) {
 }
 
 /// σ² and γ of a Gaussian LS-SVM.
-struct Setting {
+struct Hyperparameters {
   double variance, gamma;
 };
 
@@ -88,7 +88,7 @@ MatrixXd columns_of(NineFunctions const& measured) {
 }
 
 struct Trained {
-  Setting setting;
+  Hyperparameters setting;
   models::LeastSquaresSupportVectors fit;
 };
 

@@ -100,7 +100,9 @@ void write_tables(VolumetricStudy const& study, VolumetricFiles const& files) {
 }  // namespace
 
 VolumetricStudy volumetric_files(VolumetricFiles const& files) {
-  auto const machine = read_volumetric(read_toml(files.machine));
+  Value document = read_toml(files.machine);
+  for (auto const& setting : files.settings) set_parameter(document, setting.path, setting.value);
+  auto const machine = read_volumetric(document);
   std::optional<output::Dataset> run;
   VolumetricOptions options = files.options;
   if (!files.run.empty()) options.run = &run.emplace(output::read(files.run));

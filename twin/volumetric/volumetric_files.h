@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "twin/setting.h"
 #include "twin/volumetric/volumetric_study.h"
 
 namespace thermotwin::twin {
@@ -10,6 +12,7 @@ namespace thermotwin::twin {
 /// `thermotwin volumetric`.
 struct VolumetricFiles {
   std::filesystem::path machine;
+  std::vector<Setting> settings;  ///< what is changed in it
   std::filesystem::path run;      ///< data set of that machine, for its drift; empty: none
   std::filesystem::path output;   ///< folder; empty: none
   std::filesystem::path picture;  ///< PNG; empty: none
