@@ -1,48 +1,16 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "twin/diagnosis/disagreement.h"
-#include "twin/diagnosis/estimation.h"
+#include "twin/diagnosis/effect_search.h"
 #include "twin/diagnosis/faulty_sensor.h"
 #include "twin/diagnosis/free_heat.h"
 #include "twin/diagnosis/remedy.h"
-#include "twin/diagnosis/score.h"
 
 namespace thermotwin::twin {
-
-/// An effect at a site as fitted.
-struct Finding {
-  Hypothesis hypothesis;
-  double amplitude = 0.0;       ///< [SI]
-  double standard_error = 0.0;  ///< [SI]
-  double strength = 0.0;        ///< 2 ln of the evidence against a machine without it
-  double weight = 0.0;          ///< among its alternatives
-};
-
-/// One thing that is missing: one effect, or several that the data cannot tell apart, best first.
-struct Explanation {
-  std::vector<Finding> alternatives;
-};
-
-struct DiagnosisOptions {
-  std::vector<std::string> without;  ///< effects that are not tried
-  int most_effects = 8;
-  /// 2 ln of the evidence that an effect must have; see docs/diagnosis.md for how often chance alone reaches it.
-  double threshold = 20.0;
-  /// What a further effect must have, and its share of the strongest: what is left of an effect whose shape is not
-  /// quite right looks like others.
-  double further_threshold = 40.0;
-  double least_share = 0.04;
-  /// 2 ln of the evidence for heat of free course anywhere, beside the effects found: beyond it, they are not what is
-  /// missing.
-  double heat_left = 20.0;
-  double indistinct = 9.0;  ///< alternatives within this of the best are told as well
-  std::function<void(std::string const&)> progress;
-};
 
 /// What measured runs say about a machine file (physics.md 8).
 struct Diagnosis {

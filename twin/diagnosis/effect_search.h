@@ -1,0 +1,93 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "twin/diagnosis/estimation.h"
+#include "twin/diagnosis/score.h"
+
+namespace thermotwin::twin {
+
+/// An effect at a site as fitted.
+struct Finding {
+  Hypothesis hypothesis;
+  double amplitude = 0.0;       ///< [SI]
+  double standard_error = 0.0;  ///< [SI]
+  double strength = 0.0;        ///< 2 ln of the evidence against a machine without it
+  double weight = 0.0;          ///< among its alternatives
+};
+
+/// One thing that is missing: one effect, or several that the data cannot tell apart, best first.
+struct Explanation {
+  std::vector<Finding> alternatives;
+};
+
+struct DiagnosisOptions {
+  std::vector<std::string> without;  ///< effects that are not tried
+  int most_effects = 8;
+  /// 2 ln of the evidence that an effect must have; see docs/diagnosis.md for how often chance alone reaches it.
+  double threshold = 20.0;
+  /// What a further effect must have, and its share of the strongest: what is left of an effect whose shape is not
+  /// quite right looks like others.
+  double further_threshold = 40.0;
+  double least_share = 0.04;
+  /// 2 ln of the evidence for heat of free course anywhere, beside the effects found: beyond it, they are not what is
+  /// missing.
+  double heat_left = 20.0;
+  double indistinct = 9.0;  ///< alternatives within this of the best are told as well
+  std::function<void(std::string const&)> progress;
+};
+
+/// Which effects a machine lacks, beside all its uncertain numbers: forward selection by evidence, with a backward
+/// check and an exchange of each for what could stand in its place (physics.md 8.5, 8.6).
+class EffectSearch {
+ public:
+  /// Calibrates, and hears the noise that the calibrated machine leaves. `document`, `runs` and `options` must outlive
+  /// this.
+  EffectSearch(Value const& document, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options);
+
+  /// Tries the hypotheses; once.
+  void operator()(std::vector<Hypothesis> hypotheses);
+
+  /// Of the machine without any effect, with the noise heard first.
+  [[nodiscard]] Estimation const& plain() const { return plain_.value(); }
+  [[nodiscard]] Fit const& calibrated() const { return calibrated_; }
+  /// With the effects found; the fit has the best alternative of each explanation.
+  [[nodiscard]] Estimation const& estimation() const { return estimation_.value(); }
+  [[nodiscard]] Fit const& fit() const { return fit_; }
+  [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
+
+ private:
+  struct Refit;
+
+  void say(std::string const& what) const {
+    if (options_.progress) options_.progress(what);
+  }
+  [[nodiscard]] bool add_effect(int round);
+  [[nodiscard]] std::vector<Refit> refits(Fit const& about, std::vector<std::size_t> const& chosen,
+                                          std::vector<Score> const& scores) const;
+  [[nodiscard]] std::vector<std::size_t> most_promising(std::vector<Score> const& scores) const;
+  [[nodiscard]] std::vector<Refit> instead_of(std::size_t effect, double strength) const;
+  [[nodiscard]] Eigen::MatrixXd whitened_signatures(std::vector<Hypothesis> const& hypotheses) const;
+  [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
+  void listen_to_noise();
+  [[nodiscard]] double further_threshold() const;
+  [[nodiscard]] std::vector<double> strengths_beside_others() const;
+  [[nodiscard]] Estimation with_effects(std::vector<Hypothesis> const& effects) const;
+  void drop_superfluous();
+  void exchange();
+  void take_joint_estimates();
+
+  DiagnosisOptions const& options_;
+  std::vector<ChannelNoise> expected_;
+  std::vector<Hypothesis> hypotheses_;
+  std::optional<Estimation> plain_;
+  std::optional<Estimation> estimation_;
+  double strongest_ = 0.0;  ///< of the effects found so far
+  Fit calibrated_, fit_;
+  std::vector<Explanation> explanations_;
+};
+
+}  // namespace thermotwin::twin
