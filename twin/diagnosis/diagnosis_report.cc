@@ -99,12 +99,26 @@ std::string words_of(std::vector<Disagreement> const& cells) {
   for (auto const& [channel, cell] : worst) order.push_back(cell);
   std::stable_sort(order.begin(), order.end(), [](auto const* a, auto const* b) { return a->power > b->power; });
   order.resize(std::min(order.size(), most_places));
-  std::string text = "Where and when the calibrated twin disagrees most (power of the residual, noise alone: 1):\n";
+  std::string text = fmt::format(
+      "Where and when the calibrated twin disagrees most (measured minus twin; power of noise alone: 1):\n"
+      "  {:<12} {:<10} {:<16} {:>9} {:>9} {:>7}\n",
+      "channel", "run", "part", "mean", "RMS", "power");
   for (auto const* cell : order)
-    text += fmt::format("  {:<12} {:<10} {:<16} {:>8.3f} {} {} the twin, RMS {:.3f}; power {:.1f}\n", cell->channel,
-                        cell->run, cell->part, std::abs(in_unit(cell->unit, cell->mean)), cell->unit,
-                        cell->mean < 0.0 ? "below" : "above", in_unit(cell->unit, cell->rms), cell->power);
+    text += fmt::format("  {:<12} {:<10} {:<16} {:>+9.3f} {:>9.3f} {:>7.1f} {}\n", cell->channel, cell->run, cell->part,
+                        in_unit(cell->unit, cell->mean), in_unit(cell->unit, cell->rms), cell->power, cell->unit);
   return text + "\n";
+}
+
+/// What the effects gain at the tool, or at a sensor if no displacement was measured.
+std::string words_of_gain(Diagnosis const& diagnosis, std::vector<ChannelGap> const& gaps, std::string const& data) {
+  auto const worth = [](ChannelGap const& gap) { return std::pair(gap.unit == "um", gap.before); };
+  auto const most =
+      std::max_element(gaps.begin(), gaps.end(), [&](auto const& a, auto const& b) { return worth(a) < worth(b); });
+  if (diagnosis.explanations.empty() || most == gaps.end()) return "";
+  return fmt::format("With {}, the error of the twin at {} on {} data {} from {:.3g} to {:.3g} {} RMS.\n\n",
+                     diagnosis.explanations.size() == 1 ? "it" : "them", most->channel, data,
+                     most->after < most->before ? "falls" : "grows", in_unit(most->unit, most->before),
+                     in_unit(most->unit, most->after), most->unit);
 }
 
 std::string table_of(std::vector<ChannelGap> const& gaps) {
@@ -163,7 +177,10 @@ std::string words_of_heat(Diagnosis const& diagnosis) {
 std::string headline(Diagnosis const& diagnosis) {
   switch (diagnosis.verdict) {
     case Diagnosis::Verdict::nothing:
-      return "Nothing is missing: the machine explains these data to within their noise.";
+      return std::none_of(diagnosis.disagreement.begin(), diagnosis.disagreement.end(),
+                          [](Disagreement const& cell) { return cell.significant; })
+                 ? "Nothing is missing: the machine explains these data to within their noise."
+                 : "No effect is evident, though the machine leaves more than noise in parts of the data.";
     case Diagnosis::Verdict::none_known:
       return diagnosis.explanations.empty()
                  ? "Something is missing that no effect of the catalogue explains."
@@ -227,10 +244,11 @@ std::string report_text(DiagnosisReport const& report) {
     text += fmt::format("{} {}.\n\n", sensor->name,
                         sensor->dead ? "shows nothing in a run" : "jumps about as no body's temperature does");
   text += words_of_heat(diagnosis);
-  text += words_of(diagnosis.disagreement);
   auto const& shown = report.held_out.empty() ? report.fitted : report.held_out;
-  text += fmt::format("Error of the twin on {} data, RMS:\n{}", report.held_out.empty() ? "the fitted" : "unseen",
-                      table_of(shown));
+  std::string const data = report.held_out.empty() ? "the fitted" : "unseen";
+  text += words_of_gain(diagnosis, shown, data);
+  text += words_of(diagnosis.disagreement);
+  text += fmt::format("Error of the twin on {} data, RMS:\n{}", data, table_of(shown));
   for (auto const& remark : report.remarks) text += "note: " + remark + "\n";
   return text;
 }
