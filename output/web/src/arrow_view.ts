@@ -71,6 +71,7 @@ export class ArrowView {
     }
   }
 
+  /** Each axis is named at the outermost of its edges, near its far end, the lower of two. */
   private paintBox(context: CanvasRenderingContext2D, width: number, height: number): void {
     const {box, camera} = this.options, at = (p: Vec): [number, number] => camera.project(p, width, height);
     const all = corners(box.low, box.high);
@@ -79,18 +80,23 @@ export class ArrowView {
     context.font = '12px system-ui, sans-serif';
     context.textAlign = 'center';
     context.textBaseline = 'middle';
-    all.forEach((a, i) => [1, 2, 4].forEach((bit, axis) => {
-      if (i & bit) return;
-      const b = all[i | bit]!;
+    const edges = all.flatMap((a, i) => [1, 2, 4].flatMap((bit, axis) => (i & bit ? [] : [{axis, from: a, to: all[i | bit]!}])));
+    for (const {from, to} of edges) {
       context.beginPath();
-      context.moveTo(...at(a));
-      context.lineTo(...at(b));
+      context.moveTo(...at(from));
+      context.lineTo(...at(to));
       context.stroke();
-      if (i === 0) {
-        const beyond = b.map((x, k) => x + 0.07 * (k === axis ? 1 : 0) * Math.max(...box.high.map((h, n) => h - box.low[n]!))) as Vec;
-        context.fillText(`${'XYZ'[axis]} ${+b[axis]!.toFixed(1)} mm`, ...at(beyond));
-      }
-    }));
+    }
+    const centre = at(box.low.map((x, i) => (x + box.high[i]!) / 2) as Vec);
+    for (let axis = 0; axis < 3; ++axis) {
+      const names = edges.filter((e) => e.axis === axis).map(({from, to}) => {
+        const [x, y] = at(from.map((x, i) => 0.2 * x + 0.8 * to[i]!) as Vec), [dx, dy] = [x - centre[0], y - centre[1]];
+        return {x, y, dx, dy, away: Math.hypot(dx, dy)};
+      });
+      const {x, y, dx, dy, away} = names.reduce((a, b) => (b.away + b.dy > a.away + a.dy ? b : a));
+      const text = `${'XYZ'[axis]} ${+box.high[axis]!.toFixed(1)} mm`;
+      context.fillText(text, x + (dx / away) * (8 + context.measureText(text).width / 2), y + (dy / away) * 16);
+    }
   }
 }
 

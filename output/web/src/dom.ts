@@ -35,6 +35,15 @@ export function panel(title: string, file: string, columns: () => Column[], ...c
     make('header', {}, make('h3', {}, title), button), ...children);
 }
 
+/** The numbers below a track, each where it lies on it in percent. */
+export function trackAxis(ticks: number[], place: (tick: number) => number): HTMLElement {
+  return make('span', {class: 'track axis'}, ...ticks.map((tick) => {
+    const mark = make('span', {}, String(tick).replace('-', '−'));
+    mark.style.left = `${place(tick)}%`;
+    return mark;
+  }));
+}
+
 /** A strip of colours with its numbers. */
 export function colourBar(gradient: string, ticks: number[], label: string): HTMLElement {
   const low = ticks[0]!, span = ticks[ticks.length - 1]! - low || 1;

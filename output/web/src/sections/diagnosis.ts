@@ -1,7 +1,7 @@
 import {cividis, gradient} from '../colours';
 import type {Column} from '../csv';
 import type {DiagnosisSection, Finding, Gap} from '../data';
-import {colourBar, make, panel} from '../dom';
+import {colourBar, make, panel, trackAxis} from '../dom';
 import {roundTicks, unitText} from '../format';
 import type {PageState} from '../signal';
 import {disagreementPanel} from './disagreement';
@@ -16,7 +16,7 @@ const verdicts: Record<string, string> = {
 export function diagnosisSection(section: DiagnosisSection, state: PageState): HTMLElement {
   const {before, after} = section.gap;
   const panels = [
-    section.effects.length > 0 && candidatesPanel(section.effects),
+    section.effects.length > 0 && candidatesPanel(section),
     section.gaps.held_out.length > 0 && gapPanel('Gap on data held out', 'gap_held_out', section.gaps.held_out),
     section.gaps.fitted.length > 0 && gapPanel('Gap on the fitted data', 'gap_fitted', section.gaps.fitted),
     section.disagreement && disagreementPanel(section.disagreement.before, section.disagreement.after),
@@ -32,11 +32,24 @@ export function diagnosisSection(section: DiagnosisSection, state: PageState): H
       make('dl', {class: 'figures'},
         figure('gap before', size(before)), figure('gap after', size(after)),
         figure('left of it', `${((100 * after) / before).toFixed(0)} %`)),
-      make('p', {class: 'remark'}, `Gap: root mean square over all channels ${section.gaps.held_out.length ? 'held out' : 'fitted'}, in units of 0.1 K and 1 µm; one constant per channel and run taken off.`),
-      ...section.where.map((w) => make('p', {class: 'remark'}, `Missing heat acts on ${w.body}: ${w.regime}.`))),
+      make('p', {class: 'remark'}, `Gap: root mean square over all channels ${section.gaps.held_out.length ? 'held out' : 'fitted'}, ${unitsOf([...section.gaps.fitted, ...section.gaps.held_out])}; one constant per channel and run taken off.`),
+      ...actsOn(section.where).map((words) => make('p', {class: 'remark'}, words))),
     make('div', {class: 'flow'}, ...panels),
     ...section.remarks.map((remark) => make('p', {class: 'remark'}, remark)));
 }
+
+/** A sentence per body. */
+function actsOn(where: DiagnosisSection['where']): string[] {
+  const when: Record<string, string> = {moving: 'while the machine moves', standing: 'while it stands'};
+  return [...new Set(where.map((w) => w.body))].map((body) =>
+    `Missing heat acts on ${body} ${where.filter((w) => w.body === body).map((w) => when[w.regime] ?? w.regime).join(' and ')}.`);
+}
+
+/** By which names count as told apart, in units of the noise. */
+const wanted_distance = 6;
+
+/** Of a file, as commands name it. */
+const stem = (path: string): string => path.replace(/^.*\//, '').replace(/\.toml$/, '');
 
 const size = (x: number): string => (x < 10 ? x.toFixed(2) : x.toFixed(1));
 
@@ -44,7 +57,7 @@ function figure(label: string, value: string): HTMLElement {
   return make('div', {}, make('dt', {}, label), make('dd', {}, value));
 }
 
-function candidatesPanel(effects: Finding[]): HTMLElement {
+function candidatesPanel({effects, experiment, experiment_distance}: DiagnosisSection): HTMLElement {
   const groups = [...new Set(effects.map((e) => e.group))];
   const lists = groups.map((group) => {
     const all = effects.filter((e) => e.group === group);
@@ -59,7 +72,8 @@ function candidatesPanel(effects: Finding[]): HTMLElement {
     {name: 'amplitude', values: effects.map((e) => e.amplitude)}, {name: 'low', values: effects.map((e) => e.low)},
     {name: 'high', values: effects.map((e) => e.high)}, {name: 'weight', values: effects.map((e) => e.weight)},
     {name: 'two_ln_evidence', values: effects.map((e) => e.strength)},
-  ], ...lists);
+  ], ...lists, experiment && experiment_distance !== undefined && make('p', {class: 'words'}, `Of the schedules that come with the program, ${
+    stem(experiment)} does it best: they lie ${size(experiment_distance)} σ apart there${experiment_distance < wanted_distance ? `, of ${wanted_distance} that are wanted` : ''}.`));
 }
 
 function candidate(effect: Finding): HTMLElement {
@@ -85,7 +99,7 @@ function interval(effect: Finding): HTMLElement {
   zero.style.left = at(0);
   return make('div', {class: 'measure'}, make('span', {}, `${effect.parameter.replaceAll('_', ' ')}, 95 %`),
     make('span', {class: 'track interval', role: 'img', 'aria-label': effect.text}, zero, whisker, point),
-    make('span', {class: 'number'}, effect.text.replaceAll('-', '−').replace(/\bu(?=m\b|rad\b)/g, 'µ')));
+    make('span', {class: 'number'}, effect.text.replaceAll('-', '−').replace(/\bu(?=m\b|rad\b)/g, 'µ').replace(/(?<=\bm)([23])\b/g, (n) => '²³'[+n - 2]!)));
 }
 
 function gapColumns(gaps: Gap[]): Column[] {
@@ -122,16 +136,17 @@ function gapRow(gap: Gap, highest: number): HTMLElement {
 }
 
 function gapAxis(ticks: number[], label: string): HTMLElement {
-  const track = make('span', {class: 'track axis'}), highest = ticks[ticks.length - 1]!;
-  for (const tick of ticks) {
-    const mark = make('span', {}, String(tick));
-    mark.style.left = `${(100 * tick) / highest}%`;
-    track.append(mark);
-  }
-  return make('div', {class: 'gap-row'}, make('span', {}), track, make('span', {class: 'number label'}, label));
+  const highest = ticks[ticks.length - 1]!;
+  return make('div', {class: 'gap-row'}, make('span', {}), trackAxis(ticks, (tick) => (100 * tick) / highest),
+    make('span', {class: 'number label'}, label));
 }
 
-/** Per channel and run, before and after; sizes in units of 0.1 K and 1 µm, so that one scale serves all. */
+/** What one scale for temperatures and displacements counts in. */
+function unitsOf(gaps: Gap[]): string {
+  return `in units of 0.1 K${gaps.some((g) => g.unit === 'urad') ? ', 1 µm and 1 µrad' : ' and 1 µm'}`;
+}
+
+/** Per channel and run, before and after, on one scale. */
 function residualHeatMap(gaps: Gap[]): HTMLElement | false {
   if (gaps.length === 0) return false;
   const channels = [...new Set(gaps.map((g) => g.channel))], runs = [...new Set(gaps.map((g) => g.run))];
@@ -152,7 +167,7 @@ function residualHeatMap(gaps: Gap[]): HTMLElement | false {
   return panel('Residual per channel and run, RMS', 'residual_heat_map', () => gapColumns(gaps), make('div', {class: 'scroll'}, make('table', {class: 'heat-map'},
     make('tr', {}, make('td', {}), ...runs.map((run) => make('th', {colspan: 2, scope: 'colgroup'}, run))),
     make('tr', {}, make('td', {}), ...runs.flatMap(() => [make('th', {}, 'before'), make('th', {}, 'after')])), ...rows)),
-  colourBar(gradient(cividis), ticks, 'RMS in units of 0.1 K and 1 µm'));
+  colourBar(gradient(cividis), ticks, `RMS ${unitsOf(gaps)}`));
 }
 
 function estimatesPanel(section: DiagnosisSection): HTMLElement {

@@ -1,7 +1,7 @@
 import {cividis, gradient} from '../colours';
 import type {Disagreement} from '../data';
 import {colourBar, make, panel} from '../dom';
-import {unitText} from '../format';
+import {minus, unitText} from '../format';
 import {heatCell} from './heat_cell';
 
 const cuts: Record<string, string> = {regime: 'by regime', speed: 'by speed', time: 'over time'};
@@ -17,7 +17,8 @@ export function disagreementPanel(before: Disagreement[], after: Disagreement[])
   const chips = shown.map((cut) => make('button', {class: 'chip', 'data-cut': cut, onclick: () => show(cut)}, cuts[cut]!));
   const show = (cut: string): void => {
     shown.forEach((c, i) => chips[i]!.setAttribute('aria-pressed', String(c === cut)));
-    host.replaceChildren(table(before.filter((d) => d.cut === cut), left));
+    const parts = before.filter((d) => d.cut === cut), runs = [...new Set(parts.map((d) => d.run))];
+    host.replaceChildren(...(cut === 'time' ? runs.map((run) => table(parts.filter((d) => d.run === run), left)) : [table(parts, left)]));
   };
   show(shown[0]!);
   return panel('Where and when the calibrated twin disagrees', 'disagreement', () => [
@@ -42,15 +43,16 @@ function table(all: Disagreement[], left: Map<string, Disagreement>): HTMLElemen
       return found ? cell(found, left.get(key(found)), unit) : make('td', {}, '–');
     })));
   });
-  return make('table', {class: 'heat-map'},
+  const windows = all[0]!.cut === 'time', from = (part: string): string => `${+parseFloat(part).toFixed(2)} h`;
+  return make('table', {class: windows ? 'heat-map windows' : 'heat-map'},
     make('tr', {}, make('td', {}), ...runs.map((run, r) => make('th', {colspan: parts[r]!.length, scope: 'colgroup'}, run))),
-    make('tr', {}, make('td', {}), ...parts.flat().map((part) => make('th', {}, part))), ...rows);
+    make('tr', {}, make('th', {}, windows && 'from'), ...parts.flat().map((part) => make('th', {title: part}, windows ? from(part) : part))), ...rows);
 }
 
 function cell(found: Disagreement, after: Disagreement | undefined, unit: string): HTMLElement {
   const share = Math.min(1, Math.max(0, Math.log10(found.power) / Math.log10(largest_power)));
-  const mean = found.mean.toFixed(Math.abs(found.mean) < 10 ? 2 : 1).replace('-', '−');
+  const mean = minus(found.mean.toFixed(Math.abs(found.mean) < 10 ? 2 : 1));
   const words = [`mean ${mean} ${unit}, RMS ${found.rms.toPrecision(3)} ${unit}`,
     `power ${found.power.toPrecision(3)}${after ? `, with the effects ${after.power.toPrecision(3)}` : ''}`];
-  return heatCell(share, words.join('; '), found.significant ? make('strong', {}, mean) : mean);
+  return heatCell(share, `${found.run}, ${found.channel}, ${found.part}: ${words.join('; ')}`, found.significant ? make('strong', {}, mean) : mean);
 }

@@ -22,7 +22,8 @@ export function freeHeatPanel(title: string, file: string, bodies: FreeHeat[], s
     {name: 'body', values: rows.map((x) => x.body)}, {name: 'run', values: rows.map((x) => x.run)},
     {name: 'time_s', values: rows.map((x) => x.t)}, {name: 'heat_W', values: rows.map((x) => x.watts)},
     {name: 'standard_error_W', values: rows.map((x) => x.error)},
-  ], make('div', {class: 'chips'}, ...buttons), host);
+  ], make('div', {class: 'chips'}, ...buttons), host,
+  make('p', {class: 'words'}, 'Shaded: where the heat lies with 95 % probability.'));
 }
 
 function courseOf(run: FreeHeat['runs'][number], name: string, state: PageState): HTMLElement {

@@ -1,5 +1,6 @@
-import {make, panel} from '../dom';
+import {make, panel, trackAxis} from '../dom';
 import type {StudyCombination, StudyFigure, StudySection} from '../data';
+import {roundTicks} from '../format';
 import {card, remark, short} from './card';
 
 const shown_first = 20;
@@ -7,8 +8,9 @@ const shown_first = 20;
 const titles: Record<string, string> = {
   'cross.rmse': 'RMSE on unseen runs', 'validation.rmse': 'RMSE in cross-validation', 'self.rmse': 'RMSE on its own runs',
   'cross.mae': 'MAE on unseen runs', 'cross.max': 'Largest on unseen runs', 'cross.r_squared': 'R² on unseen runs',
-  'cross.mape': 'MAPE on unseen runs', improvement: 'Better than the reference', S: 'S', Mn: 'Mn', Sd: 'Sd',
-  'verification.Mn': 'Mn of verification', 'verification.Sd': 'Sd of verification',
+  'cross.mape': 'MAPE on unseen runs', improvement: 'Better than the reference', S: 'S: residual on its own run',
+  Mn: 'Mn: mean residual on other runs', Sd: 'Sd: its spread over them', 'verification.Mn': 'Mn of verification',
+  'verification.Sd': 'Sd of verification',
 };
 const percent = new Set(['cross.mape', 'improvement']), pure = new Set(['cross.r_squared']), more_is_better = new Set(['cross.r_squared', 'improvement']);
 
@@ -102,6 +104,7 @@ function ranking(rows: Ranked[], label: string): HTMLElement {
     const s = power ? Math.log(Math.max(x, 1e-300) / low) / Math.log(high / low) : (x - low) / (high - low);
     return 100 * Math.min(1, Math.max(0, s));
   };
+  const ticks = (power ? powersOfTen(low, high) : roundTicks(low, high)).filter((tick) => tick >= low && tick <= high);
   return make('div', {class: 'ranking'}, ...rows.map((row) => {
     const whisker = make('i', {class: 'whisker'}), point = make('i', {class: 'point'});
     whisker.style.left = `${share(row.mean - row.half_width_95)}%`;
@@ -110,8 +113,12 @@ function ranking(rows: Ranked[], label: string): HTMLElement {
     const text = row.half_width_95 > 0 ? `${short(row.mean)} ± ${short(row.half_width_95)}` : short(row.mean);
     return make('div', {class: 'rank-row'}, make('span', {title: row.name}, row.name.replaceAll('_', ' ')),
       make('span', {class: 'track', role: 'img', 'aria-label': text}, row.half_width_95 > 0 && whisker, point), make('span', {class: 'number'}, text));
-  }), make('p', {class: 'label'}, `${label}${power ? ', logarithmic' : ''}; whiskers: 95 % over the seeds`));
+  }), make('div', {class: 'rank-row'}, make('span', {}), trackAxis(ticks, share), make('span', {})),
+  make('p', {class: 'label'}, `${label}${power ? ', logarithmic' : ''}; whiskers: 95 % over the seeds`));
 }
+
+const powersOfTen = (low: number, high: number): number[] =>
+  Array.from({length: Math.ceil(Math.log10(high / low)) + 2}, (_, i) => +(10 ** (Math.floor(Math.log10(low)) + i)).toPrecision(1));
 
 const selection_titles: Record<string, string> = {
   count: 'sensors', regret: 'regret', informative: 'informative', found: 'found', rank_correlation: 'rank correlation', switches: 'switches',

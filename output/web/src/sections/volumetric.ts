@@ -3,7 +3,7 @@ import {Camera, type Vec} from '../camera';
 import {Chart} from '../chart';
 import {gradient, setColours, viridisLines} from '../colours';
 import {extent} from '../course';
-import {colourBar, make, panel} from '../dom';
+import {colourBar, make, panel, trackAxis} from '../dom';
 import type {Components, VolumetricSection} from '../data';
 import {grouped, roundDown, roundTicks, timeUnitFor} from '../format';
 import type {PageState} from '../signal';
@@ -74,11 +74,8 @@ function diagonalsPanel({before, after}: VolumetricSection): HTMLElement {
 }
 
 function axisRow(ticks: number[], highest: number): HTMLElement {
-  return make('div', {class: 'gap-row broad'}, make('span', {}), make('span', {class: 'track axis'}, ...ticks.map((tick) => {
-    const mark = make('span', {}, String(tick));
-    mark.style.left = `${(100 * tick) / highest}%`;
-    return mark;
-  })), make('span', {class: 'number label'}, 'µm'));
+  return make('div', {class: 'gap-row broad'}, make('span', {}), trackAxis(ticks, (tick) => (100 * tick) / highest),
+    make('span', {class: 'number label'}, 'µm'));
 }
 
 function functionsPanel(f: NonNullable<VolumetricSection['functions']>[number], state: PageState): HTMLElement {
