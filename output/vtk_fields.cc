@@ -248,6 +248,8 @@ void FieldSeries::arrange(Frame const& frame) {
   Eigen::Vector3d const low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
   ParaviewView view;
   view.meaning = options_.meaning;
+  view.first_s = times_s_.front();
+  view.last_s = times_s_.back();
   view.lowest_degC = ticks.first;
   view.highest_degC = ticks.first + (ticks.count - 1) * ticks.step;
   view.centre = 0.5 * (low + high);

@@ -15,7 +15,19 @@ using Texts = std::vector<std::string>;
 
 Eigen::Vector3d const marker_red(0.86, 0.15, 0.15), unknown_grey(0.75, 0.75, 0.75);
 
-enum Id { fields = 1, deformed, sensors, colours, machine_shown, sensors_shown, view };
+enum Id {
+  fields = 1,
+  deformed,
+  sensors,
+  colours,
+  machine_shown,
+  sensors_shown,
+  colour_bar,
+  view,
+  layout,
+  times,
+  scene
+};
 
 /// One proxy of the state, with its properties.
 class Proxy {
@@ -39,6 +51,12 @@ class Proxy {
     begin(name, others.size());
     for (Id const other : others) text_ += fmt::format("<Proxy value=\"{}\" output_port=\"0\"/>", int(other));
     text_ += "</Property>\n";
+    return *this;
+  }
+  /// The whole window.
+  Proxy& fill_with(Id view) {
+    text_ += fmt::format(
+        "<Layout number_of_elements=\"1\"><Item direction=\"0\" fraction=\"0.5\" view=\"{}\"/></Layout>\n", int(view));
     return *this;
   }
 
@@ -88,13 +106,47 @@ std::string sensor_proxies(ParaviewView const& how) {
   Proxy shown("representations", "GeometryRepresentation", sensors_shown);
   shown.refer("Input", {sensors})
       .set("Representation", "Points")
-      .set("PointSize", "14")
+      .set("PointSize", "18")
       .set("RenderPointsAsSpheres", "1");
   if (how.meaning == FieldMeaning::state)
     return shown.set("AmbientColor", marker_red).set("DiffuseColor", marker_red).text();
   return shown.set("ColorArrayName", Texts{"", "", "", "0", field_names(how.meaning).temperature})
       .refer("LookupTable", {colours})
       .text();
+}
+
+char const* title_of(FieldMeaning meaning) {
+  if (meaning == FieldMeaning::state) return "Temperature / °C";
+  return meaning == FieldMeaning::difference ? "Difference / K" : "Residual / K";
+}
+
+std::string colour_bar_proxy(ParaviewView const& how) {
+  Eigen::Vector3d const black(0.0, 0.0, 0.0);
+  return Proxy("representations", "ScalarBarWidgetRepresentation", colour_bar)
+      .refer("LookupTable", {colours})
+      .set("Visibility", "1")
+      .set("Title", title_of(how.meaning))
+      .set("ComponentTitle", "")
+      .set("TitleColor", black)
+      .set("LabelColor", black)
+      .set("AutomaticLabelFormat", "0")
+      .set("LabelFormat", "%-#.3g")
+      .set("RangeLabelFormat", "%-#.3g")
+      .text();
+}
+
+/// Without these, ParaView's controls have no times to play.
+std::string time_proxies(ParaviewView const& how) {
+  return Proxy("misc", "TimeKeeper", times)
+             .refer("TimeSources", how.with_sensors ? std::vector{fields, sensors} : std::vector{fields})
+             .text() +
+         Proxy("animation", "AnimationScene", scene)
+             .set("PlayMode", "2")  // from time to time
+             .set("StartTime", Proxy::number(how.first_s))
+             .set("EndTime", Proxy::number(how.last_s))
+             .refer("TimeKeeper", {times})
+             .refer("ViewModules", {view})
+             .text();
 }
 
 std::string shown_proxies(ParaviewView const& how) {
@@ -109,14 +161,14 @@ std::string shown_proxies(ParaviewView const& how) {
          Proxy("representations", "UnstructuredGridRepresentation", machine_shown)
              .refer("Input", {is_deformed(how) ? deformed : fields})
              .set("Representation", "Surface")
-             .set("Opacity", "0.45")
+             .set("Opacity", "0.3")
              .set("ColorArrayName", Texts{"", "", "", "1", field_names(how.meaning).temperature})
              .refer("LookupTable", {colours})
              .text() +
-         (how.with_sensors ? sensor_proxies(how) : std::string()) +
+         (how.with_sensors ? sensor_proxies(how) : std::string()) + colour_bar_proxy(how) +
          Proxy("views", "RenderView", view)
-             .refer("Representations",
-                    how.with_sensors ? std::vector{machine_shown, sensors_shown} : std::vector{machine_shown})
+             .refer("Representations", how.with_sensors ? std::vector{machine_shown, sensors_shown, colour_bar}
+                                                        : std::vector{machine_shown, colour_bar})
              .set("CameraFocalPoint", how.centre)
              .set("CameraPosition", Eigen::Vector3d(how.centre + 3.0 * how.size * from))
              .set("CameraViewUp", how.up)
@@ -124,7 +176,8 @@ std::string shown_proxies(ParaviewView const& how) {
              .set("CameraParallelScale", Proxy::number(0.5 * how.size))
              .set("UseColorPaletteForBackground", "0")
              .set("Background", Eigen::Vector3d(1.0, 1.0, 1.0))
-             .text();
+             .text() +
+         Proxy("misc", "ViewLayout", layout).fill_with(view).text();
 }
 
 }  // namespace
@@ -140,7 +193,7 @@ void write_paraview_state(std::filesystem::path const& directory, ParaviewView c
                 .set("ScaleFactor", Proxy::number(1e-6 * how.magnification))
                 .text();
   if (how.with_sensors) text += Proxy("sources", "PVDReader", sensors).set("FileName", path("sensors.pvd")).text();
-  text += shown_proxies(how);
+  text += shown_proxies(how) + time_proxies(how);
   std::vector<std::pair<Id, char const*>> sources = {{fields, "fields"}};
   if (is_deformed(how)) sources.emplace_back(deformed, "deformed");
   std::vector<std::pair<Id, char const*>> pictures = {{machine_shown, "machine"}};
@@ -150,8 +203,10 @@ void write_paraview_state(std::filesystem::path const& directory, ParaviewView c
   }
   std::string const table = fmt::format("1.{}.PVLookupTable", field_names(how.meaning).temperature);
   text += collection("sources", sources) + collection("representations", pictures) +
-          collection("lookup_tables", {{colours, table.c_str()}}) + collection("views", {{view, "machine"}}) +
-          "</ServerManagerState>\n</ParaView>\n";
+          collection("lookup_tables", {{colours, table.c_str()}}) +
+          collection("scalar_bars", {{colour_bar, "colours"}}) + collection("views", {{view, "machine"}}) +
+          collection("layouts", {{layout, "machine"}}) + collection("timekeeper", {{times, "times"}}) +
+          collection("animation", {{scene, "scene"}}) + "</ServerManagerState>\n</ParaView>\n";
   write_atomically(directory / "arranged.pvsm", text);
 }
 

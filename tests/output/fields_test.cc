@@ -101,6 +101,10 @@ TEST(Fields, SensorsAreASecondSeriesAndAStateArrangesBoth) {
   EXPECT_THAT(state, HasSubstr((directory / "fields.pvd").string()));
   EXPECT_THAT(state, HasSubstr((directory / "sensors.pvd").string()));
   EXPECT_THAT(state, HasSubstr("displacement_um"));
+  EXPECT_THAT(state, HasSubstr("Temperature / °C"));
+  for (char const* property : {"TimeSources\" number_of_elements=\"2\"",
+                               "EndTime\" number_of_elements=\"1\"><Element index=\"0\" value=\"60\""})
+    EXPECT_THAT(state, HasSubstr(property));  // without these ParaView plays no times
   frame.sensor_degC.resize(1);
   EXPECT_THAT([&] { series.add(120.0, frame); }, ThrowsMessage<InputError>(HasSubstr("1 temperatures for 2 sensors")));
 }
