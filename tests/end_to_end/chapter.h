@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <regex>
@@ -11,7 +12,7 @@
 
 namespace thermotwin::tests {
 
-/// A block of a page that its readers type, fenced or indented.
+/// A block of a page that its readers type, fenced or indented, or the whole commands in a paragraph's sentences.
 struct CommandBlock {
   std::string text;
   int line = 0;                        ///< of the page
@@ -39,7 +40,30 @@ inline bool is_typed(std::string const& block) {
   return std::regex_match(block, typed);
 }
 
-/// The blocks of a page whose first word is a command, and those marked `sh`, in their order.
+/// What stands between backticks in a text, each on one line.
+inline std::vector<std::string> code_spans(std::string const& text) {
+  std::vector<std::string> spans;
+  std::istringstream pieces(text);
+  bool code = false;
+  for (std::string piece; std::getline(pieces, piece, '`'); code = !code) {
+    if (!code) continue;
+    std::replace(piece.begin(), piece.end(), '\n', ' ');
+    spans.push_back(std::regex_replace(piece, std::regex(R"(\\\|)"), "|"));  // as tables want it
+  }
+  return spans;
+}
+
+/// The program's commands between backticks that say all, a line each: with arguments, none of them a placeholder.
+inline std::string whole_commands(std::string const& paragraph) {
+  static std::regex const command(R"((build/)?thermotwin [a-z]+ \S.*)"), placeholder(R"(.* [A-Z]+\b.*|.*….*)");
+  std::string text;
+  for (auto const& span : code_spans(paragraph))
+    if (std::regex_match(span, command) && !std::regex_match(span, placeholder)) text += span + "\n";
+  return text;
+}
+
+/// The blocks of a page whose first word is a command, those marked `sh`, and the whole commands of its sentences and
+/// tables, in their order.
 inline std::vector<CommandBlock> command_blocks(std::filesystem::path const& page) {
   std::istringstream lines(contents(page));
   std::vector<CommandBlock> blocks;
@@ -47,16 +71,25 @@ inline std::vector<CommandBlock> command_blocks(std::filesystem::path const& pag
   std::string comment, text, fence;
   enum { prose, fenced, indented, note } inside = prose;
   int number = 0, first = 0;
-  auto const end = [&](bool always) {
-    if (always || (fence.empty() && is_typed(text))) {
+  auto const end = [&](bool is_commands) {
+    if (is_commands) {
       next.text = text;
       next.line = first;
       blocks.push_back(next);
     }
     next = {};
     text.clear();
-    fence.clear();
     inside = prose;
+  };
+  auto const end_paragraph = [&] {
+    if (text.empty()) return;
+    text = whole_commands(text);
+    end(!text.empty());
+  };
+  auto const begin = [&](auto kind, int line) {
+    end_paragraph();
+    inside = kind;
+    first = line;
   };
   bool after_empty = true;
   for (std::string line; std::getline(lines, line);) {
@@ -64,26 +97,27 @@ inline std::vector<CommandBlock> command_blocks(std::filesystem::path const& pag
     if (inside == note) comment += "\n" + line;
     if (inside == fenced) {
       if (line.starts_with("```"))
-        end(fence == "sh");
+        end(fence == "sh" || (fence.empty() && is_typed(text)));
       else
         text += line + "\n";
     } else if (inside == indented && line.starts_with("    ")) {
       text += line.substr(4) + "\n";
     } else if (inside != note) {
-      if (inside == indented) end(false);
+      if (inside == indented) end(is_typed(text));
       if (line.starts_with("```")) {
+        begin(fenced, number + 1);
         fence = line.substr(3);
-        inside = fenced;
-        first = number + 1;
       } else if (line.starts_with("    ") && after_empty) {
+        begin(indented, number);
         text = line.substr(4) + "\n";
-        inside = indented;
-        first = number;
       } else if (line.starts_with("<!--")) {
+        begin(note, number);
         comment = line;
-        inside = note;
-      } else if (!line.empty()) {
-        next = {};
+      } else if (line.empty()) {
+        end_paragraph();
+      } else {
+        if (text.empty()) first = number;
+        text += line + "\n";
       }
     }
     if (inside == note && comment.ends_with("-->")) {
@@ -92,8 +126,24 @@ inline std::vector<CommandBlock> command_blocks(std::filesystem::path const& pag
     }
     after_empty = line.empty() || line.ends_with("-->");
   }
-  if (inside == indented) end(false);
+  if (inside == indented) end(is_typed(text));
+  end_paragraph();
   return blocks;
+}
+
+/// A page without its fenced blocks and comments.
+inline std::string sentences(std::filesystem::path const& page) {
+  std::istringstream lines(contents(page));
+  std::string text;
+  bool fenced = false, comment = false;
+  for (std::string line; std::getline(lines, line);) {
+    bool const fence = line.starts_with("```");
+    comment = comment || line.starts_with("<!--");
+    if (!fenced && !fence && !comment) text += line + "\n";
+    fenced = fenced != fence;
+    comment = comment && !line.ends_with("-->");
+  }
+  return text;
 }
 
 }  // namespace thermotwin::tests

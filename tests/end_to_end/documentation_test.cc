@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/end_to_end/broker_process.h"
@@ -176,30 +179,149 @@ TEST(Documentation, HidesNoCommandFromItsTest) {
   EXPECT_GT(seen, 60);
 }
 
-/// Commands that pages show exist, with the options that they show.
-TEST(Documentation, NamesCommandsAndOptionsThatThereAre) {
+/// Names of options, short and long, in a text of help or of a script.
+std::set<std::string> options_in(std::string const& text) {
+  static std::regex const option(R"((?:^|[\s,'"([|])(--?[A-Za-z][A-Za-z-]*))");
+  std::set<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), option), end; match != end; ++match)
+    found.insert((*match)[1]);
+  return found;
+}
+
+/// The options of every subcommand.
+std::map<std::string, std::set<std::string>> options_of_program() {
   std::string const program = THERMOTWIN_PROGRAM;
-  std::map<std::string, std::string> help;
-  int seen = 0;
-  for (auto const& page : chapters()) {
-    std::istringstream lines(tests::contents(root / page));
+  auto const help = tests::answer(program + " --help");
+  std::map<std::string, std::set<std::string>> options;
+  std::regex const subcommand("\n  ([a-z]+) ");
+  for (std::sregex_iterator match(help.begin() + std::ptrdiff_t(help.find("Subcommands:")), help.end(), subcommand),
+       end;
+       match != end; ++match) {
+    std::string const name = (*match)[1];
+    std::istringstream lines(tests::answer(program + " " + name + " --help"));
     for (std::string line; std::getline(lines, line);) {
-      std::istringstream words(line.substr(0, line.find(" #")));
-      std::string word, command;
-      words >> word;
-      if (word == "xvfb-run") words >> word >> word;  // -a
-      if (word != "thermotwin" && word != "build/thermotwin") continue;
-      words >> command;
-      if (command.starts_with('-') || !std::isalpha(static_cast<unsigned char>(command[0]))) continue;
-      if (!help.contains(command)) help[command] = tests::answer(program + " " + command + " --help");
-      ++seen;
-      while (words >> word) {
-        if (!word.starts_with("--")) continue;
-        EXPECT_THAT(help[command], HasSubstr(word.substr(0, word.find('=')))) << page << ": " << line;
-      }
+      auto const head = line.substr(std::min(line.size(), line.find_first_not_of(' ')));
+      if (head.starts_with("-")) options[name].merge(options_in(head.substr(0, head.find_first_of(" =["))));
     }
   }
-  EXPECT_GT(seen, 50);
+  return options;
+}
+
+/// What pages show as typed: lines of blocks, and what stands between backticks, with its page.
+std::vector<std::pair<std::string, std::string>> shown_commands() {
+  std::vector<std::pair<std::string, std::string>> shown;
+  for (auto const& page : chapters()) {
+    std::istringstream lines(tests::contents(root / page));
+    for (std::string line; std::getline(lines, line);)
+      if (tests::is_typed(line.substr(std::min(line.size(), line.find_first_not_of(' ')))))
+        shown.emplace_back(page, line.substr(0, line.find(" #")));
+    for (auto const& span : tests::code_spans(tests::sentences(root / page))) shown.emplace_back(page, span);
+  }
+  return shown;
+}
+
+/// Commands exist with the options that pages show: in blocks, and in sentences also where they are cut to
+/// `diagnose --json` or `--hold-out`.
+TEST(Documentation, NamesCommandsAndOptionsThatThereAre) {
+  auto const program = options_of_program();
+  ASSERT_GT(program.size(), 15U);
+  std::set<std::string> any;
+  for (auto const& [name, options] : program) any.insert(options.begin(), options.end());
+  int seen = 0;
+  for (auto const& [page, text] : shown_commands()) {
+    std::istringstream words(text);
+    std::vector<std::string> const all{std::istream_iterator<std::string>(words), {}};
+    std::set<std::string> const* known = !all.empty() && all[0].starts_with("-") ? &any : nullptr;
+    std::set<std::string> of_script;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      bool const program_itself = all[i] == "thermotwin" || all[i] == "build/thermotwin";
+      if (program_itself && i + 1 < all.size() && std::isalpha(static_cast<unsigned char>(all[i + 1][0]))) {
+        ASSERT_TRUE(program.contains(all[i + 1])) << page << ": " << text;
+        known = &program.at(all[++i]);
+      } else if (i == 0 && all.size() > 1 && program.contains(all[0])) {
+        known = &program.at(all[0]);
+      } else if (all[i].starts_with("script/")) {
+        ASSERT_TRUE(fs::exists(root / all[i])) << page << ": " << text;
+        of_script = options_in(tests::contents(root / all[i]));
+        known = &of_script;
+      }
+      auto const option = options_in(all[i].substr(0, all[i].find('=')));
+      if (!known || option.empty() || all[i].find("test_") != all[i].npos) continue;
+      ++seen;
+      EXPECT_TRUE(known->contains(*option.begin())) << page << ": " << text << "\n" << *option.begin();
+    }
+  }
+  EXPECT_GT(seen, 250);
+}
+
+/// Words of letters, digits and underscores.
+std::set<std::string> names_in(std::string const& text) {
+  std::set<std::string> names;
+  std::string name;
+  for (char const c : text + " ") {
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_')
+      name += c;
+    else if (!name.empty())
+      names.insert(std::exchange(name, {}));
+  }
+  return names;
+}
+
+/// All of them in the sources, files' names included.
+std::set<std::string> names_of_tree() {
+  std::set<std::string> names;
+  for (char const* folder : {"thermal", "models", "scenarios", "output", "twin", "tests", "script"})
+    for (auto entry = fs::recursive_directory_iterator(root / folder); entry != end(entry); ++entry) {
+      if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+      if (!entry->is_regular_file() || entry->path().extension() == ".csv") continue;
+      names.merge(names_in(entry->path().filename()));
+      names.merge(names_in(tests::contents(entry->path())));
+    }
+  return names;
+}
+
+/// Machines, experiments, effects, keys, methods, tests: a name with a digit or an underscore between backticks is one
+/// that the sources know, and a path into them leads to a file.
+TEST(Documentation, NamesWhatThereIs) {
+  auto known = names_of_tree();
+  known.insert({"autosave_interval", "max_queued_messages"});  // of mosquitto's file
+  std::regex const name(R"([A-Za-z][a-z0-9_]*[0-9_][A-Za-z0-9_]*)"),
+      path(R"((thermal|models|scenarios|output|twin|tests|script|docs)/[\w/.]*)");
+  int names = 0, paths = 0;
+  for (auto const& page : chapters())
+    for (auto const& span : tests::code_spans(tests::sentences(root / page))) {
+      std::istringstream words(span);
+      for (std::string word; words >> word;) {
+        bool const is_name = std::regex_match(word, name), is_path = std::regex_match(word, path);
+        names += is_name;
+        paths += is_path;
+        EXPECT_TRUE(!is_name || known.contains(word)) << page << ": " << span;
+        EXPECT_TRUE(!is_path || fs::exists(root / word)) << page << ": " << span;
+      }
+    }
+  EXPECT_GT(names, 250);
+  EXPECT_GT(paths, 30);
+}
+
+/// `build/twin_test --gtest_filter=…` and the like choose something.
+TEST(Documentation, NamesTestsAndBenchmarksThatThereAre) {
+  std::regex const command(R"(build/(\w+) --(gtest|benchmark)_filter=(\S+).*)");
+  fs::path const build = fs::path(THERMOTWIN_PROGRAM).parent_path();
+  std::smatch found;
+  int seen = 0;
+  for (auto const& [page, text] : shown_commands()) {
+    if (!std::regex_match(text, found, command)) continue;
+    ++seen;
+    if (!fs::exists(build / found[1].str())) GTEST_SKIP() << found[1] << " has not been built";
+    auto const list = found[2] == "gtest" ? "--gtest_list_tests" : "--benchmark_list_tests";
+    auto const chosen = tests::answer(fmt::format("cd '{}' && ./{} {} --{}_filter={}", build.string(), found[1].str(),
+                                                  list, found[2].str(), found[3].str()));
+    if (found[2] == "gtest")
+      EXPECT_THAT(chosen, HasSubstr("\n  ")) << page << ": " << text;
+    else
+      EXPECT_THAT(chosen, testing::Not(HasSubstr("Failed to match"))) << page << ": " << text;
+  }
+  EXPECT_GT(seen, 8);
 }
 
 }  // namespace
