@@ -27,12 +27,15 @@ CourseInputs::CourseInputs(Network const& network, Course const& course)
 double CourseInputs::enter_piece(double t) {
   start_ = t;
   end_ = course_->next_jump(t);
+  known_ = std::numeric_limits<double>::quiet_NaN();
   return end_;
 }
 
 std::vector<double> const& CourseInputs::at(double t) {
+  if (t == known_) return values_;
   course_->evaluate(t < end_ ? t : std::nextafter(end_, start_), raw_);
   for (std::size_t i = 0; i < source_.size(); ++i) values_[i] = raw_[source_[i]];
+  known_ = t;
   return values_;
 }
 

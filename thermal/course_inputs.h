@@ -17,14 +17,19 @@ class CourseInputs {
 
   /// Enters the piece that follows t and returns where it ends.
   double enter_piece(double t);
-  /// At the end of the piece: the limit from the left. Relays and weights of moving averages stay 0.
+  /// At the end of the piece: the limit from the left. Relays keep the state that they were given (0 at first), weights
+  /// of moving averages stay 0.
   std::vector<double> const& at(double t);
+  /// As at the time that was asked last.
+  [[nodiscard]] std::vector<double> const& values() const { return values_; }
+  double& state_of(Relay const& relay) { return values_[std::size_t(relay.state_channel)]; }
 
  private:
   Course const* course_;
   std::vector<double> raw_, values_;
   std::vector<std::size_t> source_;
   double start_ = 0.0, end_ = std::numeric_limits<double>::infinity();
+  double known_ = std::numeric_limits<double>::quiet_NaN();  ///< the time that the values are of
 };
 
 }  // namespace thermotwin::thermal

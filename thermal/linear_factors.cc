@@ -99,7 +99,12 @@ struct DenseFactors final : LinearFactors {
 
 /// KLU: orders once, pivots at the first factorisation, and keeps the pivots while they are good.
 struct SparseFactors final : LinearFactors {
-  SparseFactors() { klu_defaults(&common_); }
+  /// The matrices are of one block, and their rows of one size.
+  SparseFactors() {
+    klu_defaults(&common_);
+    common_.btf = 0;
+    common_.scale = -1;
+  }
   SparseFactors(SparseFactors const&) = delete;
   SparseFactors& operator=(SparseFactors const&) = delete;
   ~SparseFactors() override {

@@ -10,7 +10,7 @@ namespace {
 void linear_sum(realtype a, N_Vector first, realtype b, N_Vector second, N_Vector sum) {
   double const *x = data(first), *y = data(second);
   double* z = data(sum);
-  for_blocks(N_VGetLength(sum), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for_blocks(NV_LENGTH_S(sum), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
 #pragma omp simd
     for (auto i = begin; i < end; ++i) z[i] = a * x[i] + b * y[i];
   });
@@ -18,7 +18,7 @@ void linear_sum(realtype a, N_Vector first, realtype b, N_Vector second, N_Vecto
 
 void fill(realtype value, N_Vector v) {
   double* z = data(v);
-  for_blocks(N_VGetLength(v), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for_blocks(NV_LENGTH_S(v), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto i = begin; i < end; ++i) z[i] = value;
   });
 }
@@ -26,7 +26,7 @@ void fill(realtype value, N_Vector v) {
 void scale(realtype factor, N_Vector from, N_Vector to) {
   double const* x = data(from);
   double* z = data(to);
-  for_blocks(N_VGetLength(to), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for_blocks(NV_LENGTH_S(to), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
 #pragma omp simd
     for (auto i = begin; i < end; ++i) z[i] = factor * x[i];
   });
@@ -35,7 +35,7 @@ void scale(realtype factor, N_Vector from, N_Vector to) {
 /// The first of the added vectors is the sum's own place where they are the same.
 int linear_combination(int count, realtype* factors, N_Vector* vectors, N_Vector result) {
   double* z = data(result);
-  for_blocks(N_VGetLength(result), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for_blocks(NV_LENGTH_S(result), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
     double const* x = data(vectors[0]);
 #pragma omp simd
     for (auto i = begin; i < end; ++i) z[i] = factors[0] * x[i];
@@ -51,7 +51,7 @@ int linear_combination(int count, realtype* factors, N_Vector* vectors, N_Vector
 
 int scale_add_multi(int count, realtype* factors, N_Vector added, N_Vector* to, N_Vector* results) {
   double const* x = data(added);
-  for_blocks(N_VGetLength(added), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for_blocks(NV_LENGTH_S(added), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (int k = 0; k < count; ++k) {
       double const* y = data(to[k]);
       double* z = data(results[k]);
@@ -65,13 +65,13 @@ int scale_add_multi(int count, realtype* factors, N_Vector added, N_Vector* to, 
 
 realtype weighted_norm(N_Vector v, N_Vector weights) {
   double const *x = data(v), *w = data(weights);
-  double const sum = sum_of_blocks(N_VGetLength(v), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  double const sum = sum_of_blocks(NV_LENGTH_S(v), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
     double part = 0.0;
 #pragma omp simd reduction(+ : part)
     for (auto i = begin; i < end; ++i) part += x[i] * w[i] * (x[i] * w[i]);
     return part;
   });
-  return std::sqrt(sum / double(N_VGetLength(v)));
+  return std::sqrt(sum / double(NV_LENGTH_S(v)));
 }
 
 }  // namespace

@@ -8,6 +8,6 @@ namespace thermotwin::thermal {
 /// blocks that do not depend on their number. Clones are of the same kind.
 [[nodiscard]] N_Vector make_vector(sunindextype length, SUNContext context);
 
-[[nodiscard]] inline double* data(N_Vector v) { return N_VGetArrayPointer(v); }
+[[nodiscard]] inline double* data(N_Vector v) { return NV_DATA_S(v); }
 
 }  // namespace thermotwin::thermal

@@ -1,52 +1,15 @@
 #include "twin/checkpoint.h"
 
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <type_traits>
 
 #include "thermal/error.h"
 #include "thermal/evaluation.h"
+#include "twin/packed.h"
 
 namespace thermotwin::twin {
 namespace {
-
-template <class T>
-void put(std::string& bytes, T const& value) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  bytes.append(reinterpret_cast<char const*>(&value), sizeof value);
-}
-
-void put(std::string& bytes, std::span<double const> values) {
-  put(bytes, values.size());
-  bytes.append(reinterpret_cast<char const*>(values.data()), values.size_bytes());
-}
-
-/// Takes from a record what was put there, in the same order.
-class Bytes {
- public:
-  explicit Bytes(std::string const& bytes) : bytes_(bytes) {}
-
-  [[nodiscard]] bool empty() const { return at_ == bytes_.size(); }
-  template <class T>
-  T take() {
-    T value;
-    std::memcpy(&value, bytes_.data() + at_, sizeof value);
-    at_ += sizeof value;
-    return value;
-  }
-  std::vector<double> take_values() {
-    std::vector<double> values(take<std::size_t>());
-    std::memcpy(values.data(), bytes_.data() + at_, values.size() * sizeof(double));
-    at_ += values.size() * sizeof(double);
-    return values;
-  }
-
- private:
-  std::string const& bytes_;
-  std::size_t at_ = 0;
-};
 
 std::string text_of(Checkpoint::Identity const& identity) { return nlohmann::json(identity).dump(); }
 
@@ -85,19 +48,19 @@ std::size_t Checkpoint::replay(thermal::Network const& network, thermal::Integra
   thermal::Evaluation evaluation(network);
   std::size_t count = 0;
   for (auto const& record : records_) {
-    Bytes bytes(record);
+    packed::Reader bytes(record);
     for (auto left = bytes.take<std::size_t>(); left > 0; --left, ++count) {
       thermal::Sample sample;
       sample.time = bytes.take<double>();
       sample.energy = bytes.take<thermal::Energy>();
-      auto const values = bytes.take_values(), input = bytes.take_values();
+      auto const values = bytes.take_all<double>(), input = bytes.take_all<double>();
       sample.state = values;
       sample.input = input;
       sample.temperatures = evaluation.temperatures(values.data(), input.data());
       observe(sample);
     }
     state.time = bytes.take<double>();
-    for (auto* part : {&state.state, &state.start, &state.relays, &state.next_switch}) *part = bytes.take_values();
+    for (auto* part : {&state.state, &state.start, &state.relays, &state.next_switch}) *part = bytes.take_all<double>();
     state.summary = bytes.take<thermal::IntegrationSummary>();
   }
   records_.clear();
@@ -105,21 +68,21 @@ std::size_t Checkpoint::replay(thermal::Network const& network, thermal::Integra
 }
 
 void Checkpoint::keep(thermal::Sample const& sample) {
-  put(samples_, sample.time);
-  put(samples_, sample.energy);
-  put(samples_, sample.state);
-  put(samples_, sample.input);
+  packed::put(samples_, sample.time);
+  packed::put(samples_, sample.energy);
+  packed::put_all(samples_, sample.state);
+  packed::put_all(samples_, sample.input);
   ++kept_;
 }
 
 void Checkpoint::write(thermal::IntegrationState const& state) {
   std::string record;
-  put(record, kept_);
+  packed::put(record, kept_);
   record += samples_;
-  put(record, state.time);
+  packed::put(record, state.time);
   for (auto const* part : {&state.state, &state.start, &state.relays, &state.next_switch})
-    put(record, std::span<double const>(*part));
-  put(record, state.summary);
+    packed::put_all(record, std::span<double const>(*part));
+  packed::put(record, state.summary);
   journal_.append(record);
   samples_.clear();
   kept_ = 0;

@@ -34,6 +34,7 @@
 #include "twin/progress.h"
 #include "twin/progress_file.h"
 #include "twin/reduced_summary.h"
+#include "twin/reduction_store.h"
 #include "twin/replay.h"
 #include "twin/report/report_files.h"
 #include "twin/run.h"
@@ -95,7 +96,7 @@ void RunCommand::run_reduced(Machine const& machine, scenarios::Experiment const
                              RunOptions const& options) const {
   if (options.fields || options.picture || options.node_temperatures || options.checkpoint)
     throw thermal::InputError("--reduced gives readings and displacements: no fields, picture, nodes or checkpoint");
-  ReducedTwin const twin(machine);
+  ReducedTwin const twin(machine, {}, cache_folder());
   auto result = twin.run(programme);
   for (auto const& [key, text] : options.provenance) result.dataset.provenance[key] = text;
   if (options.dataset) output::write(result.dataset, *options.dataset);

@@ -6,6 +6,7 @@
 
 #include "thermal/error.h"
 #include "twin/assembly.h"
+#include "twin/fingerprint.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -26,13 +27,6 @@ std::string text_of(Eigen::Vector3d const& v) {
 std::string text_of(thermal::Body const& body, thermal::Site const& face) {
   auto const box = extent_of(face);
   return text_of(box.min() - body.origin) + " to " + text_of(box.max() - body.origin);
-}
-
-/// Fowler, Noll & Vo, "FNV-1a", 64 bit.
-std::uint64_t fnv1a(std::string const& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (unsigned char const c : text) hash = (hash ^ c) * 0x100000001b3u;
-  return hash;
 }
 
 }  // namespace
@@ -92,7 +86,9 @@ std::string solution_key(ElasticBlock const& block, int load) {
   auto const text = fmt::format("elastic block {} in {} x {} x {} cells, Poisson {:.9g}, held {}, loaded {}, {}",
                                 text_of(size), body.count(0), body.count(1), body.count(2), block.poisson_ratio,
                                 text_of(body, block.fixed), text_of(body, block.loaded), unit_loads[std::size_t(load)]);
-  return fmt::format("{:016x}", fnv1a(text));
+  Fingerprint print;
+  print.add(text);
+  return print.text();
 }
 
 }  // namespace thermotwin::twin

@@ -11,6 +11,7 @@
 #include "thermal/reduced_integration.h"
 #include "thermal/units.h"
 #include "twin/edge_unit.h"
+#include "twin/reduction_store.h"
 #include "twin/run.h"
 #include "twin/version.h"
 
@@ -239,7 +240,9 @@ double ReducedError::largest_displacement() const { return displacements.size() 
 ReducedTwin::Model::Model(Machine const& machine, thermal::LinearPart const& linear, thermal::Subspace const& subspace)
     : network(machine.network(), linear, subspace.shapes, subspace.elements), sums(network, watched_sums(machine)) {}
 
-ReducedTwin::ReducedTwin(Machine const& machine, ReducedRange const& range) : machine_(&machine) {
+ReducedTwin::ReducedTwin(Machine const& machine, ReducedRange const& range,
+                         std::optional<std::filesystem::path> const& kept)
+    : machine_(&machine) {
   auto const experiments = training_experiments(machine, range);
   std::vector<std::unique_ptr<scenarios::ExperimentCourse>> courses;
   thermal::ReductionTask task;
@@ -255,7 +258,9 @@ ReducedTwin::ReducedTwin(Machine const& machine, ReducedRange const& range) : ma
   units_ = edge_units(machine.network(), *courses.front());
   task.watched = tolerated(machine);
   task.initial_rises = initial_rises(machine);
-  auto const reduction = thermal::reduce(machine.network(), task);
+  auto const make = [&] { return thermal::reduce(machine.network(), task); };
+  auto const reduction =
+      kept ? ReductionStore(*kept).find_or_make(reduction_key(machine.network(), task), make) : make();
   thermal::LinearPart const linear(machine.network(), reduction.reference);
   fine_ = std::make_unique<Model const>(machine, linear, reduction.fine);
   coarse_ = std::make_unique<Model const>(machine, linear, reduction.coarse);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +50,9 @@ struct ReducedResult {
 /// Refuses, with InputError that names channel, value and range, whatever lies outside the range for which it was made.
 class ReducedTwin {
  public:
-  explicit ReducedTwin(Machine const& machine, ReducedRange const& range = {});
+  /// `kept`: folder of a ReductionStore, in which the shapes are looked for, and left when they had to be found.
+  explicit ReducedTwin(Machine const& machine, ReducedRange const& range = {},
+                       std::optional<std::filesystem::path> const& kept = {});
 
   [[nodiscard]] ReducedResult run(scenarios::Experiment const& experiment) const;
 

@@ -10,4 +10,7 @@ namespace thermotwin::twin {
 /// The commit that was built, as `git describe --always --dirty --tags` names it, or "unknown" outside a repository.
 [[nodiscard]] std::string_view commit();
 
+/// CRC-32 of the sources that a result is computed by, committed or not.
+[[nodiscard]] std::string_view sources();
+
 }  // namespace thermotwin::twin

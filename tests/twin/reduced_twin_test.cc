@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "output/dataset_file.h"
+#include "tests/output/temporary_directory.h"
 #include "thermal/error.h"
 #include "twin/file/document.h"
 #include "twin/live_twin.h"
@@ -137,6 +139,17 @@ TEST(ReducedTwin, StaysWithinItsBoundOnSpectraThatItHasNotSeen) {
 TEST(ReducedTwin, IsSmallerThanTheMachine) {
   EXPECT_LT(small_twin().network().size(), small_machine().network().nodes() / 3);
   EXPECT_LT(small_twin().coarse_network().size(), small_twin().network().size());
+}
+
+TEST(ReducedTwin, GivesTheSameBytesWhetherItWasMadeOrReadFromDisk) {
+  tests::TemporaryDirectory const folder;
+  ReducedTwin const made(small_machine(), {}, folder.path());
+  ASSERT_THAT(folder.files(), testing::Contains(testing::EndsWith(".reduction")));
+  ReducedTwin const read(small_machine(), {}, folder.path());
+  auto const experiment = random_experiment(1);
+  auto const without = output::to_hdf5(small_twin().run(experiment).dataset);
+  EXPECT_EQ(output::to_hdf5(made.run(experiment).dataset), without);
+  EXPECT_EQ(output::to_hdf5(read.run(experiment).dataset), without);
 }
 
 TEST(ReducedTwin, RefusesAnInputOutsideItsRange) {

@@ -19,6 +19,7 @@
 #include "twin/campaign/campaign_parts.h"
 #include "twin/diagnosis/run_files.h"
 #include "twin/reduced_twin.h"
+#include "twin/reduction_store.h"
 #include "twin/replay.h"
 #include "twin/run.h"
 #include "twin/version.h"
@@ -82,7 +83,7 @@ std::vector<Setting> machine_settings(CampaignRun const& order) {
 struct ReducedMachine {
   explicit ReducedMachine(Campaign const& campaign)
       : machine(Machine::build(campaign.machine(campaign.nominal(0)))),
-        twin(machine),
+        twin(machine, {}, cache_folder()),
         settings(machine_settings(campaign.nominal(0))) {}
 
   [[nodiscard]] ReducedResult run(Campaign const& campaign, CampaignRun const& order) const {
