@@ -1,7 +1,6 @@
 #include "twin/elastic_block.h"
 
 #include <Eigen/Geometry>
-#include <cstdint>
 #include <fmt/format.h>
 
 #include "thermal/error.h"
