@@ -95,7 +95,8 @@ export class ArrowView {
       });
       const {x, y, dx, dy, away} = names.reduce((a, b) => (b.away + b.dy > a.away + a.dy ? b : a));
       const text = `${'XYZ'[axis]} ${+box.high[axis]!.toFixed(1)} mm`;
-      context.fillText(text, x + (dx / away) * (8 + context.measureText(text).width / 2), y + (dy / away) * 16);
+      const half = context.measureText(text).width / 2, beside = x + (dx / away) * (8 + half);
+      context.fillText(text, Math.min(width - half - 2, Math.max(half + 2, beside)), y + (dy / away) * 16);
     }
   }
 }
