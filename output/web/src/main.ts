@@ -74,16 +74,20 @@ async function main(): Promise<void> {
   const packed = document.getElementById('numbers')!;
   const dark = new Signal(false), body = new Content(dark), button = themeButton(dark);
   dark.watch((on) => body.setDark(on));
-  const title = make('h1', {}, content.title), footer = make('footer', {}, `${content.version}. The page is whole in this one file.`);
+  const title = make('h1', {}), footer = make('footer', {}, `${content.version}. The page is whole in this one file.`);
   const head = make('header', {class: 'masthead'}, make('div', {}, make('p', {class: 'brand'}, 'ThermoTwin'), title));
-  document.title = `${content.title} · ThermoTwin`;
+  const show = (now: PageDocument, numbers: string): Promise<void> => {
+    title.textContent = now.title;
+    document.title = `${now.title} · ThermoTwin`;
+    return body.draw(now, numbers);
+  };
   if (content.revision) {
-    head.append(follow(content.revision, ({document, numbers}) => body.draw(document, numbers)));
+    head.append(follow(content.revision, (news) => show(news.document, news.numbers)));
     footer.textContent = `${content.version}. Served by the program on this computer.`;
   }
   head.append(button);
   page.append(head, body.element, footer);
-  await body.draw(content, packed.textContent!);
+  await show(content, packed.textContent!);
   packed.remove();
   page.dataset.ready = 'true';
 }

@@ -423,12 +423,14 @@ test('a served page renews itself and keeps what the reader has chosen', async (
     page.on('pageerror', (error) => complaints.push(error.message));
     await page.goto(address);
     await page.getByText('Nothing is in').waitFor();
+    assert.equal(await page.locator('h1').textContent(), 'Waiting');
     const put = (name: string): void => {
       copyFileSync(at(name), at('live.tmp'));
       renameSync(at('live.tmp'), at('live.h5'));
     };
     put('other.h5');
     await page.locator('.stage .caption:not(:empty)').waitFor({timeout: 20_000});
+    assert.match((await page.locator('h1').textContent())!, /^v450/);
     await slider(page).fill('7200');
     await page.locator('button.chip[data-channel="T8"]').click();
     const value = page.locator('[data-panel="sensor_temperatures_degC"] [data-channel="T1"] .value');
