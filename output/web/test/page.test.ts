@@ -6,6 +6,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import type {Browser, Page} from 'playwright-core';
+import type {DiagnosisSection, Disagreement} from '../src/data';
 import {colours, launch, open, photograph, settled} from './browser';
 
 const program = process.env.THERMOTWIN_PROGRAM!, pictures = process.env.PICTURES!;
@@ -252,29 +253,9 @@ test('the error along the stroke is drawn as curves and as a map', async () => {
   await page.close();
 });
 
-interface Part {
-  run: string;
-  channel: string;
-  unit: string;
-  cut: string;
-  part: string;
-  mean: number;
-  rms: number;
-  power: number;
-  p_value: number;
-  significant: boolean;
-}
-
-interface Diagnosis {
-  verdict: string;
-  effects: {effect: string; site: string; weight: number; strength: number}[];
-  gap: {before: number; after: number};
-  gaps: {fitted: unknown[]; held_out: unknown[]};
-  disagreement: {before: Part[]; after: Part[]};
-  unaccounted_heat: {body: string}[];
-  estimates: {name: string}[];
-  experiment: string;
-}
+/** What `diagnose --json` printed, as far as its page shows it as it is. */
+type Diagnosis = Required<Pick<DiagnosisSection,
+  'verdict' | 'effects' | 'gap' | 'gaps' | 'disagreement' | 'unaccounted_heat' | 'experiment' | 'estimates'>>;
 
 const found = (): Diagnosis => JSON.parse(readFileSync(at('diagnosis.json'), 'utf8')) as Diagnosis;
 
@@ -315,7 +296,7 @@ test('where and when the twin disagrees is told by regime, by speed and over tim
       mean: Number(cell.textContent!.replace('−', '-')), bold: cell.querySelector('strong') !== null, title: cell.getAttribute('title')!})));
     assert.equal(shown.length, parts.length);
     shown.forEach(({mean, bold, title}) => {
-      const part = parts.find((d) => title.startsWith(`${d.run}, ${d.channel}, ${d.part}: `))!, left = after.find((d) => ['run', 'channel', 'cut', 'part'].every((k) => d[k as keyof Part] === part[k as keyof Part]));
+      const part = parts.find((d) => title.startsWith(`${d.run}, ${d.channel}, ${d.part}: `))!, left = after.find((d) => ['run', 'channel', 'cut', 'part'].every((k) => d[k as keyof Disagreement] === part[k as keyof Disagreement]));
       assert.equal(bold, part.significant, `${part.channel}, ${part.part}`);
       assert.ok(Math.abs(mean - part.mean) <= 0.051, `${part.channel}, ${part.part}: ${mean}, not ${part.mean}`);
       assert.ok(title.endsWith(`power ${part.power.toPrecision(3)}, with the effects ${left!.power.toPrecision(3)}`), title);
