@@ -272,15 +272,41 @@ std::vector<Eigen::MatrixXd> Estimation::residuals_at(Eigen::VectorXd const& x) 
   return residuals;
 }
 
-bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const {
-  auto const unknowns = Eigen::Index(unknowns_.size());
-  std::optional<Machine> machine;
+/// The twin along the data. The runs take a quarter of a fit: one serves the residual and then the Jacobian.
+struct Estimation::Traced {
+  Eigen::VectorXd x;
+  Machine machine;
+  std::vector<std::optional<LinearisedRun>> runs;
+};
+
+/// Nothing where a number left the range that a machine may have, or the machine cannot be run.
+std::unique_ptr<Estimation::Traced const> Estimation::trace(Eigen::VectorXd const& x) const {
+  std::unique_ptr<Traced> traced;
   try {
-    machine.emplace(machine_at(x));
+    traced = std::make_unique<Traced>(Traced{x, machine_at(x), {}});
   } catch (thermal::InputError const&) {
-    return false;  // a number left the range that a machine may have
+    return nullptr;
   }
-  auto const& network = machine->network();
+  traced->runs.resize(data_->size());
+  bool good = true;
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t r = 0; r < data_->size(); ++r) try {
+      traced->runs[r].emplace(traced->machine, (*data_)[r]);
+    } catch (std::exception const&) {
+#pragma omp critical
+      good = false;
+    }
+  if (!good) return nullptr;
+  return traced;
+}
+
+bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const>& traced, Eigen::VectorXd& residual,
+                          Eigen::MatrixXd* jacobian) const {
+  auto const unknowns = Eigen::Index(unknowns_.size());
+  if (!traced || traced->x != x) traced = trace(x);
+  if (!traced) return false;
+  Machine const& machine = traced->machine;
+  auto const& network = machine.network();
   std::vector<thermal::NetworkDerivative> heat;
   std::vector<MachineDerivative> amplitudes;
   std::vector<Eigen::Index> columns;
@@ -308,13 +334,13 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
   for (std::size_t r = 0; r < data_->size(); ++r) {
     auto const& run = (*data_)[r];
     try {
-      LinearisedRun const twin(*machine, run);
+      LinearisedRun const& twin = *traced->runs[r];
       auto const first = first_rows_[r];
       auto const count = run.values.size();
       Eigen::MatrixXd const difference = run.values - twin.prediction();
       residual.segment(first, count) = difference.reshaped();
       if (!jacobian) continue;
-      Eigen::MatrixXd const slower = twin.prediction_of(later(*machine));
+      Eigen::MatrixXd const slower = twin.prediction_of(later(machine));
       Eigen::MatrixXd const response = twin.response(*parameters);
       for (std::size_t k = 0; k < columns.size(); ++k)
         jacobian->col(columns[k]).segment(first, count) -= response.col(Eigen::Index(k));
@@ -363,8 +389,12 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, E
 
 Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   LeastSquares problem;
+  std::unique_ptr<Traced const> traced;
+  Fit linearised;  // where the Jacobian was asked for last
   problem.evaluate = [&](Eigen::VectorXd const& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    return evaluate(x, r, J);
+    if (!evaluate(x, traced, r, J)) return false;
+    if (J) linearised.x = x, linearised.residual = r, linearised.jacobian = *J;
+    return true;
   };
   auto const count = Eigen::Index(unknowns_.size());
   problem.residuals = rows_ + count;
@@ -380,8 +410,12 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   Fit fit;
   fit.x = solved.x;
   fit.converged = solved.converged;
-  if (!evaluate(fit.x, fit.residual, &fit.jacobian))
+  if (linearised.x.size() == fit.x.size() && linearised.x == fit.x) {
+    fit.residual = std::move(linearised.residual);
+    fit.jacobian = std::move(linearised.jacobian);
+  } else if (!evaluate(fit.x, traced, fit.residual, &fit.jacobian)) {
     throw thermal::InputError("the machine cannot be run with its nominal values on these data");
+  }
   fit.cost = fit.residual.squaredNorm();
   Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());
   fit.covariance = information.solve(Eigen::MatrixXd::Identity(count, count));

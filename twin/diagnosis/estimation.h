@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -96,7 +97,10 @@ class Estimation {
   void add_unknowns();
   void make_whitenings();
   void find_linear_columns();
-  [[nodiscard]] bool evaluate(Eigen::VectorXd const& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;
+  struct Traced;
+  [[nodiscard]] std::unique_ptr<Traced const> trace(Eigen::VectorXd const& x) const;
+  [[nodiscard]] bool evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const>& traced,
+                              Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;
   [[nodiscard]] std::vector<MachineDerivative> amplitude_derivatives(Eigen::VectorXd const& x) const;
 
   Value document_;
