@@ -8,6 +8,7 @@
 
 #include "thermal/units.h"
 #include "twin/diagnosis/estimate_text.h"
+#include "twin/diagnosis/separation.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -222,6 +223,7 @@ std::string report_json(DiagnosisReport const& report) {
   if (auto const* proposal = proposal_of(diagnosis)) {
     json["experiment"] = proposal->file.string();
     json["experiment_distance"] = proposal->distance;
+    json["experiment_wanted_distance"] = wanted_distance;
   }
   json["estimates"] = Json::array();
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {

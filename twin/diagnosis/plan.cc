@@ -13,7 +13,6 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double wanted_distance = 6.0;  // physics.md 8.9
 constexpr double usual_amplitude = 0.5;  // of the largest plausible
 
 /// The clearest shape of each effect at each site.

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "twin/diagnosis/plan.h"
+#include "twin/diagnosis/separation.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -10,7 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_lines = 25;
-constexpr double visible = 6.0;
 
 std::string words_of(Remedy const& remedy) {
   std::string text = fmt::format("{} ({:.0f} h)", remedy.schedule, remedy.hours);
@@ -40,12 +40,12 @@ std::vector<Remedy> best_of(std::vector<Remedy> const& remedies) {
 
 std::string effects_text(Plan const& plan) {
   std::size_t clear = 0;
-  while (clear < plan.effects.size() && plan.effects[clear].seen >= visible) ++clear;
+  while (clear < plan.effects.size() && plan.effects[clear].seen >= wanted_distance) ++clear;
   std::string text = fmt::format(
-      "{} of {} effects at their sites would be seen (6 σ or more at half of the largest plausible size).\n"
+      "{} of {} effects at their sites would be seen ({:.0f} σ or more at half of the largest plausible size).\n"
       "Hardly or not, the clearest first; kept: what calibration leaves of the signature\n\n"
       "  {:<22} {:<44} {:>7} {:>7}\n",
-      clear, plan.effects.size(), "effect", "site", "seen", "kept");
+      clear, plan.effects.size(), wanted_distance, "effect", "site", "seen", "kept");
   for (std::size_t e = clear; e < std::min(plan.effects.size(), clear + most_lines); ++e)
     text += fmt::format("  {:<22} {:<44} {:>5.1f} σ {:>5.1f} %\n", plan.effects[e].hypothesis.effect->name,
                         plan.effects[e].hypothesis.site, plan.effects[e].seen, 100.0 * plan.effects[e].kept);
@@ -57,8 +57,9 @@ std::string effects_text(Plan const& plan) {
 std::string ambiguities_text(Plan const& plan) {
   if (plan.ambiguities.empty()) return "\nEvery effect that is seen can be told from every other.\n";
   std::string text = fmt::format(
-      "\n{} pairs of effects would be seen, but could be taken for each other (less than 6 σ apart); the worst:\n\n",
-      plan.ambiguities.size());
+      "\n{} pairs of effects would be seen, but could be taken for each other (less than {:.0f} σ apart); the "
+      "worst:\n\n",
+      plan.ambiguities.size(), wanted_distance);
   for (std::size_t a = 0; a < std::min(plan.ambiguities.size(), most_lines); ++a) {
     auto const& ambiguity = plan.ambiguities[a];
     auto const& one = plan.effects[ambiguity.effect];

@@ -7,6 +7,9 @@
 
 namespace thermotwin::twin {
 
+/// By which an effect counts as seen, and two as told apart, in units of the noise (physics.md 8.9).
+inline constexpr double wanted_distance = 6.0;
+
 /// Which of an estimation's blocks of rows are used: some of its runs, some of its channels.
 struct Blocks {
   std::vector<bool> runs;      ///< by number of the run
@@ -18,7 +21,7 @@ struct Blocks {
 ///   d_i = |s⊥_i| |ψ_i|,   d_ij = d_i √(1 − cos²(s⊥_i, s⊥_j)),   s⊥ = s − J (JᵀJ)⁻¹ Jᵀ s
 ///
 /// in units of the noise: d_i, how clearly effect i of amplitude ψ_i is seen; d_ij, how clearly it is not effect j, of
-/// whatever amplitude. Six are wanted. Each run and channel is a block, so that one linearisation answers for every
+/// whatever amplitude. Each run and channel is a block, so that one linearisation answers for every
 /// choice among them.
 class Separation {
  public:

@@ -143,9 +143,10 @@ export interface DiagnosisSection {
   gaps: {fitted: Gap[]; held_out: Gap[]};
   disagreement?: {before: Disagreement[]; after: Disagreement[]};
   unaccounted_heat: FreeHeat[];
-  /** Of an either/or: a schedule's file, and by how many σ it tells the names apart. */
+  /** Of an either/or: a schedule's file, by how many σ it tells the names apart, and by how many it should. */
   experiment?: string;
   experiment_distance?: number;
+  experiment_wanted_distance?: number;
   estimates: {name: string; estimate: number; standard_error: number; prior: number}[];
   remarks: string[];
 }

@@ -45,9 +45,6 @@ function actsOn(where: DiagnosisSection['where']): string[] {
     `Missing heat acts on ${body} ${where.filter((w) => w.body === body).map((w) => when[w.regime] ?? w.regime).join(' and ')}.`);
 }
 
-/** By which names count as told apart, in units of the noise. */
-const wanted_distance = 6;
-
 /** Of a file, as commands name it. */
 const stem = (path: string): string => path.replace(/^.*\//, '').replace(/\.toml$/, '');
 
@@ -57,7 +54,8 @@ function figure(label: string, value: string): HTMLElement {
   return make('div', {}, make('dt', {}, label), make('dd', {}, value));
 }
 
-function candidatesPanel({effects, experiment, experiment_distance}: DiagnosisSection): HTMLElement {
+function candidatesPanel(
+    {effects, experiment, experiment_distance, experiment_wanted_distance: wanted}: DiagnosisSection): HTMLElement {
   const groups = [...new Set(effects.map((e) => e.group))];
   const lists = groups.map((group) => {
     const all = effects.filter((e) => e.group === group);
@@ -73,7 +71,7 @@ function candidatesPanel({effects, experiment, experiment_distance}: DiagnosisSe
     {name: 'high', values: effects.map((e) => e.high)}, {name: 'weight', values: effects.map((e) => e.weight)},
     {name: 'two_ln_evidence', values: effects.map((e) => e.strength)},
   ], ...lists, experiment && experiment_distance !== undefined && make('p', {class: 'words'}, `Of the schedules that come with the program, ${
-    stem(experiment)} does it best: they lie ${size(experiment_distance)} σ apart there${experiment_distance < wanted_distance ? `, of ${wanted_distance} that are wanted` : ''}.`));
+    stem(experiment)} does it best: they lie ${size(experiment_distance)} σ apart there${wanted !== undefined && experiment_distance < wanted ? `, of ${wanted} that are wanted` : ''}.`));
 }
 
 function candidate(effect: Finding): HTMLElement {
