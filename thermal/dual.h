@@ -89,7 +89,8 @@ Dual<N> cbrt(Dual<N> const& x) {
 }
 template <int N>
 Dual<N> pow(Dual<N> const& x, double exponent) {
-  return x.chain(std::pow(x.value, exponent), exponent * std::pow(x.value, exponent - 1.0));
+  double const f = std::pow(x.value, exponent);
+  return x.chain(f, exponent * (x.value != 0.0 ? f / x.value : std::pow(x.value, exponent - 1.0)));
 }
 template <int N>
 Dual<N> pow(Dual<N> const& x, Dual<N> const& exponent) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 #include "thermal/error.h"
 #include "thermal/fixed_blocks.h"
@@ -14,7 +15,12 @@ namespace {
 template <class Values>
 std::vector<double> divided_difference(Values const& plus, Values const& minus, double step) {
   std::vector<double> d(plus.size());
-  for (std::size_t i = 0; i < d.size(); ++i) d[i] = (plus[i] - minus[i]) / (2.0 * step);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    double const rounding =
+        8.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(plus[i]), std::abs(minus[i]));
+    double const change = plus[i] - minus[i];
+    d[i] = std::abs(change) > rounding ? change / (2.0 * step) : 0.0;
+  }
   return d;
 }
 
@@ -186,7 +192,8 @@ void Evaluation::add_made_gradient(ElementGroup const& group, Linearisation& res
 void Evaluation::linearise(double const* state, double const* input, Linearisation& result) {
   auto const& net = *network_;
   int const n = net.nodes(), boundaries = int(net.boundaries().size());
-  power(state, input);  // fills heat_ with the flows into the boundaries
+  result.rate.resize(n);
+  rate_and_power(state, input, result.rate.data());  // leaves the flows into the boundaries in heat_
   if (result.coupling.rows() == 0) result.coupling = net.port_pattern();
   result.coupling.coeffs().setZero();
   result.power.setZero(4, net.temperatures());

@@ -22,6 +22,9 @@ struct NetworkDerivative {
   std::vector<double> initial_temperature;  ///< per node; empty: does not change
 };
 
+/// One column per parameter, the numbers of a node side by side.
+using NodeByParameter = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// InputError if the two networks do not have the same structure, or differ in when a relay switches or where a moving
 /// average is: switching times and tracks carry no derivative (physics.md §0).
 [[nodiscard]] NetworkDerivative difference(Network const& plus, Network const& minus, double step);
@@ -42,6 +45,7 @@ struct Linearisation {
   Eigen::SparseMatrix<double> coupling;            ///< G = ∂(heat into port)/∂(temperature of port) [W/K]
   Eigen::Matrix<double, 4, Eigen::Dynamic> power;  ///< P = ∂(supplied, withdrawn, lost, exchanged)/∂(port) [W/K]
   Eigen::VectorXd slope;                           ///< dT/dy of the nodes
+  Eigen::VectorXd rate;                            ///< dy/dt there [K/s]
   std::vector<std::vector<double>> weights;        ///< of the averages
 };
 
@@ -73,9 +77,6 @@ class Evaluation {
   /// d(dy/dt)/dθ = (∂f/∂y) dy/dθ + ∂f/∂θ.
   void rate_derivative(double const* state, double const* state_derivative, NetworkDerivative const& derivative,
                        double const* input, double* result);
-  /// dT/dθ of every entry of the temperature vector.
-  std::span<double const> temperature_derivatives(double const* state, double const* state_derivative,
-                                                  NetworkDerivative const& derivative, double const* input);
 
   /// Powers at this instant.
   Energy power(double const* state, double const* input);
@@ -87,6 +88,9 @@ class Evaluation {
 
  private:
   void weigh_moving_averages(double const* input);
+  /// dT/dθ of every entry of the temperature vector.
+  std::span<double const> temperature_derivatives(double const* state, double const* state_derivative,
+                                                  NetworkDerivative const& derivative, double const* input);
   void share_averages(std::vector<double>& heat) const;
   double heat_made(ElementGroup const& group, int element, double const* flows) const;
   void add_made_gradient(ElementGroup const& group, Linearisation& result);

@@ -30,13 +30,12 @@ struct IntegrationOptions {
 
 /// What the observer sees at each output time; the spans are valid during the call.
 struct Sample {
-  double time = 0.0;                     ///< [s]
-  std::span<double const> state;         ///< enthalpy temperatures of the nodes
-  std::span<double const> temperatures;  ///< [nodes | boundaries | averages] [K]
-  std::span<double const> input;         ///< operating point, relay states included
-  Energy energy;                         ///< since the start [J]
-  /// dT/dθ_k of the nodes, one vector per parameter.
-  std::vector<std::vector<double>> const* sensitivities = nullptr;
+  double time = 0.0;                               ///< [s]
+  std::span<double const> state;                   ///< enthalpy temperatures of the nodes
+  std::span<double const> temperatures;            ///< [nodes | boundaries | averages] [K]
+  std::span<double const> input;                   ///< operating point, relay states included
+  Energy energy;                                   ///< since the start [J]
+  NodeByParameter const* sensitivities = nullptr;  ///< dT/dθ, if parameters were given
 };
 using Observer = std::function<void(Sample const&)>;
 

@@ -114,6 +114,7 @@ struct SparseFactors final : LinearFactors {
 
   bool factorise(SparseMatrix const& matrix) override {
     int const n = int(matrix.rows());
+    extracted_ = false;
     auto* outer = const_cast<int*>(matrix.outerIndexPtr());
     auto* inner = const_cast<int*>(matrix.innerIndexPtr());
     auto* values = const_cast<double*>(matrix.valuePtr());
@@ -129,10 +130,61 @@ struct SparseFactors final : LinearFactors {
     x = b;
     return klu_solve(symbolic_, numeric_, int(x.size()), 1, x.data(), &common_) != 0;
   }
+  /// klu_solve takes four columns at a time; here each entry of the factors meets a whole row of them.
+  bool solve_columns(double, NodeByParameter& x) override {
+    if (!extract()) return false;
+    auto const n = x.rows();
+    permuted_.resize(n, x.cols());
+    for (Eigen::Index k = 0; k < n; ++k) permuted_.row(k) = x.row(row_of_[k]);
+    for (Eigen::Index k = 0; k < n; ++k) lower_.eliminate(k, permuted_);
+    for (Eigen::Index k = n; k-- > 0;) {
+      permuted_.row(k) /= upper_.pivot(k);
+      upper_.eliminate(k, permuted_);
+    }
+    for (Eigen::Index k = 0; k < n; ++k) x.row(column_of_[k]) = permuted_.row(k);
+    return true;
+  }
+
+ private:
+  /// By columns. The diagonal is the first entry of a column below it, and the last of one above.
+  struct Triangle {
+    explicit Triangle(bool is_lower) : lower(is_lower) {}
+    void resize(int n, int entries) {
+      begin.resize(std::size_t(n) + 1);
+      row.resize(std::size_t(entries));
+      value.resize(std::size_t(entries));
+    }
+    [[nodiscard]] double pivot(Eigen::Index k) const { return value[std::size_t(begin[std::size_t(k) + 1] - 1)]; }
+    void eliminate(Eigen::Index k, NodeByParameter& x) const {
+      int const first = begin[std::size_t(k)] + (lower ? 1 : 0), end = begin[std::size_t(k) + 1] - (lower ? 0 : 1);
+      for (auto p = std::size_t(first); p < std::size_t(end); ++p) x.row(row[p]) -= value[p] * x.row(k);
+    }
+    bool lower;
+    std::vector<int> begin, row;
+    std::vector<double> value;
+  };
+
+  /// P A Q = L U.
+  bool extract() {
+    if (extracted_) return true;
+    int const n = symbolic_->n;
+    lower_.resize(n, numeric_->lnz);
+    upper_.resize(n, numeric_->unz);
+    row_of_.resize(n);
+    column_of_.resize(n);
+    extracted_ = klu_extract(numeric_, symbolic_, lower_.begin.data(), lower_.row.data(), lower_.value.data(),
+                             upper_.begin.data(), upper_.row.data(), upper_.value.data(), nullptr, nullptr, nullptr,
+                             row_of_.data(), column_of_.data(), nullptr, nullptr, &common_) != 0;
+    return extracted_;
+  }
 
   klu_common common_{};
   klu_symbolic* symbolic_ = nullptr;
   klu_numeric* numeric_ = nullptr;
+  bool extracted_ = false;
+  Triangle lower_{true}, upper_{false};
+  Eigen::VectorXi row_of_, column_of_;
+  NodeByParameter permuted_;
 };
 
 struct KrylovFactors final : LinearFactors {
@@ -155,6 +207,16 @@ struct KrylovFactors final : LinearFactors {
 };
 
 }  // namespace
+
+bool LinearFactors::solve_columns(double tolerance, NodeByParameter& x) {
+  VectorXd right, solution(x.rows());
+  for (Eigen::Index k = 0; k < x.cols(); ++k) {
+    right = x.col(k);
+    if (!solve(right, tolerance * right.norm(), solution)) return false;
+    x.col(k) = solution;
+  }
+  return true;
+}
 
 std::unique_ptr<LinearFactors> make_linear_factors(LinearSolver solver) {
   if (solver == LinearSolver::dense) return std::make_unique<DenseFactors>();

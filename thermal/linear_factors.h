@@ -21,6 +21,8 @@ class LinearFactors {
   /// `tolerance` bounds the 2-norm of the residual where the solution is found by iteration. False if it is not found.
   [[nodiscard]] virtual bool solve(Eigen::Ref<Eigen::VectorXd const> const& b, double tolerance,
                                    Eigen::Ref<Eigen::VectorXd> x) = 0;
+  /// The same for many right-hand sides, one per column, which the solutions replace; `tolerance` is relative to each.
+  [[nodiscard]] virtual bool solve_columns(double tolerance, NodeByParameter& x);
 };
 
 /// Dense LU, KLU (Davis & Palamadai Natarajan, ACM TOMS 37 (2010) 36), or BiCGSTAB with incomplete LU (van der Vorst

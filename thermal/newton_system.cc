@@ -152,6 +152,24 @@ bool NewtonSystem::solve_nodes(double const* b, double tolerance, double* x) {
   return true;
 }
 
+bool NewtonSystem::solve_nodes(double tolerance, NodeByParameter& x) {
+  if (!grids_ && averages_ == 0) return factors_->solve_columns(tolerance, x);
+  if (!grids_) {
+    all_columns_.setZero(matrix_.rows(), x.cols());
+    all_columns_.topRows(nodes_) = x;
+    if (!factors_->solve_columns(tolerance, all_columns_)) return false;
+    x = all_columns_.topRows(nodes_);
+    return true;
+  }
+  VectorXd right, solution(nodes_);
+  for (Eigen::Index k = 0; k < x.cols(); ++k) {
+    right = x.col(k);
+    if (!grids_->solve(right.data(), tolerance * right.norm(), solution.data())) return false;
+    x.col(k) = solution;
+  }
+  return true;
+}
+
 bool NewtonSystem::solve(std::span<double const> b, double tolerance, std::span<double> x) {
   right_side_.assign(b.begin(), b.end());  // x may be b
   if (!solve_nodes(right_side_.data(), tolerance, x.data())) return false;

@@ -38,6 +38,8 @@ class NewtonSystem {
 
   /// Takes G and P at a state and an operating point.
   void linearise(Evaluation& evaluation, double const* state, double const* input);
+  /// What was taken last.
+  [[nodiscard]] Linearisation const& linearisation() const { return at_; }
   /// Factorises I − γM; false if it is singular.
   [[nodiscard]] bool factorise(double gamma);
   /// −J instead, for a step of Newton's method to the steady state.
@@ -47,6 +49,8 @@ class NewtonSystem {
   [[nodiscard]] bool solve(std::span<double const> b, double tolerance, std::span<double> x);
   /// The nodes alone.
   [[nodiscard]] bool solve_nodes(Eigen::VectorXd const& b, double tolerance, Eigen::VectorXd& x);
+  /// The same for many right-hand sides, which the solutions replace; `tolerance` is relative to each.
+  [[nodiscard]] bool solve_nodes(double tolerance, NodeByParameter& x);
 
   /// Pattern of the matrix that is factorised; empty with multigrid.
   [[nodiscard]] Eigen::SparseMatrix<double> const& pattern() const { return matrix_; }
@@ -71,6 +75,7 @@ class NewtonSystem {
   double gamma_ = 0.0;
   std::vector<double> right_side_;
   Eigen::VectorXd right_, all_;
+  NodeByParameter all_columns_;
 
   /// I·identity + fixed − γ·rate, on the nodes, the averages' T̄ and their Q̂ = γ Q/unit_capacity.
   Eigen::SparseMatrix<double> matrix_;

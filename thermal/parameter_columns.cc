@@ -72,7 +72,7 @@ void ParameterColumns::add_group(ElementGroup const& group, std::size_t index,
 }
 
 void ParameterColumns::add_heat(Evaluation const& evaluation, int port, int column, double heat,
-                                Eigen::MatrixXd& forcing) const {
+                                NodeByParameter& forcing) const {
   int const n = network_->nodes(), first_average = n + int(network_->boundaries().size());
   auto const& capacity = network_->capacity();
   if (port < n) {
@@ -86,25 +86,24 @@ void ParameterColumns::add_heat(Evaluation const& evaluation, int port, int colu
 }
 
 void ParameterColumns::evaluate(Evaluation& evaluation, double const* state, double const* input,
-                                Eigen::MatrixXd& forcing) const {
+                                NodeByParameter& forcing) const {
+  Linearisation at;
+  evaluation.linearise(state, input, at);
+  evaluate(evaluation, at, state, input, forcing);
+}
+
+void ParameterColumns::evaluate(Evaluation& evaluation, Linearisation const& at, double const* state,
+                                double const* input, NodeByParameter& forcing) const {
   int const n = network_->nodes();
   forcing.setZero(n, count_);
-  if (!capacities_.empty()) {
-    std::vector<double> rate(static_cast<std::size_t>(n));
-    evaluation.rate(state, input, rate.data());
-    for (auto const& c : capacities_) forcing(c.node, c.column) -= rate[std::size_t(c.node)] * c.relative;
-  }
-  if (!boundaries_.empty()) {
-    Linearisation at;
-    evaluation.linearise(state, input, at);
-    for (auto const& change : boundaries_) {
-      auto const& boundary = network_->boundaries()[std::size_t(change.boundary)];
-      double warmer = change.offset;
-      for (std::size_t t = 0; t < boundary.terms.size(); ++t)
-        warmer += change.weights[t] * input[boundary.terms[t].channel];
-      for (Eigen::SparseMatrix<double>::InnerIterator it(at.coupling, n + change.boundary); it; ++it)
-        add_heat(evaluation, int(it.row()), change.column, it.value() * warmer, forcing);
-    }
+  for (auto const& c : capacities_) forcing(c.node, c.column) -= at.rate[c.node] * c.relative;
+  for (auto const& change : boundaries_) {
+    auto const& boundary = network_->boundaries()[std::size_t(change.boundary)];
+    double warmer = change.offset;
+    for (std::size_t t = 0; t < boundary.terms.size(); ++t)
+      warmer += change.weights[t] * input[boundary.terms[t].channel];
+    for (Eigen::SparseMatrix<double>::InnerIterator it(at.coupling, n + change.boundary); it; ++it)
+      add_heat(evaluation, int(it.row()), change.column, it.value() * warmer, forcing);
   }
   auto const temperature = evaluation.temperatures(state, input);
   std::vector<double> own, still, heat;

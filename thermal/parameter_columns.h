@@ -23,7 +23,10 @@ class ParameterColumns {
   [[nodiscard]] int count() const { return count_; }
 
   /// node × parameter [K/s per unit of θ].
-  void evaluate(Evaluation& evaluation, double const* state, double const* input, Eigen::MatrixXd& forcing) const;
+  void evaluate(Evaluation& evaluation, double const* state, double const* input, NodeByParameter& forcing) const;
+  /// The same where the evaluation has just made this linearisation.
+  void evaluate(Evaluation& evaluation, Linearisation const& at, double const* state, double const* input,
+                NodeByParameter& forcing) const;
 
  private:
   /// The elements of one law that change, each with its own copy of what it reads; ports are numbered anew.
@@ -43,7 +46,7 @@ class ParameterColumns {
   };
 
   void add_group(ElementGroup const& group, std::size_t index, std::vector<NetworkDerivative const*> const& parameters);
-  void add_heat(Evaluation const& evaluation, int port, int column, double heat, Eigen::MatrixXd& forcing) const;
+  void add_heat(Evaluation const& evaluation, int port, int column, double heat, NodeByParameter& forcing) const;
 
   Network const* network_;
   int count_ = 0;

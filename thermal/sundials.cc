@@ -15,9 +15,9 @@
 #include "thermal/course_inputs.h"
 #include "thermal/error.h"
 #include "thermal/fixed_blocks.h"
+#include "thermal/forward_sensitivities.h"
 #include "thermal/integrate.h"
 #include "thermal/newton_system.h"
-#include "thermal/sensitivity_rates.h"
 #include "thermal/sundials_vector.h"
 
 namespace thermotwin::thermal {
@@ -82,11 +82,11 @@ class Run {
   void set_up(IntegrationState const& from);
   void attach_linear_solver();
   double tolerance() const;
-  void set_up_sensitivities(IntegrationState const& from);
   void leave(IntegrationState& state);
   void restart(double t);
   void set_initial_step(double t);
   void advance(double target);
+  bool follow(double goal);
   void emit(double t, Observer const& observe);
   void settle_relays(double t);
   double next_relay_wake(double t) const;
@@ -116,8 +116,6 @@ class Run {
   static int solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype tolerance);
   static int error_weights(N_Vector y, N_Vector weights, void* user);
   static int roots(double t, N_Vector y, double* g, void* user);
-  static int sensitivity_rate(int count, double t, N_Vector y, N_Vector ydot, N_Vector* s, N_Vector* sdot, void* user,
-                              N_Vector, N_Vector);
   static void collect_message(int code, char const*, char const* function, char* message, void* user);
 
   Network const& network_;
@@ -129,18 +127,16 @@ class Run {
 
   ContextHandle context_;
   VectorHandle y_;
-  std::vector<VectorHandle> sensitivity_;
-  std::vector<N_Vector> sensitivity_view_;
-  std::optional<SensitivityRates> sensitivity_rates_;
+  std::optional<ForwardSensitivities> sensitivities_;
   MatrixHandle matrix_;
   SolverHandle solver_;
   Handle<void*, free_cvode> cvode_;
 
   std::vector<double> initial_;
-  std::vector<std::vector<double>> temperature_sensitivity_;
   std::vector<double> next_switch_;  ///< earliest time at which a relay may switch on again
-  std::vector<double> parameter_scale_;
   double t_ = 0.0;
+  double step_end_ = 0.0;        ///< of CVODES' last step, which may lie beyond t_
+  double next_root_ = infinity;  ///< within that step
   std::exception_ptr failure_;
   std::string message_;
   IntegrationSummary summary_;
@@ -189,23 +185,6 @@ int Run::roots(double t, N_Vector y, double* g, void* user) {
     auto& run = self(user);
     auto const temperatures = run.evaluation_.temperatures(data(y), run.input(t));
     for (std::size_t r = 0; r < run.network_.relays().size(); ++r) g[r] = run.relay_distance(r, temperatures.data());
-    return 0;
-  });
-}
-
-int Run::sensitivity_rate(int count, double t, N_Vector y, N_Vector, N_Vector* s, N_Vector* sdot, void* user, N_Vector,
-                          N_Vector) {
-  return self(user).guarded([&] {
-    auto& run = self(user);
-    double const* input = run.input(t);
-    std::vector<double const*> from;
-    std::vector<double*> to;
-    for (int k = 0; k < count; ++k) {
-      from.push_back(data(s[k]));
-      to.push_back(data(sdot[k]));
-      std::fill_n(to.back() + run.network_.nodes(), NewtonSystem::energies, 0.0);
-    }
-    run.sensitivity_rates_->evaluate(run.evaluation_, data(y), input, from, to);
     return 0;
   });
 }
@@ -276,33 +255,10 @@ void Run::set_up(IntegrationState const& from) {
   if (options_.maximum_step > 0.0) CVodeSetMaxStep(cvode, options_.maximum_step);
   attach_linear_solver();
   if (!network_.relays().empty()) CVodeRootInit(cvode, int(network_.relays().size()), roots);
-  set_up_sensitivities(from);
-}
-
-void Run::set_up_sensitivities(IntegrationState const& from) {
-  auto const& parameters = options_.parameters;
-  if (parameters.empty()) return;
-  sensitivity_rates_.emplace(network_, parameters);
-  int const n = network_.nodes();
-  for (auto const& parameter : parameters) {
-    auto& s = sensitivity_.emplace_back(N_VClone(y_.get()));
-    N_VConst(0.0, s.get());
-    for (int i = 0; i < n; ++i) {
-      auto const k = std::size_t(i);
-      double const rise = network_.temperature_of_state(i, from.state[k]) - 293.15;
-      double const dT = parameter.initial_temperature.empty() ? 0.0 : parameter.initial_temperature[k];
-      data(s.get())[i] =
-          dT * (1.0 + network_.capacity_slope()[k] * rise) + 0.5 * rise * rise * parameter.capacity_slope[k];
-    }
-    sensitivity_view_.push_back(s.get());
-    parameter_scale_.push_back(parameter.scale != 0.0 ? std::abs(parameter.scale) : 1.0);
-    temperature_sensitivity_.emplace_back(std::size_t(n));
-  }
-  void* cvode = cvode_.get();
-  CVodeSensInit(cvode, int(parameters.size()), CV_STAGGERED, sensitivity_rate, sensitivity_view_.data());
-  CVodeSetSensParams(cvode, nullptr, parameter_scale_.data(), nullptr);
-  CVodeSensEEtolerances(cvode);
-  CVodeSetSensErrCon(cvode, SUNTRUE);
+  step_end_ = t_;
+  if (options_.parameters.empty()) return;
+  sensitivities_.emplace(network_, options_.parameters, solver_kind_, tolerance());
+  sensitivities_->start(t_, data(y_.get()));
 }
 
 Energy Run::energy() const {
@@ -326,12 +282,7 @@ void Run::emit(double t, Observer const& observe) {
   double const* input = point_.at(t).data();
   sample.state = {data(y_.get()), std::size_t(network_.nodes())};
   sample.energy = energy();
-  for (std::size_t k = 0; k < sensitivity_.size(); ++k) {
-    auto const rates =
-        evaluation_.temperature_derivatives(data(y_.get()), data(sensitivity_[k].get()), options_.parameters[k], input);
-    std::copy_n(rates.begin(), network_.nodes(), temperature_sensitivity_[k].begin());
-  }
-  sample.sensitivities = &temperature_sensitivity_;
+  if (sensitivities_) sample.sensitivities = &sensitivities_->temperatures(t, data(y_.get()));
   sample.temperatures = evaluation_.temperatures(data(y_.get()), input);
   sample.input = point_.values();
   observe(sample);
@@ -382,7 +333,9 @@ void Run::restart(double t) {
   void* cvode = cvode_.get();
   CVodeReInit(cvode, t, y_.get());
   set_initial_step(t);
-  if (!sensitivity_view_.empty()) CVodeSensReInit(cvode, CV_STAGGERED, sensitivity_view_.data());
+  step_end_ = t;
+  next_root_ = infinity;
+  if (sensitivities_) sensitivities_->restart(t);
   ++summary_.restarts;
 }
 
@@ -405,18 +358,37 @@ void Run::advance(double target) {
     double const stop = std::min({piece_end, next_relay_wake(t_)});
     double const goal = std::min(target, stop);
     CVodeSetStopTime(cvode, std::isfinite(stop) ? stop : std::max(target, t_ + 1.0) * 1e3 + 1e9);
-    double reached = t_;
-    int const flag = CVode(cvode, goal, y_.get(), &reached, CV_NORMAL);
-    if (flag < 0) fail(flag);
-    t_ = reached;
-    double ignored = 0.0;
-    if (!sensitivity_view_.empty()) CVodeGetSens(cvode, &ignored, sensitivity_view_.data());
-    if (flag == CV_ROOT_RETURN || t_ >= stop) {
+    bool const switches = follow(goal);
+    if (switches || t_ >= stop) {
       point_.enter_piece(t_);
       settle_relays(t_);
       restart(t_);
     }
   }
+}
+
+/// Takes steps until one ends at `goal` or beyond, and returns to it, or to a root before it; whether that is one.
+bool Run::follow(double goal) {
+  void* cvode = cvode_.get();
+  while (step_end_ < goal && next_root_ == infinity) {
+    double returned = t_;
+    int const flag = CVode(cvode, goal, y_.get(), &returned, CV_ONE_STEP);
+    if (flag < 0) fail(flag);
+    CVodeGetCurrentTime(cvode, &step_end_);
+    if (flag == CV_TSTOP_RETURN) step_end_ = returned;  // not a rounding error before
+    if (flag == CV_ROOT_RETURN) next_root_ = returned;
+    if (!sensitivities_) continue;
+    int order = 0;
+    CVodeGetLastOrder(cvode, &order);
+    auto const at = [&](double t) -> ForwardSensitivities::Instant {
+      CVodeGetDky(cvode, t, 0, y_.get());
+      return {data(y_.get()), input(t)};
+    };
+    if (!sensitivities_->step(step_end_, order, at)) fail(CV_LSOLVE_FAIL);
+  }
+  t_ = std::min(goal, next_root_);
+  CVodeGetDky(cvode, t_, 0, y_.get());
+  return next_root_ <= goal;
 }
 
 void Run::fail(int flag) {

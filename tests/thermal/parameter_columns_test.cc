@@ -84,7 +84,7 @@ Eigen::MatrixXd columns(Instant const& at, std::vector<NetworkDerivative> const&
   for (auto const& parameter : parameters) pointers.push_back(&parameter);
   ParameterColumns const all(at.network, pointers);
   Evaluation evaluation(at.network);
-  Eigen::MatrixXd forcing;
+  NodeByParameter forcing;
   all.evaluate(evaluation, at.state.data(), at.input.data(), forcing);
   return forcing;
 }

@@ -57,7 +57,7 @@ Eigen::MatrixXd columns_of(Estimation const& estimation, std::size_t r, Linearis
     for (int i = 0; i < sites[s].nodes; ++i) whole += capacity[std::size_t(sites[s].first_node + i)];
     for (int i = 0; i < sites[s].nodes; ++i) shape(sites[s].first_node + i, Eigen::Index(s)) = 1.0 / whole;
   }
-  auto const forcing = [&](thermal::Evaluation&, double t, auto const&, auto const&, Eigen::MatrixXd& into) {
+  auto const forcing = [&](thermal::Evaluation&, double t, auto const&, auto const&, thermal::NodeByParameter& into) {
     into.setZero(shape.rows(), shape.cols() * count);
     for (Eigen::Index k = 0; k < count; ++k)
       if (double const share = hat(knots, k, t); share > 0.0)

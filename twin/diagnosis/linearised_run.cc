@@ -1,11 +1,11 @@
 #include "twin/diagnosis/linearised_run.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "thermal/error.h"
 #include "thermal/integrate.h"
+#include "thermal/newton_system.h"
 #include "twin/diagnosis/channel_reading.h"
 #include "twin/run.h"
 
@@ -19,13 +19,6 @@ double lagged(double before, double from, double to, double lag, double step) {
   if (lag <= 0.0) return to;
   double const slope = (to - from) / step, decay = std::exp(-step / lag);
   return to - slope * lag + (before - from + slope * lag) * decay;
-}
-
-/// sum += M f for columns f that are zero but for a few entries.
-void add_sparse_product(Eigen::MatrixXd const& M, Eigen::MatrixXd const& f, Eigen::MatrixXd& sum) {
-  for (Eigen::Index k = 0; k < f.cols(); ++k)
-    for (Eigen::Index i = 0; i < f.rows(); ++i)
-      if (f(i, k) != 0.0) sum.col(k) += f(i, k) * M.col(i);
 }
 
 int channel_index(thermal::Course const& course, std::string const& name) {
@@ -215,7 +208,8 @@ Eigen::MatrixXd LinearisedRun::response(thermal::ParameterColumns const& paramet
   Eigen::Index const nodes = machine_->network().nodes();
   Eigen::MatrixXd const start = initial.size() ? initial : Eigen::MatrixXd::Zero(nodes, parameters.count());
   return response(
-      [&](thermal::Evaluation& evaluation, double, auto const& state, auto const& input, Eigen::MatrixXd& forcing) {
+      [&](thermal::Evaluation& evaluation, double, auto const& state, auto const& input,
+          thermal::NodeByParameter& forcing) {
         parameters.evaluate(evaluation, state.data(), input.data(), forcing);
         if (forced_nodes >= 0) forcing.bottomRows(nodes - forced_nodes).setZero();
       },
@@ -231,31 +225,27 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
   auto const views = View::of(*machine_, *data_->run);
   Eigen::MatrixXd const H = weights();
   thermal::Evaluation evaluation(network);
-  Eigen::MatrixXd S = initial;
-  Eigen::MatrixXd from_forcing(n, m), to_forcing(n, m), first(n, m), second(n, m), middle_S(n, m);
-  Eigen::MatrixXd from = H * S, to(H.rows(), m), shown = from;
-  Eigen::MatrixXd const at_start = from;
+  thermal::NewtonSystem system(network, thermal::LinearSolver::sparse_direct);
+  thermal::NodeByParameter S = initial, from_forcing(n, m), to_forcing(n, m), stage(n, m);
+  thermal::NodeByParameter from = H * S, to(H.rows(), m), shown = from;
+  thermal::NodeByParameter const at_start = from;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows * H.rows(), m);
   std::vector<double> middle(static_cast<std::size_t>(n)), input;
-  Eigen::MatrixXd const identity = Eigen::MatrixXd::Identity(n, n);
   for (std::size_t s = 0; s < steps.size(); ++s) {
     double const h = steps[s].end - steps[s].begin;
     for (Eigen::Index i = 0; i < n; ++i)
       middle[std::size_t(i)] = 0.5 * (begins_[s].state[std::size_t(i)] + ends_[s].state[std::size_t(i)]);
     input = begins_[s].input;
     for (std::size_t i = 0; i < input.size(); ++i) input[i] = 0.5 * (input[i] + ends_[s].input[i]);
-    Eigen::MatrixXd const A = evaluation.jacobian(middle.data(), input.data());
-    Eigen::MatrixXd const M = (identity - gamma * h * A).partialPivLu().inverse();
-    Eigen::MatrixXd const MA = (M - identity) / (gamma * h);
+    system.linearise(evaluation, middle.data(), input.data());
     forcing(evaluation, begins_[s].time, begins_[s].state, begins_[s].input, from_forcing);
     forcing(evaluation, ends_[s].time, ends_[s].state, ends_[s].input, to_forcing);
-    from_forcing = (1.0 - gamma) * from_forcing + gamma * to_forcing;
-    first.noalias() = MA * S;
-    add_sparse_product(M, from_forcing, first);
-    middle_S = S + (1.0 - gamma) * h * first;
-    second.noalias() = MA * middle_S;
-    add_sparse_product(M, to_forcing, second);
-    S += h * ((1.0 - gamma) * first + gamma * second);
+    // A stage k = A x + f has x = S + γh k, so that (I − γhA) x = S + γh f; the second stage ends where the step does.
+    stage = S + gamma * h * ((1.0 - gamma) * from_forcing + gamma * to_forcing);
+    bool const solved = system.factorise(gamma * h) && system.solve_nodes(0.0, stage);
+    S += (1.0 - gamma) / gamma * (stage - S) + gamma * h * to_forcing;
+    if (!solved || !system.solve_nodes(0.0, S))
+      throw thermal::IntegrationError("the equations linearised along the run have no solution");
     to.noalias() = H * S;
     for (Eigen::Index c = 0; c < H.rows(); ++c) {
       double const lag = views[std::size_t(c)].lag;

@@ -31,7 +31,7 @@ class LinearisedRun {
 
   /// ∂f/∂θ at one end of a step, node × parameter [K/s per unit of θ].
   using Forcing = std::function<void(thermal::Evaluation&, double time, std::vector<double> const& state,
-                                     std::vector<double> const& input, Eigen::MatrixXd& forcing)>;
+                                     std::vector<double> const& input, thermal::NodeByParameter& forcing)>;
 
   /// ∂z/∂θ, (channel · rows + row) × parameter. `initial`: node × parameter, dy(0)/dθ.
   [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial) const;

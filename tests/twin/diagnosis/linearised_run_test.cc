@@ -67,9 +67,8 @@ MatrixXd forward(BinnedRun const& binned) {
                        for (Index c = 0; c < channels; ++c)
                          for (Index k = 0; k < result.cols(); ++k)
                            for (auto const& [node, weight] : *weights[std::size_t(c)])
-                             result(c * rows + row, k) += weight *
-                                                          (*at.sensitivities)[std::size_t(k)][std::size_t(node)] /
-                                                          binned.samples(row, c);
+                             result(c * rows + row, k) +=
+                                 weight * (*at.sensitivities)(node, k) / binned.samples(row, c);
                      });
   return result;
 }
@@ -148,9 +147,10 @@ TEST(LinearisedRun, RespondsToAWarmStart) {
   };
   MatrixXd const expected = shown(warm) - shown(cold);
   thermal::ParameterColumns const none(machine().network(), {});
-  MatrixXd const actual = LinearisedRun(machine(), binned)
-                              .response([](auto&, double, auto&, auto&, MatrixXd& forcing) { forcing.setZero(); },
-                                        MatrixXd::Ones(machine().network().nodes(), 1));
+  MatrixXd const actual =
+      LinearisedRun(machine(), binned)
+          .response([](auto&, double, auto&, auto&, thermal::NodeByParameter& forcing) { forcing.setZero(); },
+                    MatrixXd::Ones(machine().network().nodes(), 1));
   auto const rows = binned.time.size();
   for (std::size_t c = 0; c < run.channels.size(); ++c) {
     Eigen::VectorXd const difference = expected.col(Index(c)) - actual.col(0).segment(Index(c) * rows, rows);
