@@ -21,6 +21,10 @@ double lagged(double before, double from, double to, double lag, double step) {
   return to - slope * lag + (before - from + slope * lag) * decay;
 }
 
+double value_of(std::vector<double> const& course, int channel) {
+  return channel < 0 ? 0.0 : course[std::size_t(channel)];
+}
+
 int channel_index(thermal::Course const& course, std::string const& name) {
   auto const& channels = course.channels();
   for (std::size_t i = 0; i < channels.size(); ++i)
@@ -40,11 +44,10 @@ class LinearisedRun::View : public ChannelReading {
     return views;
   }
   /// Before its lag.
-  [[nodiscard]] double shown(LinearisedRun const& run, End const& end, double time) const;
+  [[nodiscard]] double shown(LinearisedRun const& run, End const& end) const;
 
  private:
-  [[nodiscard]] double air(LinearisedRun const& run, double time, double height) const;
-  [[nodiscard]] double course_at(LinearisedRun const& run, int channel, double time) const;
+  [[nodiscard]] double air(End const& end, double height) const;
 
   double height_ = 0.0;
   int floor_ = -1, gradient_ = -1;
@@ -61,39 +64,31 @@ LinearisedRun::View::View(Machine const& machine, MeasuredRun const& run, Measur
       term_channels_.push_back(channel_index(*run.course, term.channel));
 }
 
-double LinearisedRun::View::course_at(LinearisedRun const& run, int channel, double time) const {
-  if (channel < 0) return 0.0;
-  auto const& course = *run.data_->run->course;
-  run.scratch_.resize(course.channels().size());
-  course.evaluate(time, run.scratch_);
-  return run.scratch_[std::size_t(channel)];
+double LinearisedRun::View::air(End const& end, double height) const {
+  return value_of(end.course, floor_) + height * value_of(end.course, gradient_);
 }
 
-double LinearisedRun::View::air(LinearisedRun const& run, double time, double height) const {
-  return course_at(run, floor_, time) + height * course_at(run, gradient_, time);
-}
-
-double LinearisedRun::View::shown(LinearisedRun const& run, End const& end, double time) const {
+double LinearisedRun::View::shown(LinearisedRun const& run, End const& end) const {
   auto const& network = run.machine_->network();
   auto const temperature = [&](int node, End const& at) {
     return network.temperature_of_state(node, at.state[std::size_t(node)]);
   };
   auto const& start = run.begins_.front();
-  double value = offset + drift * time;
+  double value = offset + drift * end.time;
   if (sensor) {
-    double body = sensor->weights.empty() ? air(run, time, height_) : 0.0;
+    double body = sensor->weights.empty() ? air(end, height_) : 0.0;
     for (auto const& [node, weight] : sensor->weights) body += weight * temperature(node, end);
-    return value + body - (air_share == 0.0 ? 0.0 : air_share * (body - air(run, time, height_)));
+    return value + body - (air_share == 0.0 ? 0.0 : air_share * (body - air(end, height_)));
   }
   if (!displacement) return value;
   for (auto const& [node, weight] : displacement->weights)
     value += weight * (temperature(node, end) - temperature(node, start));
   for (std::size_t t = 0; t < term_channels_.size(); ++t) {
     auto const& term = displacement->input_terms[t];
-    value += term.coefficient * (std::pow(course_at(run, term_channels_[t], time), term.power) -
-                                 std::pow(course_at(run, term_channels_[t], start.time), term.power));
+    value += term.coefficient * (std::pow(value_of(end.course, term_channels_[t]), term.power) -
+                                 std::pow(value_of(start.course, term_channels_[t]), term.power));
   }
-  return per_air == 0.0 ? value : value + per_air * (air(run, time, 0.0) - air(run, start.time, 0.0));
+  return per_air == 0.0 ? value : value + per_air * (air(end, 0.0) - air(start, 0.0));
 }
 
 LinearisedRun::LinearisedRun(Machine const& machine, BinnedRun const& data) : machine_(&machine), data_(&data) {
@@ -119,16 +114,17 @@ void LinearisedRun::trace() {
   auto const& names = machine_->network().channel_names();
   std::vector<int> from(std::size_t(machine_->network().external_channels()));
   for (std::size_t i = 0; i < from.size(); ++i) from[i] = channel_index(course, names[i]);
-  std::vector<double> values(course.channels().size());
-  auto const at = [&](double time, std::vector<double> input) {
+  auto const end_of = [&](double time, std::vector<double> const& state, std::vector<double> input) {
+    std::vector<double> values(course.channels().size());
     course.evaluate(time, values);
     for (std::size_t i = 0; i < from.size(); ++i) input[i] = values[std::size_t(from[i])];
-    return input;
+    return End{time, state, std::move(input), std::move(values)};
   };
   for (std::size_t s = 0; s < steps.size(); ++s) {
-    double const inside = 1e-6 * (steps[s].end - steps[s].begin);
-    begins_.push_back({steps[s].begin, states[s], at(steps[s].begin, inputs[s])});
-    ends_.push_back({steps[s].end - inside, states[s + 1], at(steps[s].end - inside, inputs[s])});
+    auto const& [begin, end] = std::pair(steps[s].begin, steps[s].end);
+    bool const jumps = course.next_jump(begin) <= end;
+    begins_.push_back(end_of(begin, states[s], inputs[s]));
+    ends_.push_back(end_of(jumps ? end - 1e-6 * (end - begin) : end, states[s + 1], inputs[s]));
   }
 }
 
@@ -159,8 +155,8 @@ Eigen::MatrixXd LinearisedRun::prediction_of(Machine const& other) const {
     auto const& view = views[std::size_t(c)];
     lags.push_back(view.lag);
     for (std::size_t s = 0; s < steps.size(); ++s) {
-      begins(Eigen::Index(s), c) = view.shown(*this, begins_[s], begins_[s].time);
-      ends(Eigen::Index(s), c) = view.shown(*this, ends_[s], ends_[s].time);
+      begins(Eigen::Index(s), c) = view.shown(*this, begins_[s]);
+      ends(Eigen::Index(s), c) = view.shown(*this, ends_[s]);
     }
   }
   average(lags, begins, ends, rows);
@@ -229,7 +225,7 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
   thermal::NodeByParameter S = initial, from_forcing(n, m), to_forcing(n, m), stage(n, m);
   thermal::NodeByParameter from = H * S, to(H.rows(), m), shown = from;
   thermal::NodeByParameter const at_start = from;
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows * H.rows(), m);
+  thermal::NodeByParameter result = thermal::NodeByParameter::Zero(rows * H.rows(), m);
   std::vector<double> middle(static_cast<std::size_t>(n)), input;
   for (std::size_t s = 0; s < steps.size(); ++s) {
     double const h = steps[s].end - steps[s].begin;
@@ -238,7 +234,10 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
     input = begins_[s].input;
     for (std::size_t i = 0; i < input.size(); ++i) input[i] = 0.5 * (input[i] + ends_[s].input[i]);
     system.linearise(evaluation, middle.data(), input.data());
-    forcing(evaluation, begins_[s].time, begins_[s].state, begins_[s].input, from_forcing);
+    if (s > 0 && begins_[s].time == ends_[s - 1].time && begins_[s].input == ends_[s - 1].input)
+      from_forcing.swap(to_forcing);
+    else
+      forcing(evaluation, begins_[s].time, begins_[s].state, begins_[s].input, from_forcing);
     forcing(evaluation, ends_[s].time, ends_[s].state, ends_[s].input, to_forcing);
     // A stage k = A x + f has x = S + γh k, so that (I − γhA) x = S + γh f; the second stage ends where the step does.
     stage = S + gamma * h * ((1.0 - gamma) * from_forcing + gamma * to_forcing);

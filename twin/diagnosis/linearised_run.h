@@ -57,6 +57,7 @@ class LinearisedRun {
   struct End {
     double time;
     std::vector<double> state, input;
+    std::vector<double> course;  ///< all channels of the data
   };
   class View;
   void trace();
@@ -67,7 +68,6 @@ class LinearisedRun {
   Machine const* machine_;
   BinnedRun const* data_;
   std::vector<End> begins_, ends_;  ///< of the steps
-  mutable std::vector<double> scratch_;
 };
 
 /// Whether the spindle or an axis moves at that time.
