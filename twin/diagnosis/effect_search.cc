@@ -8,6 +8,7 @@
 #include <set>
 
 #include "twin/diagnosis/expected_noise.h"
+#include "twin/parallel.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -15,6 +16,13 @@ namespace {
 constexpr std::size_t most_refits = 24;
 constexpr std::size_t most_alternatives = 3;
 constexpr double confusable = 0.6;  // cosine of two signatures (physics.md 8.6)
+constexpr double fit_share = 1.2, form_share = 0.1;
+
+/// Of an amplitude: what the linearised fit says, and what a machine of some ten nodes gets wrong by its form, however
+/// clear the data are. With these shares intervals of 95 % are such (docs/diagnosis.md).
+double standard_error(double of_fit, double amplitude) {
+  return std::hypot(fit_share * of_fit, form_share * amplitude);
+}
 
 /// −2 ln likelihood of one channel's residuals in all runs.
 double misfit(ChannelNoise const& noise, std::string const& channel, std::vector<BinnedRun> const& runs,
@@ -23,7 +31,8 @@ double misfit(ChannelNoise const& noise, std::string const& channel, std::vector
   for (std::size_t r = 0; r < runs.size(); ++r)
     for (std::size_t c = 0; c < runs[r].run->channels.size(); ++c) {
       if (runs[r].run->channels[c].name != channel) continue;
-      Whitening const whitening(noise, runs[r].time, runs[r].samples.col(Eigen::Index(c)));
+      Whitening const whitening(noise.along(runs[r].values.col(Eigen::Index(c))), runs[r].time,
+                                runs[r].samples.col(Eigen::Index(c)));
       Eigen::MatrixXd signal = residuals[r].col(Eigen::Index(c));
       whitening.apply(signal);
       sum += signal.squaredNorm() + 2.0 * whitening.log_scale();
@@ -44,6 +53,7 @@ std::vector<ChannelNoise> observed_noise(Estimation const& estimation, Eigen::Ve
         ChannelNoise trial = expected[c];
         trial.fast *= fast;
         trial.slow *= slow;
+        trial.slow_share *= slow;
         double const value = misfit(trial, estimation.channels()[c], estimation.data(), residuals);
         if (value < best) {
           best = value;
@@ -127,8 +137,7 @@ Eigen::MatrixXd EffectSearch::whitened_signatures(std::vector<Hypothesis> const&
 std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vector<std::size_t> const& chosen,
                                                       std::vector<Score> const& scores) const {
   std::vector<Refit> result(chosen.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
+  in_parallel(chosen.size(), [&](std::size_t i) {
     auto& refit = result[i];
     refit.hypothesis = hypotheses_[chosen[i]];
     Eigen::VectorXd start(about.x.size() + 1);
@@ -145,7 +154,7 @@ std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vec
     } catch (std::exception const&) {
       refit.strength = -INFINITY;
     }
-  }
+  });
   std::stable_sort(result.begin(), result.end(), [](auto const& a, auto const& b) { return a.strength > b.strength; });
   return result;
 }
@@ -184,7 +193,8 @@ Explanation EffectSearch::explanation_of(std::vector<Refit> const& refits) const
     auto const same = [&](Finding const& f) { return f.hypothesis.effect == refit.hypothesis.effect; };
     if (std::any_of(explanation.alternatives.begin(), explanation.alternatives.end(), same)) continue;
     double const unit = refit.hypothesis.trial->largest;
-    Finding finding{refit.hypothesis, refit.amplitude * unit, refit.standard_error * unit, refit.strength,
+    Finding finding{refit.hypothesis, refit.amplitude * unit,
+                    standard_error(refit.standard_error, refit.amplitude) * unit, refit.strength,
                     std::exp(-0.5 * behind)};
     sum += finding.weight;
     explanation.alternatives.push_back(std::move(finding));
@@ -261,13 +271,12 @@ Estimation EffectSearch::with_effects(std::vector<Hypothesis> const& effects) co
 std::vector<double> EffectSearch::strengths_beside_others() const {
   auto const effects = estimation_->effects();
   auto const first = fit_.x.size() - Eigen::Index(effects.size());
-  std::vector<double> strengths;
-  for (std::size_t e = 0; e < effects.size(); ++e) {
+  std::vector<double> strengths(effects.size());
+  in_parallel(effects.size(), [&](std::size_t e) {
     auto others = effects;
     others.erase(others.begin() + std::ptrdiff_t(e));
-    strengths.push_back(with_effects(others).fit(shorter(fit_.x, first + Eigen::Index(e)), 10).evidence -
-                        fit_.evidence);
-  }
+    strengths[e] = with_effects(others).fit(shorter(fit_.x, first + Eigen::Index(e)), 10).evidence - fit_.evidence;
+  });
   return strengths;
 }
 
@@ -323,7 +332,7 @@ void EffectSearch::take_joint_estimates() {
     auto& best = explanations_[e].alternatives[0];
     double const unit = best.hypothesis.trial->largest;
     best.amplitude = fit_.x[u] * unit;
-    best.standard_error = std::sqrt(fit_.covariance(u, u)) * unit;
+    best.standard_error = standard_error(std::sqrt(fit_.covariance(u, u)), fit_.x[u]) * unit;
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "thermal/error.h"
 #include "twin/diagnosis/least_squares.h"
+#include "twin/parallel.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -143,7 +144,8 @@ void Estimation::make_whitenings() {
     auto& own = whitenings_.emplace_back();
     for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
       auto const it = std::find(channels_.begin(), channels_.end(), run.run->channels[c].name);
-      own.emplace_back(noise_[std::size_t(it - channels_.begin())], run.time, run.samples.col(Eigen::Index(c)));
+      own.emplace_back(noise_[std::size_t(it - channels_.begin())].along(run.values.col(Eigen::Index(c))), run.time,
+                       run.samples.col(Eigen::Index(c)));
     }
   }
 }
@@ -288,15 +290,11 @@ std::unique_ptr<Estimation::Traced const> Estimation::trace(Eigen::VectorXd cons
     return nullptr;
   }
   traced->runs.resize(data_->size());
-  bool good = true;
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t r = 0; r < data_->size(); ++r) try {
-      traced->runs[r].emplace(traced->machine, (*data_)[r]);
-    } catch (std::exception const&) {
-#pragma omp critical
-      good = false;
-    }
-  if (!good) return nullptr;
+  try {
+    in_parallel(data_->size(), [&](std::size_t r) { traced->runs[r].emplace(traced->machine, (*data_)[r]); });
+  } catch (std::exception const&) {
+    return nullptr;
+  }
   return traced;
 }
 
@@ -329,47 +327,44 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const
   std::optional<thermal::ParameterColumns> parameters;
   if (jacobian) parameters.emplace(network, pointers);
   residual.setZero(rows_ + unknowns);
-  bool good = true;
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t r = 0; r < data_->size(); ++r) {
+  auto const add_run = [&](std::size_t r) {
     auto const& run = (*data_)[r];
-    try {
-      LinearisedRun const& twin = *traced->runs[r];
-      auto const first = first_rows_[r];
-      auto const count = run.values.size();
-      Eigen::MatrixXd const difference = run.values - twin.prediction();
-      residual.segment(first, count) = difference.reshaped();
-      if (!jacobian) continue;
-      Eigen::MatrixXd const slower = twin.prediction_of(later(machine));
-      Eigen::MatrixXd const response = twin.response(*parameters);
-      for (std::size_t k = 0; k < columns.size(); ++k)
-        jacobian->col(columns[k]).segment(first, count) -= response.col(Eigen::Index(k));
-      for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-        auto const& unknown = unknowns_[u];
-        auto column = jacobian->col(Eigen::Index(u)).segment(first, count);
-        if (unknown.kind == Unknown::Kind::lag)
-          for (std::size_t c = 0; c < run.run->channels.size(); ++c)
-            if (run.run->channels[c].name == channels_[unknown.index]) {
-              auto const rows = run.time.size();
-              column.segment(Eigen::Index(c) * rows, rows) =
-                  (difference - (run.values - slower)).col(Eigen::Index(c)) * -1.0;
-            }
-        if (unknown.kind == Unknown::Kind::number && moves_tool(number_derivatives_[unknown.index]))
-          column -= numbers_[unknown.index].slope(x[Eigen::Index(u)]) *
-                    twin.growth(number_derivatives_[unknown.index].displacements).reshaped();
-        if (unknown.kind == Unknown::Kind::amplitude && is_read_directly(effects_[unknown.index])) {
-          double const step = relative_step * std::max(std::abs(x[Eigen::Index(u)]), 1e-3);
-          Eigen::VectorXd plus = x;
-          plus[Eigen::Index(u)] += step;
-          column -= ((twin.prediction_of(machine_at(plus)) - twin.prediction()) / step).reshaped();
-        }
+    LinearisedRun const& twin = *traced->runs[r];
+    auto const first = first_rows_[r];
+    auto const count = run.values.size();
+    Eigen::MatrixXd const difference = run.values - twin.prediction();
+    residual.segment(first, count) = difference.reshaped();
+    if (!jacobian) return;
+    Eigen::MatrixXd const slower = twin.prediction_of(later(machine));
+    Eigen::MatrixXd const response = twin.response(*parameters);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      jacobian->col(columns[k]).segment(first, count) -= response.col(Eigen::Index(k));
+    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+      auto const& unknown = unknowns_[u];
+      auto column = jacobian->col(Eigen::Index(u)).segment(first, count);
+      if (unknown.kind == Unknown::Kind::lag)
+        for (std::size_t c = 0; c < run.run->channels.size(); ++c)
+          if (run.run->channels[c].name == channels_[unknown.index]) {
+            auto const rows = run.time.size();
+            column.segment(Eigen::Index(c) * rows, rows) =
+                (difference - (run.values - slower)).col(Eigen::Index(c)) * -1.0;
+          }
+      if (unknown.kind == Unknown::Kind::number && moves_tool(number_derivatives_[unknown.index]))
+        column -= numbers_[unknown.index].slope(x[Eigen::Index(u)]) *
+                  twin.growth(number_derivatives_[unknown.index].displacements).reshaped();
+      if (unknown.kind == Unknown::Kind::amplitude && is_read_directly(effects_[unknown.index])) {
+        double const step = relative_step * std::max(std::abs(x[Eigen::Index(u)]), 1e-3);
+        Eigen::VectorXd plus = x;
+        plus[Eigen::Index(u)] += step;
+        column -= ((twin.prediction_of(machine_at(plus)) - twin.prediction()) / step).reshaped();
       }
-    } catch (std::exception const&) {
-#pragma omp critical
-      good = false;
     }
+  };
+  try {
+    in_parallel(data_->size(), add_run);
+  } catch (std::exception const&) {
+    return false;
   }
-  if (!good) return false;
   for (Eigen::Index i = 0; i < rows_; ++i)
     if (std::isnan(residual[i])) residual[i] = 0.0;
   whiten(residual.head(rows_));

@@ -1,25 +1,16 @@
 #include "twin/diagnosis/expected_noise.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace thermotwin::twin {
 
 ChannelNoise expected_noise(Machine const& machine, std::string const& channel, std::vector<BinnedRun> const& runs) {
-  double low = INFINITY, high = -INFINITY;
   bool displacement = false;
   for (auto const& run : runs)
-    for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
-      if (run.run->channels[c].name != channel) continue;
-      displacement = run.run->channels[c].displacement;
-      for (double const v : run.values.col(Eigen::Index(c)))
-        if (!std::isnan(v)) {
-          low = std::min(low, v);
-          high = std::max(high, v);
-        }
-    }
+    for (auto const& own : run.run->channels)
+      if (own.name == channel) displacement = own.displacement;
   ChannelNoise noise;
-  noise.slow = 0.02 * std::max(0.0, high - low);
+  noise.slow_share = 0.02;
   if (displacement) {
     noise.white = 0.2e-6;
     noise.rounding = 0.05e-6;

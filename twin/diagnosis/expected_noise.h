@@ -8,7 +8,7 @@
 namespace thermotwin::twin {
 
 /// The noise that is expected of a channel before the data have spoken: its instrument's, a model error of 0.1 K over
-/// ten minutes and of 2 % of what the channel goes through over hours (physics.md 8.6).
+/// ten minutes and of 2 % of what the channel goes through in a run over hours (physics.md 8.6).
 [[nodiscard]] ChannelNoise expected_noise(Machine const& machine, std::string const& channel,
                                           std::vector<BinnedRun> const& runs);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "twin/parallel.h"
+
 namespace thermotwin::twin {
 namespace {
 
@@ -144,15 +146,14 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
   std::vector<Eigen::VectorXd> knots;
   for (auto const& run : estimation.data()) knots.push_back(knots_of(run));
   std::vector<Eigen::MatrixXd> columns(knots.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t r = 0; r < knots.size(); ++r)
+  in_parallel(knots.size(), [&](std::size_t r) {
     columns[r] = columns_of(estimation, r, LinearisedRun(machine, estimation.data()[r]), sites, knots[r]);
+  });
   Eigen::MatrixXd const J = fit.jacobian.topRows(estimation.rows());
   Eigen::LLT<Eigen::MatrixXd> const nuisance((fit.jacobian.transpose() * fit.jacobian).eval());
   Eigen::VectorXd const explained = nuisance.solve(fit.jacobian.transpose() * fit.residual);
   std::vector<FreeHeat> scan(sites.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t s = 0; s < sites.size(); ++s) {
+  in_parallel(sites.size(), [&](std::size_t s) {
     Eigen::Index width = 0;
     for (auto const& k : knots) width += k.size();
     Eigen::MatrixXd own(estimation.rows(), width);
@@ -166,7 +167,7 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
     Eigen::VectorXd const towards =
         own.transpose() * fit.residual.head(estimation.rows()) - shared.transpose() * explained;
     scan[s] = estimate(sites[s], knots, information, towards);
-  }
+  });
   std::stable_sort(scan.begin(), scan.end(), [](auto const& a, auto const& b) { return a.gain > b.gain; });
   return scan;
 }

@@ -1,10 +1,24 @@
 #include "twin/diagnosis/noise_model.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace thermotwin::twin {
+
+ChannelNoise ChannelNoise::along(Eigen::VectorXd const& values) const {
+  double low = INFINITY, high = -INFINITY;
+  for (double const v : values)
+    if (!std::isnan(v)) {
+      low = std::min(low, v);
+      high = std::max(high, v);
+    }
+  ChannelNoise noise = *this;
+  noise.slow += slow_share * std::max(0.0, high - low);
+  noise.slow_share = 0.0;
+  return noise;
+}
 
 Whitening::Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eigen::VectorXd const& samples) {
   Eigen::Vector2d const stationary(noise.fast * noise.fast, noise.slow * noise.slow);

@@ -16,6 +16,12 @@ struct ChannelNoise {
   double rounding = 0.0;  ///< of one row, however many samples
   double fast = 0.0, fast_time = 600.0;
   double slow = 0.0, slow_time = 3.0 * 3600.0;
+  /// σ₂ besides, of the range that the channel goes through in a run: a machine at rest has little that a model could
+  /// get wrong.
+  double slow_share = 0.0;
+
+  /// The noise in a run in which the channel shows these values; NaN: none.
+  [[nodiscard]] ChannelNoise along(Eigen::VectorXd const& values) const;
 };
 
 /// Turns such noise into white noise of variance 1: the innovations of the Kalman filter of (m₁, m₂), divided by their

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 
 #include "thermal/error.h"
+#include "twin/parallel.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -91,11 +93,11 @@ std::vector<thermal::NetworkDerivative const*> SharedNetwork::derivatives() cons
 
 /// One hypothesis alone, where it changes readings, displacements or the air.
 void add_alone(Estimation const& estimation, Value const& document, Hypothesis const& hypothesis, std::size_t index,
-               std::vector<LinearisedRun> const& twins, Eigen::MatrixXd& columns) {
+               std::vector<std::optional<LinearisedRun>> const& twins, Eigen::MatrixXd& columns) {
   double const unit = hypothesis.trial->largest;
   auto const at = [&](double amplitude) {
     Machine machine = Machine::build(with_hypothesis(document, hypothesis, trial_table(index), amplitude * unit));
-    auto const& fitted = twins[0].machine().sensors;
+    auto const& fitted = twins[0]->machine().sensors;
     for (std::size_t s = 0; s < fitted.size(); ++s) machine.sensors[s].description.lag = fitted[s].description.lag;
     return machine;
   };
@@ -108,7 +110,7 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
       LinearisedRun const twin(without, run);  // its air may follow inputs that the other's does not
       column = twin.response(thermal::ParameterColumns(without.network(), {&derivative.network}));
     } else {
-      column = ((twins[r].prediction_of(with) - twins[r].prediction_of(without)) / (2.0 * step)).reshaped();
+      column = ((twins[r]->prediction_of(with) - twins[r]->prediction_of(without)) / (2.0 * step)).reshaped();
     }
   }
 }
@@ -138,17 +140,17 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
   Machine const machine = estimation.machine_at(fit.x);
   SharedNetwork const all(document, hypotheses, shared, machine);
   thermal::ParameterColumns const parameters(all.machine().network(), all.derivatives());
-  std::vector<LinearisedRun> twins;
-  for (auto const& run : estimation.data()) twins.emplace_back(machine, run);
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t r = 0; r < estimation.data().size(); ++r) {
+  std::vector<std::optional<LinearisedRun>> twins(estimation.data().size());
+  in_parallel(twins.size(), [&](std::size_t r) {
+    twins[r].emplace(machine, estimation.data()[r]);
     LinearisedRun const twin(all.machine(), estimation.data()[r]);
     Eigen::MatrixXd const response = twin.response(parameters, {}, machine.network().nodes());
     for (std::size_t k = 0; k < shared.size(); ++k)
       columns.col(Eigen::Index(shared[k])).segment(estimation.first_row(r), response.rows()) =
           response.col(Eigen::Index(k));
-  }
-  for (std::size_t const h : alone) add_alone(estimation, document, hypotheses[h], h, twins, columns);
+  });
+  in_parallel(alone.size(),
+              [&](std::size_t i) { add_alone(estimation, document, hypotheses[alone[i]], alone[i], twins, columns); });
   return columns;
 }
 

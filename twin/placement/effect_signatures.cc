@@ -1,7 +1,6 @@
 #include "twin/placement/effect_signatures.h"
 
 #include <cmath>
-#include <exception>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -9,6 +8,7 @@
 #include "thermal/error.h"
 #include "twin/challenge/challenge_runs.h"
 #include "twin/diagnosis/hypothesis.h"
+#include "twin/parallel.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -99,24 +99,15 @@ EffectSignatures effect_signatures(Value const& document, std::vector<CandidateS
   SiteCourses const readings(nominal, sites.size(), options);
   Eigen::MatrixXd const without = readings(nominal);
   std::vector<std::optional<Eigen::MatrixXd>> differences(effects.size());
-  std::vector<std::exception_ptr> failures(effects.size());
-  std::size_t done = 0;
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t e = 0; e < effects.size(); ++e) {
+  in_parallel(effects.size(), options.progress, nullptr, [&](std::size_t e) {
     try {
       auto const& effect = effects[e];
       auto const changed = with_hypothesis(with_sites, effect, "tried", share_of_largest * effect.trial->largest);
       differences[e] = readings(Machine::build(changed)) - without;
     } catch (thermal::InputError const&) {  // it cannot act there
     } catch (thermal::IntegrationError const&) {
-    } catch (...) {
-      failures[e] = std::current_exception();
     }
-#pragma omp critical(signatures_progress)
-    if (options.progress) options.progress(double(++done) / double(effects.size()));
-  }
-  for (auto const& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+  });
   EffectSignatures result;
   std::vector<Eigen::MatrixXd> courses;
   for (std::size_t e = 0; e < effects.size(); ++e) {

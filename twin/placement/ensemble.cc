@@ -1,12 +1,12 @@
 #include "twin/placement/ensemble.h"
 
-#include <exception>
 #include <map>
 
 #include "thermal/error.h"
 #include "twin/challenge/challenge_runs.h"
 #include "twin/challenge/hidden_world.h"
 #include "twin/history.h"
+#include "twin/parallel.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -106,20 +106,7 @@ void append(Ensemble& ensemble, int member, std::vector<Part> const& parts) {
 
 Ensemble Draw::operator()() const {
   std::vector<std::vector<Part>> members(std::size_t(options_.members));
-  std::vector<std::exception_ptr> failures(members.size());
-  int done = 0;
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    try {
-      members[m] = member(int(m));
-    } catch (...) {
-      failures[m] = std::current_exception();
-    }
-#pragma omp critical(ensemble_progress)
-    if (options_.progress) options_.progress(double(++done) / options_.members);
-  }
-  for (auto const& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+  in_parallel(members.size(), options_.progress, nullptr, [&](std::size_t m) { members[m] = member(int(m)); });
   Ensemble ensemble;
   ensemble.channels = names_;
   for (std::size_t m = 0; m < members.size(); ++m) append(ensemble, int(m), members[m]);

@@ -8,7 +8,7 @@
 
 #include "twin/study/choice.h"
 #include "twin/study/judgement.h"
-#include "twin/study/parallel.h"
+#include "twin/parallel.h"
 #include "twin/study/study_twin.h"
 #include "twin/study/verdict.h"
 

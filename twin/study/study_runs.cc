@@ -1,7 +1,6 @@
 #include "twin/study/study_runs.h"
 
 #include <cmath>
-#include <exception>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -12,7 +11,7 @@
 #include "twin/file/document.h"
 #include "twin/file/value.h"
 #include "twin/run.h"
-#include "twin/study/parallel.h"
+#include "twin/parallel.h"
 #include "twin/thermal_modes.h"
 
 namespace thermotwin::twin {

@@ -10,5 +10,8 @@ namespace thermotwin::twin {
 /// by number is thrown again when all are done. `progress` gets the share done; Interrupted when `stop` is set.
 void in_parallel(std::size_t count, std::function<void(double)> const& progress, std::atomic<bool> const* stop,
                  std::function<void(std::size_t)> const& work);
+inline void in_parallel(std::size_t count, std::function<void(std::size_t)> const& work) {
+  in_parallel(count, {}, nullptr, work);
+}
 
 }  // namespace thermotwin::twin

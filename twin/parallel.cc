@@ -1,4 +1,4 @@
-#include "twin/study/parallel.h"
+#include "twin/parallel.h"
 
 #include <exception>
 #include <vector>
