@@ -8,7 +8,7 @@
 #include "twin/live_twin.h"
 #include "twin/reduced_twin.h"
 #include "twin/run.h"
-#include "twin/study/parallel.h"
+#include "twin/parallel.h"
 
 namespace thermotwin::twin {
 namespace {
