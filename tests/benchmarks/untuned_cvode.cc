@@ -1,4 +1,5 @@
 #include <benchmark/benchmark.h>
+#include <cmath>
 #include <cvodes/cvodes.h>
 #include <filesystem>
 #include <nvector/nvector_serial.h>
@@ -7,12 +8,14 @@
 
 #include "scenarios/course.h"
 #include "thermal/evaluation.h"
+#include "thermal/integrate.h"
 #include "twin/machine.h"
 #include "twin/run.h"
 
 /// What a campaign is measured against: 24 h of random spectrum on v450 with CVODES as it comes, a sparse matrix, KLU,
 /// the same right-hand side and Jacobian; scalar tolerances of 1e-6, of temperatures in kelvin: 3e-4 K. Its results are
-/// thrown away. Beside it the same run as a campaign makes it.
+/// thrown away. Beside it the same integration by us to several tolerances, and the whole run as a campaign makes it.
+/// `rms_K`: over all nodes and samples, against a tolerance of 1e-10.
 namespace thermotwin::twin {
 namespace {
 
@@ -27,6 +30,27 @@ struct Problem {
     experiment.spindle.emplace().random.emplace().run = experiment.duration;
   }
 };
+
+using States = std::vector<std::vector<double>>;
+
+States integrated(Problem const& problem, double tolerance) {
+  scenarios::ExperimentCourse const course(problem.experiment, problem.machine.limits);
+  std::vector<double> const start(std::size_t(problem.machine.network().nodes()), 295.15);
+  thermal::IntegrationOptions options;
+  options.relative_tolerance = options.absolute_tolerance = tolerance;
+  States states;
+  thermal::integrate(problem.machine.network(), course, start, scenarios::sample_times(problem.experiment), options,
+                     [&](auto const& sample) { states.emplace_back(sample.state.begin(), sample.state.end()); });
+  return states;
+}
+
+double rms_error(Problem const& problem, States const& states) {
+  static States const exact = integrated(problem, 1e-10);
+  double sum = 0.0, count = 0.0;
+  for (std::size_t s = 0; s < exact.size(); ++s)
+    for (std::size_t i = 0; i < exact[s].size(); ++i, ++count) sum += std::pow(states[s][i] - exact[s][i], 2);
+  return std::sqrt(sum / count);
+}
 
 struct Loop {
   Loop(Problem const& problem)
@@ -69,7 +93,9 @@ struct Loop {
 void UntunedCvodeKlu24h(benchmark::State& state) {
   Problem const problem;
   int const n = problem.machine.network().nodes();
+  States states;
   for (auto _ : state) {
+    states.clear();
     Loop loop(problem);
     SUNContext context = nullptr;
     SUNContext_Create(nullptr, &context);
@@ -88,7 +114,7 @@ void UntunedCvodeKlu24h(benchmark::State& state) {
     CVodeSetJacFn(cvode, Loop::jacobian);
     double t = 0.0;
     loop.end = loop.course.next_jump(0.0);
-    for (double const out : scenarios::sample_times(problem.experiment))
+    for (double const out : scenarios::sample_times(problem.experiment)) {
       while (t < out) {
         CVodeSetStopTime(cvode, std::min(loop.end, 1e9));
         if (CVode(cvode, std::min(out, loop.end), y, &t, CV_NORMAL) < 0) return state.SkipWithError("CVODES gave up");
@@ -96,15 +122,26 @@ void UntunedCvodeKlu24h(benchmark::State& state) {
         loop.end = loop.course.next_jump(t);
         CVodeReInit(cvode, t, y);
       }
-    benchmark::DoNotOptimize(N_VGetArrayPointer(y)[0]);
+      states.emplace_back(N_VGetArrayPointer(y), N_VGetArrayPointer(y) + n);
+    }
     CVodeFree(&cvode);
     SUNLinSolFree(solver);
     SUNMatDestroy(matrix);
     N_VDestroy(y);
     SUNContext_Free(&context);
   }
+  state.counters["rms_K"] = rms_error(problem, states);
 }
 BENCHMARK(UntunedCvodeKlu24h)->Unit(benchmark::kMillisecond);
+
+/// To a tolerance in millionths.
+void Integration24h(benchmark::State& state) {
+  Problem const problem;
+  States states;
+  for (auto _ : state) states = integrated(problem, 1e-6 * double(state.range(0)));
+  state.counters["rms_K"] = rms_error(problem, states);
+}
+BENCHMARK(Integration24h)->Unit(benchmark::kMillisecond)->Arg(10)->Arg(25)->Arg(30);
 
 void CampaignRun24h(benchmark::State& state) {
   Problem const problem;

@@ -17,9 +17,9 @@ namespace thermotwin::twin {
 ///   ds/dt = A(t) s + ∂f/∂θ,   δz = H s,   A = ∂f/∂y,
 ///
 /// integrated for all parameters at once with the two-stage L-stable method of Alexander (SIAM J. Numer. Anal. 14
-/// (1977) 1006, eq. 2.9), γ = 1 − 1/√2, whose stages share one factorisation. The course itself comes from CVODES; so
-/// do its forward sensitivities, which agree with these to a part in a thousand and cost a hundred times as much for
-/// the many hundred parameters that a diagnosis asks about.
+/// (1977) 1006, eq. 2.9), γ = 1 − 1/√2, whose stages share one factorisation. The course itself comes from CVODES; the
+/// forward sensitivities along it (thermal::ForwardSensitivities) agree with these to a part in a thousand, but take
+/// CVODES' many steps.
 class LinearisedRun {
  public:
   LinearisedRun(Machine const& machine, BinnedRun const& data);
