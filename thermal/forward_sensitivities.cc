@@ -102,6 +102,7 @@ NodeByParameter const& ForwardSensitivities::forcing(Instant const& at) {
 }
 
 bool ForwardSensitivities::step(double end, int order, std::function<Instant(double)> const& run) {
+  for (; past_.size() > longest_past; past_.pop_back()) spare_ = std::move(past_.back().S);
   int parts = 1;  // of what is left
   while (past_.front().time < end) {
     double const begin = past_.front().time;
@@ -115,9 +116,6 @@ bool ForwardSensitivities::step(double end, int order, std::function<Instant(dou
       continue;
     }
     parts = std::max(1, parts - 1);
-    if (past_.size() <= longest_past) continue;
-    spare_ = std::move(past_.back().S);
-    past_.pop_back();
   }
   return true;
 }
@@ -159,16 +157,19 @@ double ForwardSensitivities::error() {
     at_time_ -= weight * past_[i].S;
   }
   double const factor = gamma_ / (time - past_[points].time);
-  auto const squares = at_time_.colwise().squaredNorm() / double(network_->nodes());
-  return factor * (squares.transpose().cwiseSqrt().cwiseProduct(per_tolerance_)).maxCoeff();
+  Eigen::VectorXd const size = at_time_.colwise().norm().transpose() / std::sqrt(double(network_->nodes()));
+  return factor * size.cwiseProduct(per_tolerance_).maxCoeff();
 }
 
-/// The polynomial of the last step, in Lagrange's form.
+/// By the polynomial of the part of the last step in which the time lies, in Lagrange's form.
 void ForwardSensitivities::interpolate(double time, NodeByParameter& S) const {
+  std::size_t first = 0;
+  while (first + 2 < past_.size() && past_[first + 1].time > time) ++first;
+  std::size_t const end = std::min(first + std::size_t(order_) + 1, past_.size());
   S = NodeByParameter::Zero(past_[0].S.rows(), past_[0].S.cols());
-  for (std::size_t i = 0; i <= std::size_t(order_); ++i) {
+  for (std::size_t i = first; i < end; ++i) {
     double weight = 1.0;
-    for (std::size_t j = 0; j <= std::size_t(order_); ++j)
+    for (std::size_t j = first; j < end; ++j)
       if (j != i) weight *= (time - past_[j].time) / (past_[i].time - past_[j].time);
     if (weight != 0.0) S += weight * past_[i].S;
   }

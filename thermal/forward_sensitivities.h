@@ -36,7 +36,7 @@ class ForwardSensitivities {
 
   /// At a start of the run: S of the state there, from the parameters' initial temperatures.
   void start(double time, double const* state);
-  /// Begins anew at a time within the last step: after a jump the past is none.
+  /// Begins anew at a time within the last step: behind a jump there is no past.
   void restart(double time);
   /// The run at a time within its last step; valid until asked again.
   struct Instant {
@@ -71,9 +71,9 @@ class ForwardSensitivities {
   Evaluation evaluation_;
   NewtonSystem newton_;
   Eigen::VectorXd per_tolerance_;  ///< scale of a parameter over the tolerance [1/K per unit of S]
-  std::deque<Point> past_;         ///< the newest first
-  int order_ = 0;                  ///< of the last step
-  double gamma_ = 0.0;             ///< 1/d₀ of the last step
+  std::deque<Point> past_;         ///< the newest first; of the last step all parts
+  int order_ = 0;                  ///< of the last part
+  double gamma_ = 0.0;             ///< 1/d₀ of the last part
   NodeByParameter together_, forcing_, at_time_, spare_;
 };
 

@@ -6,9 +6,9 @@
 
 #include "twin/instruments/random_stream.h"
 #include "twin/live_twin.h"
+#include "twin/parallel.h"
 #include "twin/reduced_twin.h"
 #include "twin/run.h"
-#include "twin/parallel.h"
 
 namespace thermotwin::twin {
 namespace {

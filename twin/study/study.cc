@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
+#include "twin/parallel.h"
 #include "twin/study/choice.h"
 #include "twin/study/judgement.h"
-#include "twin/parallel.h"
 #include "twin/study/study_twin.h"
 #include "twin/study/verdict.h"
 

@@ -10,8 +10,8 @@
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
 #include "twin/file/value.h"
-#include "twin/run.h"
 #include "twin/parallel.h"
+#include "twin/run.h"
 #include "twin/thermal_modes.h"
 
 namespace thermotwin::twin {
