@@ -1,21 +1,16 @@
 #include "output/journal.h"
 
 #include <array>
-#include <boost/crc.hpp>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 
+#include "output/checksum.h"
+
 namespace thermotwin::output {
 namespace {
 
-using Head = std::array<std::uint64_t, 2>;
-
-std::uint64_t checksum(std::string_view bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
-}
+using Head = std::array<std::uint64_t, 2>;  // size and checksum
 
 }  // namespace
 
@@ -27,7 +22,7 @@ Journal::Journal(std::filesystem::path const& path) : file_(path, LockedFile::Bu
     std::memcpy(head.data(), bytes.data() + good, sizeof head);
     if (head[0] > bytes.size() - good - sizeof head) break;
     std::string record = bytes.substr(good + sizeof head, head[0]);
-    if (checksum(record) != head[1]) break;
+    if (crc_32(record) != head[1]) break;
     good += sizeof head + record.size();
     records_.push_back(std::move(record));
   }
@@ -49,10 +44,11 @@ std::int64_t Journal::count(std::filesystem::path const& path) {
 }
 
 void Journal::append(std::string_view record) {
-  Head const head{record.size(), checksum(record)};
-  std::string bytes(sizeof head, '\0');
-  std::memcpy(bytes.data(), head.data(), sizeof head);
-  file_.append(bytes.append(record));
+  Head const head{record.size(), crc_32(record)};
+  std::string bytes;
+  bytes.reserve(sizeof head + record.size());
+  bytes.append(reinterpret_cast<char const*>(head.data()), sizeof head).append(record);
+  file_.append(bytes);
 }
 
 }  // namespace thermotwin::output

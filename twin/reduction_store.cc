@@ -1,6 +1,5 @@
 #include "twin/reduction_store.h"
 
-#include <boost/crc.hpp>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 
 #include "output/atomic_file.h"
+#include "output/checksum.h"
 #include "output/error.h"
 #include "output/locked_file.h"
 #include "twin/fingerprint.h"
@@ -128,9 +128,7 @@ Reduction reduction_of(std::string_view bytes) {
 
 /// What a file begins with; it depends on every byte that follows.
 std::string first_line(std::string const& key, std::string_view bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return fmt::format("thermotwin reduction {} {:08x}\n", key, crc.checksum());
+  return fmt::format("thermotwin reduction {} {:08x}\n", key, output::crc_32(bytes));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ std::vector<Seam> const seams = {
     {"toml++", std::regex("toml(\\+\\+|plusplus).*"), std::regex("twin/file/toml[^/]*\\.cc")},
     {"Eigen's unsupported modules", std::regex("unsupported/Eigen/.*"),
      std::regex("twin/diagnosis/discretisation\\.cc")},
-    {"zlib", std::regex("zlib\\.h"), std::regex("output/report_page\\.cc")},
+    {"zlib", std::regex("zlib\\.h"), std::regex("output/(report_page|checksum)\\.cc")},
     {"CLI11", std::regex("CLI/.*"), std::regex("twin/(main|command_line[^/]*)\\.cc")},
 };
 

@@ -1,7 +1,6 @@
 #include "twin/campaign/run_campaign.h"
 
 #include <algorithm>
-#include <boost/crc.hpp>
 #include <chrono>
 #include <exception>
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 
 #include "output/atomic_file.h"
 #include "output/campaign_file.h"
+#include "output/checksum.h"
 #include "output/error.h"
 #include "output/locked_file.h"
 #include "thermal/error.h"
@@ -32,11 +32,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::string checksum(std::string const& text) {
-  boost::crc_32_type crc;
-  crc.process_bytes(text.data(), text.size());
-  return fmt::format("CRC-32 {:08x}", crc.checksum());
-}
+std::string checksum(std::string const& text) { return fmt::format("CRC-32 {:08x}", output::crc_32(text)); }
 
 /// What the results are made of, by name; of long files the checksum.
 std::map<std::string, std::string> sources_of(Campaign const& campaign) {
