@@ -1,7 +1,6 @@
 #include "thermal/forward_sensitivities.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -21,20 +20,12 @@ std::vector<NetworkDerivative const*> addresses(std::vector<NetworkDerivative> c
   return all;
 }
 
-bool has_column(NetworkDerivative const& parameter) {
-  auto const none = [](std::vector<double> const& values) {
-    return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
-  };
-  return none(parameter.capacity_slope) &&
-         std::all_of(parameter.average_weights.begin(), parameter.average_weights.end(), none);
-}
-
 }  // namespace
 
 ForwardSensitivities::Parts ForwardSensitivities::parts_of(std::vector<NetworkDerivative> const& parameters) {
   Parts parts;
   for (std::size_t k = 0; k < parameters.size(); ++k)
-    (has_column(parameters[k]) ? parts.together : parts.apart).push_back(k);
+    (ParameterColumns::has(parameters[k]) ? parts.together : parts.apart).push_back(k);
   return parts;
 }
 
@@ -123,21 +114,15 @@ bool ForwardSensitivities::step(double end, int order, std::function<Instant(dou
 /// One step of the formula, to where the run is at this instant.
 bool ForwardSensitivities::advance(double time, Instant const& at) {
   auto const points = std::size_t(order_);
-  std::array<double, longest_past> weights;
   double at_end = 0.0;
-  for (std::size_t i = 0; i < points; ++i) {
-    double const h = time - past_[i].time;
-    at_end += 1.0 / h;
-    weights[i] = -1.0 / h;
-    for (std::size_t j = 0; j < points; ++j)
-      if (double const other = time - past_[j].time; j != i) weights[i] *= other / (other - h);
-  }
+  for (std::size_t i = 0; i < points; ++i) at_end += 1.0 / (time - past_[i].time);
   gamma_ = 1.0 / at_end;
   newton_.linearise(evaluation_, at.state, at.input);
   if (!newton_.factorise(gamma_)) return false;
   NodeByParameter S = std::move(spare_);
   S = gamma_ * forcing(at);
-  for (std::size_t i = 0; i < points; ++i) S -= (gamma_ * weights[i]) * past_[i].S;
+  for (std::size_t i = 0; i < points; ++i)  // dᵢ = −Lᵢ(t)/(t − tᵢ)
+    S += (gamma_ * weight(i, 0, points, time) / (time - past_[i].time)) * past_[i].S;
   bool const solved = newton_.solve_nodes(solver_tolerance, S);
   past_.push_front({time, std::move(S)});
   return solved;
@@ -149,30 +134,28 @@ double ForwardSensitivities::error() {
   if (past_.size() <= points) return 0.0;
   double const time = past_[0].time;
   at_time_ = past_[0].S;
-  for (std::size_t i = 1; i <= points; ++i) {
-    double const h = time - past_[i].time;
-    double weight = 1.0;
-    for (std::size_t j = 1; j <= points; ++j)
-      if (double const other = time - past_[j].time; j != i) weight *= other / (other - h);
-    at_time_ -= weight * past_[i].S;
-  }
+  for (std::size_t i = 1; i <= points; ++i) at_time_ -= weight(i, 1, points + 1, time) * past_[i].S;
   double const factor = gamma_ / (time - past_[points].time);
   Eigen::VectorXd const size = at_time_.colwise().norm().transpose() / std::sqrt(double(network_->nodes()));
   return factor * size.cwiseProduct(per_tolerance_).maxCoeff();
 }
 
-/// By the polynomial of the part of the last step in which the time lies, in Lagrange's form.
+/// Lᵢ(t) of Lagrange's polynomials through the points from `first` to before `end`.
+double ForwardSensitivities::weight(std::size_t i, std::size_t first, std::size_t end, double time) const {
+  double product = 1.0;
+  for (std::size_t j = first; j < end; ++j)
+    if (j != i) product *= (time - past_[j].time) / (past_[i].time - past_[j].time);
+  return product;
+}
+
+/// By the polynomial of the part of the last step in which the time lies.
 void ForwardSensitivities::interpolate(double time, NodeByParameter& S) const {
   std::size_t first = 0;
   while (first + 2 < past_.size() && past_[first + 1].time > time) ++first;
   std::size_t const end = std::min(first + std::size_t(order_) + 1, past_.size());
   S = NodeByParameter::Zero(past_[0].S.rows(), past_[0].S.cols());
-  for (std::size_t i = first; i < end; ++i) {
-    double weight = 1.0;
-    for (std::size_t j = first; j < end; ++j)
-      if (j != i) weight *= (time - past_[j].time) / (past_[i].time - past_[j].time);
-    if (weight != 0.0) S += weight * past_[i].S;
-  }
+  for (std::size_t i = first; i < end; ++i)
+    if (double const share = weight(i, first, end, time); share != 0.0) S += share * past_[i].S;
 }
 
 NodeByParameter const& ForwardSensitivities::temperatures(double time, double const* state) {

@@ -62,6 +62,7 @@ class ForwardSensitivities {
   [[nodiscard]] NodeByParameter const& forcing(Instant const& at);
   [[nodiscard]] bool advance(double time, Instant const& at);
   [[nodiscard]] double error();
+  [[nodiscard]] double weight(std::size_t point, std::size_t first, std::size_t end, double time) const;
   void interpolate(double time, NodeByParameter& S) const;
 
   Network const* network_;

@@ -209,13 +209,7 @@ struct KrylovFactors final : LinearFactors {
 }  // namespace
 
 bool LinearFactors::solve_columns(double tolerance, NodeByParameter& x) {
-  VectorXd right, solution(x.rows());
-  for (Eigen::Index k = 0; k < x.cols(); ++k) {
-    right = x.col(k);
-    if (!solve(right, tolerance * right.norm(), solution)) return false;
-    x.col(k) = solution;
-  }
-  return true;
+  return solve_one_by_one(tolerance, x, [&](VectorXd const& b, double own, VectorXd& y) { return solve(b, own, y); });
 }
 
 std::unique_ptr<LinearFactors> make_linear_factors(LinearSolver solver) {

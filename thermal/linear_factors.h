@@ -25,6 +25,18 @@ class LinearFactors {
   [[nodiscard]] virtual bool solve_columns(double tolerance, NodeByParameter& x);
 };
 
+/// By solve(b, tolerance of its residual, x), one column after another.
+template <class Solve>
+bool solve_one_by_one(double tolerance, NodeByParameter& x, Solve solve) {
+  Eigen::VectorXd right, solution(x.rows());
+  for (Eigen::Index k = 0; k < x.cols(); ++k) {
+    right = x.col(k);
+    if (!solve(right, tolerance * right.norm(), solution)) return false;
+    x.col(k) = solution;
+  }
+  return true;
+}
+
 /// Dense LU, KLU (Davis & Palamadai Natarajan, ACM TOMS 37 (2010) 36), or BiCGSTAB with incomplete LU (van der Vorst
 /// 1992).
 [[nodiscard]] std::unique_ptr<LinearFactors> make_linear_factors(LinearSolver solver);

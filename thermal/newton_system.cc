@@ -153,20 +153,15 @@ bool NewtonSystem::solve_nodes(double const* b, double tolerance, double* x) {
 }
 
 bool NewtonSystem::solve_nodes(double tolerance, NodeByParameter& x) {
-  if (!grids_ && averages_ == 0) return factors_->solve_columns(tolerance, x);
-  if (!grids_) {
-    all_columns_.setZero(matrix_.rows(), x.cols());
-    all_columns_.topRows(nodes_) = x;
-    if (!factors_->solve_columns(tolerance, all_columns_)) return false;
-    x = all_columns_.topRows(nodes_);
-    return true;
-  }
-  VectorXd right, solution(nodes_);
-  for (Eigen::Index k = 0; k < x.cols(); ++k) {
-    right = x.col(k);
-    if (!grids_->solve(right.data(), tolerance * right.norm(), solution.data())) return false;
-    x.col(k) = solution;
-  }
+  if (grids_)
+    return solve_one_by_one(tolerance, x, [&](VectorXd const& b, double own, VectorXd& y) {
+      return grids_->solve(b.data(), own, y.data());
+    });
+  if (averages_ == 0) return factors_->solve_columns(tolerance, x);
+  all_columns_.setZero(matrix_.rows(), x.cols());
+  all_columns_.topRows(nodes_) = x;
+  if (!factors_->solve_columns(tolerance, all_columns_)) return false;
+  x = all_columns_.topRows(nodes_);
   return true;
 }
 

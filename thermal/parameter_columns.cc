@@ -30,14 +30,17 @@ NetworkDerivative lengthened(NetworkDerivative d, Network const& network) {
   return d;
 }
 
+bool ParameterColumns::has(NetworkDerivative const& parameter) {
+  return !any(parameter.capacity_slope) &&
+         std::none_of(parameter.average_weights.begin(), parameter.average_weights.end(), any);
+}
+
 ParameterColumns::ParameterColumns(Network const& network, std::vector<NetworkDerivative const*> const& parameters)
     : network_(&network), count_(int(parameters.size())) {
   for (std::size_t g = 0; g < network.groups().size(); ++g) add_group(network.groups()[g], g, parameters);
   for (int k = 0; k < count_; ++k) {
     auto const& parameter = *parameters[std::size_t(k)];
-    if (any(parameter.capacity_slope) ||
-        std::any_of(parameter.average_weights.begin(), parameter.average_weights.end(), any))
-      throw InputError("parameter '" + parameter.name + "' moves a place; that has no column here");
+    if (!has(parameter)) throw InputError("parameter '" + parameter.name + "' moves a place; that has no column here");
     for (std::size_t i = 0; i < parameter.capacity.size(); ++i)
       if (parameter.capacity[i] != 0.0)
         capacities_.push_back({int(i), k, parameter.capacity[i] / network.capacity()[i]});
@@ -88,7 +91,7 @@ void ParameterColumns::add_heat(Evaluation const& evaluation, int port, int colu
 void ParameterColumns::evaluate(Evaluation& evaluation, double const* state, double const* input,
                                 NodeByParameter& forcing) const {
   Linearisation at;
-  evaluation.linearise(state, input, at);
+  if (!capacities_.empty() || !boundaries_.empty()) evaluation.linearise(state, input, at);
   evaluate(evaluation, at, state, input, forcing);
 }
 

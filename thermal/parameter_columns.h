@@ -17,7 +17,9 @@ namespace thermotwin::thermal {
 /// one part, cost about as much as one evaluation of f.
 class ParameterColumns {
  public:
-  /// InputError for a derivative of an average's weights or of a capacity's slope: a place that moves.
+  /// Whether a parameter has a column: not one of an average's weights or of a capacity's slope, a place that moves.
+  [[nodiscard]] static bool has(NetworkDerivative const& parameter);
+  /// InputError for a parameter without.
   ParameterColumns(Network const& network, std::vector<NetworkDerivative const*> const& parameters);
 
   [[nodiscard]] int count() const { return count_; }

@@ -86,6 +86,10 @@ BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
   return binned;
 }
 
+Whitening whitening_of(ChannelNoise const& noise, BinnedRun const& run, Eigen::Index channel) {
+  return {noise.along(run.values.col(channel)), run.time, run.samples.col(channel)};
+}
+
 std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs) {
   std::vector<std::string> names;
   for (auto const& run : runs)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "twin/diagnosis/measured_run.h"
+#include "twin/diagnosis/noise_model.h"
 
 namespace thermotwin::twin {
 
@@ -29,6 +30,9 @@ struct BinnedRun {
 
 /// Rows of at most `interval` [s]. Steps grow from `first_step` after each jump, up to the row's length.
 [[nodiscard]] BinnedRun bin(MeasuredRun const& run, double interval, double first_step = 20.0);
+
+/// Of the noise that a channel, by its number in the run, has there.
+[[nodiscard]] Whitening whitening_of(ChannelNoise const& noise, BinnedRun const& run, Eigen::Index channel);
 
 /// Names of the channels that any of the runs has, in the order in which they come.
 [[nodiscard]] std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs);

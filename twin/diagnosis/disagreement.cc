@@ -23,7 +23,7 @@ struct ChannelResidual {
 ChannelResidual residual_of(Eigen::VectorXd const& plain, BinnedRun const& run, Eigen::Index channel,
                             ChannelNoise const& noise) {
   Eigen::MatrixXd signal = plain;
-  Whitening(noise.along(run.values.col(channel)), run.time, run.samples.col(channel)).apply(signal);
+  whitening_of(noise, run, channel).apply(signal);
   return {plain, signal.col(0)};
 }
 

@@ -31,8 +31,7 @@ double misfit(ChannelNoise const& noise, std::string const& channel, std::vector
   for (std::size_t r = 0; r < runs.size(); ++r)
     for (std::size_t c = 0; c < runs[r].run->channels.size(); ++c) {
       if (runs[r].run->channels[c].name != channel) continue;
-      Whitening const whitening(noise.along(runs[r].values.col(Eigen::Index(c))), runs[r].time,
-                                runs[r].samples.col(Eigen::Index(c)));
+      Whitening const whitening = whitening_of(noise, runs[r], Eigen::Index(c));
       Eigen::MatrixXd signal = residuals[r].col(Eigen::Index(c));
       whitening.apply(signal);
       sum += signal.squaredNorm() + 2.0 * whitening.log_scale();

@@ -144,8 +144,7 @@ void Estimation::make_whitenings() {
     auto& own = whitenings_.emplace_back();
     for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
       auto const it = std::find(channels_.begin(), channels_.end(), run.run->channels[c].name);
-      own.emplace_back(noise_[std::size_t(it - channels_.begin())].along(run.values.col(Eigen::Index(c))), run.time,
-                       run.samples.col(Eigen::Index(c)));
+      own.push_back(whitening_of(noise_[std::size_t(it - channels_.begin())], run, Eigen::Index(c)));
     }
   }
 }
