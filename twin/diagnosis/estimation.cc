@@ -76,6 +76,21 @@ Unknown lag_unknown(std::vector<Sensor> const& sensors, std::string const& chann
   return unknown;
 }
 
+/// A probe's zero is anywhere: where it stood when it was first read, the machine had not moved yet, unless it has a
+/// past.
+Unknown zero_unknown(MeasuredChannel const& channel, std::size_t index, std::size_t run) {
+  auto const& values = channel.values;
+  auto const first = std::find_if(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
+  return {Unknown::Kind::offset,
+          fmt::format("zero of {}, run {}", channel.name, run + 1),
+          first == values.end() ? 0.0 : *first,
+          first == values.begin() ? zero_deviation : unread_zero,
+          -INFINITY,
+          INFINITY,
+          index,
+          int(run)};
+}
+
 std::string table_name(std::size_t effect) { return fmt::format("diagnosed_{}", effect + 1); }
 
 /// What people see of an added effect acts through sensors or displacements, not through heat alone.
@@ -122,9 +137,7 @@ void Estimation::add_unknowns() {
       auto const it = std::find_if(all.begin(), all.end(), holds);
       if (it == all.end()) continue;
       sensor = sensor || !it->displacement;
-      if (it->displacement)
-        unknowns_.push_back({Kind::offset, fmt::format("zero of {}, run {}", channels_[c], r + 1), 0.0,
-                             std::isnan(it->values[0]) ? unread_zero : zero_deviation, -INFINITY, INFINITY, c, int(r)});
+      if (it->displacement) unknowns_.push_back(zero_unknown(*it, c, r));
     }
     if (!sensor) continue;
     unknowns_.push_back({Kind::offset, "offset of " + channels_[c], 0.0, offset_deviation, -INFINITY, INFINITY, c, -1});

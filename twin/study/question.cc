@@ -18,6 +18,8 @@ Asked whole(StudyRun const& run, Role role, std::size_t number) {
   return {role, run.seen, truth_of(run), 0, run.seen.time.size(), number};
 }
 
+RunPart whole(StudyRun const& run, std::size_t number) { return {number, 0, run.seen.time.size()}; }
+
 bool moves(std::vector<Batch> const& batches, Index column) {
   return std::any_of(batches.begin(), batches.end(), [&](Batch const& batch) {
     auto const values = batch.temperature_rise.col(column).array();
@@ -32,13 +34,12 @@ class QuestionWriter {
   Questions write(int folds);
 
  private:
-  void add(std::vector<Question>& to, std::string name, std::vector<Batch> training, std::vector<Asked> asked,
-           std::vector<std::size_t> runs = {});
+  void add(std::vector<Question>& to, std::string name, std::vector<RunPart> parts, std::vector<Asked> asked);
   void ask_tests(std::vector<Asked>& asked) const;
   void together();
   void split_run();
   void each();
-  void folds_of_run(Batch const& run, Eigen::VectorXd const& truth, int folds);
+  void folds_of_run(Index rows, int folds);
   void folds_of_runs(int folds);
   [[nodiscard]] Index split_row() const;
 
@@ -48,9 +49,11 @@ class QuestionWriter {
   Questions questions_;
 };
 
-void QuestionWriter::add(std::vector<Question>& to, std::string name, std::vector<Batch> training,
-                         std::vector<Asked> asked, std::vector<std::size_t> runs) {
-  Question question{std::move(name), {}, {}, std::move(asked), std::move(runs)};
+void QuestionWriter::add(std::vector<Question>& to, std::string name, std::vector<RunPart> parts,
+                         std::vector<Asked> asked) {
+  std::vector<Batch> training;
+  for (auto const& part : parts) training.push_back(rows_of(train_[part.run].seen, part));
+  Question question{std::move(name), {}, {}, std::move(asked), std::move(parts)};
   auto const& sensors = training.front().sensors;
   for (std::size_t j = 0; j < sensors.size(); ++j)
     if (moves(training, Index(j)))
@@ -75,7 +78,7 @@ Index QuestionWriter::split_row() const {
 void QuestionWriter::split_run() {
   auto const& run = train_.front();
   Index const row = split_row(), rows = run.seen.time.size();
-  add(questions_.fits, run.seen.name, {rows_of(run.seen, 0, row)},
+  add(questions_.fits, run.seen.name, {{0, 0, row}},
       {{Role::self, run.seen, truth_of(run), 0, row}, {Role::cross, run.seen, truth_of(run), row, rows - row}});
 }
 
@@ -84,17 +87,15 @@ void QuestionWriter::ask_tests(std::vector<Asked>& asked) const {
 }
 
 void QuestionWriter::together() {
-  std::vector<Batch> training;
+  std::vector<RunPart> parts;
   std::vector<Asked> asked;
-  std::vector<std::size_t> runs;
   for (std::size_t k = 0; k < train_.size(); ++k) {
-    training.push_back(train_[k].seen);
+    parts.push_back(whole(train_[k], k));
     asked.push_back(whole(train_[k], Role::self, k));
-    runs.push_back(k);
   }
   ask_tests(asked);
-  add(questions_.fits, train_.size() == 1 ? train_.front().seen.name : "the training runs", std::move(training),
-      std::move(asked), std::move(runs));
+  add(questions_.fits, train_.size() == 1 ? train_.front().seen.name : "the training runs", std::move(parts),
+      std::move(asked));
 }
 
 void QuestionWriter::each() {
@@ -103,38 +104,39 @@ void QuestionWriter::each() {
     for (std::size_t k = 0; k < train_.size(); ++k)
       asked.push_back(whole(train_[k], k == l ? Role::self : Role::cross, k));
     ask_tests(asked);
-    add(questions_.fits, train_[l].seen.name, {train_[l].seen}, std::move(asked), {l});
+    add(questions_.fits, train_[l].seen.name, {whole(train_[l], l)}, std::move(asked));
   }
 }
 
-void QuestionWriter::folds_of_run(Batch const& run, Eigen::VectorXd const& truth, int folds) {
-  for (auto const& fold : models::contiguous_folds(run.time.size(), folds)) {
-    std::vector<Batch> training;
+/// Of the first `rows` of the only run.
+void QuestionWriter::folds_of_run(Index rows, int folds) {
+  auto const& run = train_.front();
+  for (auto const& fold : models::contiguous_folds(rows, folds)) {
+    std::vector<RunPart> parts;
     Index const behind = fold.first + fold.count;
-    if (fold.first > 0) training.push_back(rows_of(run, 0, fold.first));
-    if (behind < run.time.size()) training.push_back(rows_of(run, behind, run.time.size() - behind));
-    add(questions_.validations, fmt::format("{} without rows {} to {}", run.name, fold.first + 1, behind),
-        std::move(training), {{Role::validation, run, truth, fold.first, fold.count}});
+    if (fold.first > 0) parts.push_back({0, 0, fold.first});
+    if (behind < rows) parts.push_back({0, behind, rows - behind});
+    add(questions_.validations, fmt::format("{} without rows {} to {}", run.seen.name, fold.first + 1, behind),
+        std::move(parts),
+        {{Role::validation, rows_of(run.seen, 0, rows), truth_of(run).head(rows), fold.first, fold.count}});
   }
 }
 
 void QuestionWriter::folds_of_runs(int folds) {
   auto const runs = Index(train_.size());
   for (auto const& fold : models::contiguous_folds(runs, std::min(folds, int(runs)))) {
-    std::vector<Batch> training;
+    std::vector<RunPart> parts;
     std::vector<Asked> asked;
-    std::vector<std::size_t> used;
     for (Index k = 0; k < runs; ++k) {
       auto const number = std::size_t(k);
       if (k >= fold.first && k < fold.first + fold.count) {
         asked.push_back(whole(train_[number], Role::validation, number));
       } else {
-        training.push_back(train_[number].seen);
-        used.push_back(number);
+        parts.push_back(whole(train_[number], number));
       }
     }
     auto const name = fmt::format("the training runs without {}", asked.front().batch.name);
-    add(questions_.validations, name, std::move(training), std::move(asked), std::move(used));
+    add(questions_.validations, name, std::move(parts), std::move(asked));
   }
 }
 
@@ -150,8 +152,7 @@ Questions QuestionWriter::write(int folds) {
   if (train_.size() > 1) {
     folds_of_runs(folds);
   } else {
-    Index const rows = world_.split ? split_row() : first.seen.time.size();
-    folds_of_run(rows_of(first.seen, 0, rows), truth_of(first).head(rows), folds);
+    folds_of_run(world_.split ? split_row() : first.seen.time.size(), folds);
   }
   return std::move(questions_);
 }

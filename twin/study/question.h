@@ -22,13 +22,19 @@ struct Asked {
   Eigen::VectorXd said_by_twin{};     ///< of the whole run: what the model's answer is added to; empty: nothing
 };
 
+/// Rows of a run.
+struct RunPart {
+  std::size_t run = 0;  ///< of 'train'
+  Eigen::Index first = 0, count = 0;
+};
+
 /// A training set, and what its models are asked.
 struct Question {
   std::string name;                     ///< of the training set, for people
   std::vector<models::Batch> training;  ///< the world's sensors that move in it
   std::vector<Eigen::Index> columns;    ///< these sensors, as columns of the world's
   std::vector<Asked> asked;
-  std::vector<std::size_t> runs;  ///< of 'train', in the order of `training`; empty where only parts of runs train
+  std::vector<RunPart> parts;  ///< what `training` is of the runs, in its order
 };
 
 /// The questions of one repetition of a world: one, or one per run of 'train' (fit = "each"); then those of the
@@ -42,5 +48,8 @@ struct Questions {
 
 /// Rows of a batch, as a batch.
 [[nodiscard]] models::Batch rows_of(models::Batch const& batch, Eigen::Index first, Eigen::Index count);
+[[nodiscard]] inline models::Batch rows_of(models::Batch const& batch, RunPart const& part) {
+  return rows_of(batch, part.first, part.count);
+}
 
 }  // namespace thermotwin::twin

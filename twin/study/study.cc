@@ -109,22 +109,30 @@ void StudyRunner::choose_all() {
 
 void StudyRunner::calibrate_twins() {
   if (std::none_of(models_.begin(), models_.end(), [](auto const& model) { return model.twin; })) return;
-  struct Task {
+  struct Asking {
     Repetition* repetition;
     std::size_t question;
   };
-  std::vector<Task> tasks;
+  std::map<std::string, std::vector<Asking>> sharing;
   for (auto& repetition : repetitions_) {
     repetition.less_twin.resize(repetition.all.size());
     repetition.twin_refused.resize(repetition.all.size());
-    for (std::size_t q = 0; q < repetition.all.size(); ++q) tasks.push_back({&repetition, q});
+    for (std::size_t q = 0; q < repetition.all.size(); ++q)
+      sharing[twin_key(study_.worlds[repetition.world], repetition.number, *repetition.all[q])].push_back(
+          {&repetition, q});
   }
+  std::vector<std::vector<Asking> const*> tasks;
+  for (auto const& [key, askings] : sharing) tasks.push_back(&askings);
   in_parallel(tasks.size(), progress("twins"), options_.stop, [&](std::size_t i) {
-    auto const& [repetition, q] = tasks[i];
-    auto const twin = twin_courses(study_.worlds[repetition->world], worlds_[repetition->world], repetition->number,
-                                   *repetition->all[q]);
-    repetition->twin_refused[q] = twin.refused;
-    if (twin.refused.empty()) repetition->less_twin[q] = less_twin(*repetition->all[q], twin);
+    auto const& [first, question] = tasks[i]->front();
+    auto const twin =
+        twin_runs(study_.worlds[first->world], worlds_[first->world], first->number, *first->all[question]);
+    for (auto const& [repetition, q] : *tasks[i]) {
+      repetition->twin_refused[q] = twin.refused;
+      if (twin.refused.empty())
+        repetition->less_twin[q] =
+            less_twin(*repetition->all[q], study_.worlds[repetition->world], worlds_[repetition->world], twin);
+    }
   });
 }
 

@@ -88,6 +88,8 @@ Order order_of(StudyWorld const& world, fs::path const& directory) {
     Order order{&world, nominal, Machine::build(changed_machine(world, nominal)), {}};
     for (auto const* list : {&world.train, &world.test})
       for (auto const& name : *list) order.sources.push_back(source_of(name, directory));
+    if (std::all_of(order.sources.begin(), order.sources.end(), [](auto& source) { return source.measured; }))
+      order.nominal = changed_machine(world, nominal);
     return order;
   });
 }
@@ -98,12 +100,13 @@ struct Job {
   Source source;
   int seed = 0;  ///< of the instruments; 0: measured
   output::Dataset data;
+  std::shared_ptr<MeasuredRun const> run;  ///< what was measured
 };
 
 std::string key_of(Order const& order, Source const& source, int seed) {
   return fmt::format("{}|{}|{}|{}|{}|{}", order.world->machine, order.world->added,
-                     fmt::join(order.world->changes, ","), source.file.string(),
-                     source.measured ? 0.0 : order.world->sampling.value_or(0.0), seed);
+                     fmt::join(order.world->changes, ","), source.file.string(), order.world->sampling.value_or(0.0),
+                     seed);
 }
 
 scenarios::Experiment experiment_of(Order const& order, Source const& source) {
@@ -119,18 +122,6 @@ output::Dataset simulated(Job const& job, std::atomic<bool> const* stop) {
   options.integration.relative_tolerance = options.integration.absolute_tolerance = tolerance;
   options.stop = stop;
   return run(job.order->machine, experiment, options).dataset;
-}
-
-output::Dataset measured(Job const& job) {
-  auto const run = read_measured_run(job.source.file, job.order->machine);
-  output::Dataset data;
-  data.time_s = run.time;
-  for (auto const& channel : run.channels)
-    if (channel.displacement)
-      data.displacements.push_back({channel.name, "um", "", 1e6 * channel.values});
-    else
-      data.readings.push_back({channel.name, "degC", "", channel.values.array() - 273.15});
-  return data;
 }
 
 /// Rows of the machine's sensors; empty, and why, without a simulated run to linearise at.
@@ -169,33 +160,60 @@ std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)
       for (auto const& source : order.sources) {
         int const seed = source.measured ? 0 : 1 + ordinal.at(source.file.string()) + int(ordinal.size() * r);
         auto const [place, fresh] = made.emplace(key_of(order, source, seed), jobs.size());
-        if (fresh) jobs.push_back({&order, source, seed, {}});
+        if (fresh) jobs.push_back({&order, source, seed, {}, {}});
         repetitions[r].push_back(place->second);
       }
   }
   in_parallel(jobs.size(), progress, stop, [&](std::size_t j) {
     about(*jobs[j].order->world, [&] {
-      jobs[j].data = jobs[j].source.measured ? measured(jobs[j]) : simulated(jobs[j], stop);
+      if (jobs[j].source.measured) {
+        jobs[j].run =
+            std::make_shared<MeasuredRun const>(read_measured_run(jobs[j].source.file, jobs[j].order->machine));
+        jobs[j].data = dataset_of(*jobs[j].run, jobs[j].order->world->sampling);
+      } else {
+        jobs[j].data = simulated(jobs[j], stop);
+      }
       return 0;
     });
   });
 
   std::vector<WorldRuns> worlds;
   for (std::size_t w = 0; w < orders.size(); ++w) {
-    WorldRuns runs{orders[w].machine, {}, {}, {}, orders[w].nominal, {}};
+    WorldRuns runs{orders[w].machine, {}, {}, {}, orders[w].nominal, {}, {}};
     find_modes(orders[w], runs);
     for (auto const& source : orders[w].sources)
       runs.experiments.push_back(source.measured ? std::nullopt : std::optional(experiment_of(orders[w], source)));
     for (auto const& repetition : used[w]) {
       auto& sets = runs.runs.emplace_back();
-      for (auto const j : repetition)
-        sets.push_back(jobs[j].source.measured && orders[w].world->sampling
-                           ? averaged(jobs[j].data, *orders[w].world->sampling)
-                           : jobs[j].data);
+      for (auto const j : repetition) sets.push_back(jobs[j].data);
     }
+    for (auto const j : used[w].front()) runs.measured.push_back(jobs[j].run);
     worlds.push_back(std::move(runs));
   }
   return worlds;
+}
+
+Eigen::Index first_reading(MeasuredRun const& run) {
+  Eigen::Index first = run.time.size() - 1;
+  for (auto const& channel : run.channels)
+    for (Eigen::Index i = 0; i < first; ++i)
+      if (!std::isnan(channel.values[i])) first = i;
+  return first;
+}
+
+output::Dataset dataset_of(MeasuredRun const& run, std::optional<double> sampling, Eigen::MatrixXd const* values) {
+  auto const first = first_reading(run), rows = run.time.size() - first;
+  output::Dataset data;
+  data.time_s = run.time.tail(rows).array() - run.time[first];
+  for (std::size_t c = 0; c < run.channels.size(); ++c) {
+    auto const& channel = run.channels[c];
+    Eigen::VectorXd const shown = (values ? Eigen::VectorXd(values->col(Eigen::Index(c))) : channel.values).tail(rows);
+    if (channel.displacement)
+      data.displacements.push_back({channel.name, "um", "", 1e6 * shown});
+    else
+      data.readings.push_back({channel.name, "degC", "", shown.array() - 273.15});
+  }
+  return sampling ? averaged(data, *sampling) : data;
 }
 
 output::Dataset averaged(output::Dataset const& data, double period) {

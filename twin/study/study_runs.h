@@ -2,12 +2,14 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "output/dataset.h"
 #include "scenarios/experiment.h"
+#include "twin/diagnosis/measured_run.h"
 #include "twin/file/value.h"
 #include "twin/machine.h"
 #include "twin/study/study_file.h"
@@ -20,13 +22,22 @@ struct WorldRuns {
   std::vector<std::vector<output::Dataset>> runs;  ///< per repetition: those of 'train', then those of 'test'
   Eigen::MatrixXd mode_shapes;                     ///< all sensors of the machine × modes; empty: `no_modes` says why
   std::string no_modes;
-  Value nominal;                                                  ///< the machine's document without changes
+  Value nominal;  ///< the document of a user's machine: without the changes, where these are what was simulated
   std::vector<std::optional<scenarios::Experiment>> experiments;  ///< of each run; none where it was measured
+  std::vector<std::shared_ptr<MeasuredRun const>> measured;       ///< of each run; none where it is simulated
 };
 
 /// Simulates and reads, in parallel; see study_data().
 [[nodiscard]] std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)> const& progress,
                                                 std::atomic<bool> const* stop);
+
+/// The row of the first instant at which any channel was read; what comes before it is a past.
+[[nodiscard]] Eigen::Index first_reading(MeasuredRun const& run);
+
+/// A measured run as a data set, °C and µm, from its first reading on: what its channels showed, or what `values` (row
+/// × channel, SI) say in their place.
+[[nodiscard]] output::Dataset dataset_of(MeasuredRun const& run, std::optional<double> sampling,
+                                         Eigen::MatrixXd const* values = nullptr);
 
 /// Means over stretches of `period` [s]; each bears the time of its stretch's start. A stretch without any value is
 /// NaN.

@@ -4,29 +4,35 @@
 #include <string>
 #include <vector>
 
-#include "models/batch.h"
+#include "output/dataset.h"
 #include "twin/study/question.h"
 #include "twin/study/study_data.h"
 
 namespace thermotwin::twin {
 
-/// What a calibrated twin says of a world's runs, or why it says nothing.
-struct TwinCourses {
-  std::vector<models::Batch> runs;  ///< those of 'train', then those of 'test': rises and error without noise
-  std::string refused;              ///< empty if it was calibrated
+/// What a calibrated twin says of a world's runs, all channels, or why it says nothing.
+struct TwinRuns {
+  std::vector<output::Dataset> runs;  ///< those of 'train', then those of 'test'; what it says is their truth
+  std::string refused;                ///< empty if it was calibrated
 };
 
-/// A twin of a simulated world's machine, calibrated on what the instruments showed of a question's training runs, all
-/// channels of them, and then driven by the inputs alone through every run of the world.
+/// A twin of a world's machine, calibrated on what the instruments showed of a question's training rows, all channels
+/// of them, and then driven by the inputs alone through every run of the world.
 ///
-/// It starts from the file that a user would have: without what the study added to the machine or set in it, and with
-/// coefficients that are 20 %, capacities and weights of the structural loop that are 10 % off (vary_parameters, drawn
-/// anew for each repetition). The estimate is the maximum a posteriori of estimation.h, for all numbers at once.
-[[nodiscard]] TwinCourses twin_courses(StudyWorld const& world, WorldData const& data, int repetition,
-                                       Question const& question);
+/// In a simulated world it starts from the file that a user would have: without what the study added to the machine or
+/// set in it, and with coefficients that are 20 %, capacities and weights of the structural loop that are 10 % off
+/// (vary_parameters, drawn anew for each repetition). Where all runs were measured it starts from the file as the study
+/// has it. The estimate is the maximum a posteriori of estimation.h, for all numbers at once.
+[[nodiscard]] TwinRuns twin_runs(StudyWorld const& world, WorldData const& data, int repetition,
+                                 Question const& question);
+
+/// Worlds that differ by what they ask of the same runs share a twin: it is the same for questions of one key.
+[[nodiscard]] std::string twin_key(StudyWorld const& world, int repetition, Question const& question);
 
 /// The question for a model that has a twin to help it: readings and errors to learn from are what the machine shows
-/// less what the twin says; what it predicts is added to what the twin says.
-[[nodiscard]] Question less_twin(Question question, TwinCourses const& twin);
+/// less what the twin says; what it predicts is added to what the twin says. A measured displacement has a zero of its
+/// own in each run: it is that of the training rows, or of the first instant where a run has none.
+[[nodiscard]] Question less_twin(Question question, StudyWorld const& world, WorldData const& data,
+                                 TwinRuns const& twin);
 
 }  // namespace thermotwin::twin

@@ -85,6 +85,20 @@ TEST(Estimation, FindsOffsetAndLag) {
   }
 }
 
+/// Probes are set to zero whenever somebody likes. With other zeros the same machine is found.
+TEST(Estimation, DoesNotMindWhereAProbesZeroIs) {
+  auto const& q = question();
+  MeasuredRun moved = q.run;
+  double by = 40e-6;
+  for (auto& channel : moved.channels)
+    if (channel.displacement) channel.values.array() += (by = -1.5 * by);
+  std::vector<BinnedRun> const data = {bin(moved, 120.0)};
+  Estimation const estimation(v450(), data, tests::channels_of(moved), tests::noise_of(moved, kelvin, metres));
+  auto const fit = estimation.fit(estimation.prior_mean());
+  for (auto const& [path, factor] : changes) EXPECT_NEAR(fit.x[q.index(path)], q.fit.x[q.index(path)], 1e-6) << path;
+  EXPECT_NEAR(fit.cost, q.fit.cost, 1e-6 * q.fit.cost);
+}
+
 /// The others are where they were, within what the data leave open.
 TEST(Estimation, LeavesTheOtherNumbersWhereTheyAre) {
   auto const& q = question();
