@@ -385,6 +385,16 @@ int fail(int code, std::string_view message) {
   return code;
 }
 
+/// Commands that go on for long end in good order when they are told to; the others end at once and have written
+/// nothing.
+void heed_signals(CLI::App& app) {
+  for (char const* name : {"run", "replay", "campaign", "place", "study", "compensate", "play", "view"})
+    app.get_subcommand(name)->preparse_callback([](std::size_t) {
+      std::signal(SIGINT, [](int) { stop_requested = true; });
+      std::signal(SIGTERM, [](int) { stop_requested = true; });
+    });
+}
+
 }  // namespace
 
 int command_line(int argc, char** argv) {
@@ -409,8 +419,7 @@ int command_line(int argc, char** argv) {
   add_difference_command(app);
   add_figure_command(app);
   add_view_command(app, stop_requested);
-  std::signal(SIGINT, [](int) { stop_requested = true; });
-  std::signal(SIGTERM, [](int) { stop_requested = true; });
+  heed_signals(app);
   try {
     app.parse(argc, argv);
     return 0;

@@ -129,6 +129,25 @@ TEST(Run, StoppedByTheUserKeepsThePartialFileAndTheOldOne) {
   EXPECT_FALSE(output::read(directory / "run.h5.partial").complete);
 }
 
+/// What reads measurements writes nothing before its end, and may be stopped at any time.
+TEST(Commands, DiagnosisIsStoppedAtOnce) {
+  TemporaryDirectory const directory;
+  auto const data = (directory / "run.h5").string(), amended = (directory / "amended.toml").string();
+  answer(program + " run golden_b_4000 -q -o " + data);
+  pid_t const child = fork();
+  if (child == 0) {
+    execl(program.c_str(), "thermotwin", "diagnose", "v450", data.c_str(), "-o", amended.c_str(), nullptr);
+    _exit(127);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGINT);
+  EXPECT_FALSE(fs::exists(amended));
+}
+
 TEST(Commands, CheckEveryShippedFile) {
   fs::path const source = THERMOTWIN_SOURCE_DIR;
   for (auto const& folder : {source / "twin/machines", source / "scenarios/catalogue"})

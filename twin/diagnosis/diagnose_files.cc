@@ -26,7 +26,9 @@ std::vector<ChangedValue> changes_of(Diagnosis const& diagnosis, Value document)
 Explanation const* explanation_of(Diagnosis const& diagnosis, Hypothesis const& effect) {
   auto const it =
       std::find_if(diagnosis.explanations.begin(), diagnosis.explanations.end(), [&](Explanation const& explanation) {
-        return !explanation.alternatives.empty() && explanation.alternatives[0].hypothesis.label() == effect.label();
+        if (explanation.alternatives.empty()) return false;
+        auto const& best = explanation.alternatives[0].hypothesis;
+        return best.label() == effect.label() && best.trial == effect.trial;
       });
   return it == diagnosis.explanations.end() ? nullptr : &*it;
 }
@@ -49,7 +51,9 @@ AddedTable table_of(Diagnosis const& diagnosis, std::size_t u, RunFiles const& d
   auto const& effect = diagnosis.effects[number];
   auto const i = Eigen::Index(u);
   double const amplitude = diagnosis.amended.x[i] * effect.trial->largest;
-  double const error = std::sqrt(diagnosis.amended.covariance(i, i)) * effect.trial->largest;
+  Explanation const* explanation = explanation_of(diagnosis, effect);
+  double const error = explanation ? explanation->alternatives[0].standard_error
+                                   : std::sqrt(diagnosis.amended.covariance(i, i)) * effect.trial->largest;
   std::string const unit = readable_unit(amplitude, effect.dimension());
   AddedTable table{effect.effect->name, {}, origin_of(diagnosis, effect, data)};
   for (auto const& [key, text] : table_of(effect, fmt::format("diagnosed_{}", number + 1), amplitude))
@@ -106,8 +110,9 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
         "the data identify no number of the machine and no effect: the runs are too short, or too little happens in "
         "them; nothing can be said about what is missing");
   Machine const amended_machine = Machine::build(report.diagnosis.document);
-  report.fitted = gaps(machine, amended_machine, fitted);
-  report.held_out = gaps(machine, amended_machine, held_out);
+  Machine const calibrated = Machine::build(report.diagnosis.calibrated_document);
+  report.fitted = gaps(machine, amended_machine, fitted, &calibrated);
+  report.held_out = gaps(machine, amended_machine, held_out, &calibrated);
   if (!files.output.empty())
     write_amended(files.machine, files.output, amended(text_of_file(files.machine), report.diagnosis, files.data));
   return report;

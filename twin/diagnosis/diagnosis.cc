@@ -52,6 +52,8 @@ Diagnosis Diagnostician::operator()() {
   d.effects = amended.effects();
   d.unknowns = amended.unknowns();
   d.document = amended.document_at(d.amended.x);
+  d.calibrated_document = search_.plain().document_at(d.calibrated.x);
+  d.visible = search_.visible();
   if (!d.effects.empty()) d.left = scan_for_free_heat(amended, d.amended);
   d.faulty_sensor = faulty_sensor(machine_, runs_);
   d.verdict = verdict();
@@ -75,8 +77,10 @@ bool Diagnostician::is_unknown() const {
     return first.effect->changes.find(what) != std::string::npos;
   };
   if (!about_heat("source") && !about_heat("film") && !about_heat("boundary")) return false;
-  return std::any_of(found.begin() + 1, found.end(),
-                     [&](Explanation const& other) { return other.alternatives[0].hypothesis.body == first.body; });
+  return std::any_of(found.begin() + 1, found.end(), [&](Explanation const& other) {
+    auto const& further = other.alternatives[0].hypothesis;
+    return further.body == first.body && further.label() != first.label();
+  });
 }
 
 /// Bodies and regimes that receive the heat that is missing.

@@ -39,6 +39,8 @@ struct Diagnosis {
   std::vector<Hypothesis> effects;     ///< of `amended`
   std::vector<Unknown> unknowns;       ///< of `amended`
   Value document;                      ///< the machine as amended: calibrated values and the effects
+  Value calibrated_document;           ///< with calibrated values alone
+  std::size_t visible = 0;             ///< hypotheses that would have been seen at half of their largest amplitude
 };
 
 [[nodiscard]] std::string name_of(Diagnosis::Verdict verdict);

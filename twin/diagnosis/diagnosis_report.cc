@@ -15,12 +15,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_places = 6;
+constexpr std::size_t most_places = 6, most_keys = 3;
 
+/// "coefficient = 27 W/(m2 K) ± 10 W/(m2 K), with area = 0.5 m2": few keys are told, many stand in the amended file.
 std::string amplitude_text(Finding const& finding) {
-  std::string const unit = readable_unit(finding.amplitude, finding.hypothesis.dimension());
-  return fmt::format("{} = {} {}", finding.hypothesis.trial->amplitude, written_value(finding.amplitude, unit, 3),
-                     written_interval(finding.standard_error, unit));
+  auto const& hypothesis = finding.hypothesis;
+  std::string const unit = readable_unit(finding.amplitude, hypothesis.dimension());
+  std::string text = fmt::format("{} = {} {}", hypothesis.trial->amplitude, written_value(finding.amplitude, unit, 3),
+                                 written_interval(finding.standard_error, unit));
+  auto const is_site = [&](std::string const& key) {
+    return std::any_of(hypothesis.trial->sites.begin(), hypothesis.trial->sites.end(),
+                       [&](auto const& site) { return key == site.key || key == site.other || key == "axis"; });
+  };
+  std::vector<std::string> others;
+  for (auto const& [key, value] : hypothesis.keys)
+    if (!is_site(key)) others.push_back(key + " = " + value);
+  if (!others.empty() && others.size() <= most_keys) text += fmt::format(", with {}", fmt::join(others, ", "));
+  return text;
 }
 
 Json json_of(Finding const& finding, std::size_t group) {
@@ -66,6 +77,7 @@ Json json_of(std::vector<ChannelGap> const& gaps) {
                     {"channel", gap.channel},
                     {"unit", gap.unit},
                     {"before", in_unit(gap.unit, gap.before)},
+                    {"calibrated", in_unit(gap.unit, gap.calibrated)},
                     {"after", in_unit(gap.unit, gap.after)}});
   }
   return list;
@@ -116,17 +128,21 @@ std::string words_of_gain(Diagnosis const& diagnosis, std::vector<ChannelGap> co
   auto const most =
       std::max_element(gaps.begin(), gaps.end(), [&](auto const& a, auto const& b) { return worth(a) < worth(b); });
   if (diagnosis.explanations.empty() || most == gaps.end()) return "";
-  return fmt::format("With {}, the error of the twin at {} on {} data {} from {:.3g} to {:.3g} {} RMS.\n\n",
-                     diagnosis.explanations.size() == 1 ? "it" : "them", most->channel, data,
-                     most->after < most->before ? "falls" : "grows", in_unit(most->unit, most->before),
-                     in_unit(most->unit, most->after), most->unit);
+  return fmt::format(
+      "With {}, the error of the twin at {} on {} data {} from {:.3g} to {:.3g} {} RMS; calibration alone leaves "
+      "{:.3g}.\n\n",
+      diagnosis.explanations.size() == 1 ? "it" : "them", most->channel, data,
+      most->after < most->before ? "falls" : "grows", in_unit(most->unit, most->before),
+      in_unit(most->unit, most->after), most->unit, in_unit(most->unit, most->calibrated));
 }
 
 std::string table_of(std::vector<ChannelGap> const& gaps) {
-  std::string text = fmt::format("  {:<20} {:<10} {:>10} {:>10}\n", "run", "channel", "before", "after");
+  std::string text =
+      fmt::format("  {:<20} {:<10} {:>10} {:>10} {:>10}\n", "run", "channel", "file", "calibrated", "amended");
   for (auto const& gap : gaps) {
-    text += fmt::format("  {:<20} {:<10} {:>10.3f} {:>10.3f} {}\n", gap.run, gap.channel, in_unit(gap.unit, gap.before),
-                        in_unit(gap.unit, gap.after), gap.unit);
+    text += fmt::format("  {:<20} {:<10} {:>10.3f} {:>10.3f} {:>10.3f} {}\n", gap.run, gap.channel,
+                        in_unit(gap.unit, gap.before), in_unit(gap.unit, gap.calibrated), in_unit(gap.unit, gap.after),
+                        gap.unit);
   }
   return text;
 }
@@ -208,6 +224,8 @@ std::string report_json(DiagnosisReport const& report) {
     json["sensor"] = {{"name", diagnosis.explanations.empty()
                                    ? diagnosis.faulty_sensor->name
                                    : diagnosis.explanations[0].alternatives[0].hypothesis.body}};
+  json["tried"] = diagnosis.hypotheses.size();
+  json["visible"] = diagnosis.visible;
   json["where"] = Json::array();
   for (auto const& [body, regime] : diagnosis.where) json["where"].push_back({{"body", body}, {"regime", regime}});
   auto const gap = whole(report.held_out.empty() ? report.fitted : report.held_out);
@@ -241,10 +259,11 @@ std::string report_text(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
   std::string text = "\n" + headline(diagnosis) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
+  if (diagnosis.verdict == Diagnosis::Verdict::nothing)
+    text += fmt::format("Of {} effects at their sites, {} would have been seen at half of their largest size.\n\n",
+                        diagnosis.hypotheses.size(), diagnosis.visible);
   text += words_of_proposal(diagnosis);
-  if (auto const& sensor = diagnosis.faulty_sensor)
-    text += fmt::format("{} {}.\n\n", sensor->name,
-                        sensor->dead ? "shows nothing in a run" : "jumps about as no body's temperature does");
+  if (auto const& sensor = diagnosis.faulty_sensor) text += fmt::format("{} {}.\n\n", sensor->name, sensor->what);
   text += words_of_heat(diagnosis);
   auto const& shown = report.held_out.empty() ? report.fitted : report.held_out;
   std::string const data = report.held_out.empty() ? "the fitted" : "unseen";

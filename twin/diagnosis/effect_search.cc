@@ -8,6 +8,7 @@
 #include <set>
 
 #include "twin/diagnosis/expected_noise.h"
+#include "twin/diagnosis/separation.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -225,6 +226,10 @@ bool EffectSearch::add_effect(int round) {
   say(fmt::format("{} effects at their sites, round {}", hypotheses_.size(), round));
   double const threshold = round == 1 ? options_.threshold : further_threshold();
   auto const scores = score(fit_, whitened_signatures(hypotheses_), hypotheses_);
+  if (round == 1)
+    visible_ = std::size_t(std::count_if(scores.begin(), scores.end(), [](Score const& score) {
+      return 0.5 * std::sqrt(score.information) > wanted_distance;
+    }));
   auto const first = refits(fit_, most_promising(scores), scores);
   if (first.empty()) return false;
   Estimation const before = *estimation_;
@@ -256,7 +261,9 @@ bool EffectSearch::add_effect(int round) {
   }
   strongest_ = std::max(strongest_, best.strength);
   explanations_.push_back(explanation_of(all));
-  std::erase_if(hypotheses_, [&](Hypothesis const& h) { return h.label() == best.hypothesis.label(); });
+  std::erase_if(hypotheses_, [&](Hypothesis const& h) {
+    return h.label() == best.hypothesis.label() && h.trial->amplitude == best.hypothesis.trial->amplitude;
+  });
   listen_to_noise();
   return true;
 }

@@ -58,6 +58,8 @@ class EffectSearch {
   [[nodiscard]] Estimation const& estimation() const { return estimation_.value(); }
   [[nodiscard]] Fit const& fit() const { return fit_; }
   [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
+  /// How many hypotheses would be seen at half of their largest amplitude, as far as `--plan` wants it.
+  [[nodiscard]] std::size_t visible() const { return visible_; }
 
  private:
   struct Refit;
@@ -85,6 +87,7 @@ class EffectSearch {
   std::vector<Hypothesis> hypotheses_;
   std::optional<Estimation> plain_;
   std::optional<Estimation> estimation_;
+  std::size_t visible_ = 0;
   double strongest_ = 0.0;  ///< of the effects found so far
   Fit calibrated_, fit_;
   std::vector<Explanation> explanations_;

@@ -22,6 +22,7 @@ constexpr double start_deviation = 0.3;      // [K]
 constexpr double air_deviation = 0.2;        // [K]
 constexpr double amplitude_deviation = 0.5;  // of the trial's largest
 constexpr double relative_step = 1e-4;
+constexpr int start_halvings = 4;
 
 void scale(thermal::NetworkDerivative& d, double factor) {
   auto const times = [&](std::vector<double>& values) {
@@ -406,6 +407,9 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   auto const count = Eigen::Index(unknowns_.size());
   problem.residuals = rows_ + count;
   problem.start = start;
+  for (int i = 0; i < start_halvings && !(traced = trace(problem.start));
+       ++i)  // so much of an effect no machine endures
+    problem.start.tail(Eigen::Index(effects_.size())) *= 0.5;
   problem.lower.resize(count);
   problem.upper.resize(count);
   for (Eigen::Index u = 0; u < count; ++u) {

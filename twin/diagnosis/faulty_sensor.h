@@ -11,10 +11,11 @@ namespace thermotwin::twin {
 
 struct FaultySensor {
   std::string name;
-  bool dead = false;  ///< shows nothing in a run; otherwise its readings jump about as those of no body do
+  std::string what;  ///< it does, for people: "shows nothing in a run"
 };
 
-/// The one sensor that is dead or jumps about; none where several do. One that hangs in the air may jump.
+/// The one sensor that is dead, or whose readings change from one sample to the next and stay so, as no body's
+/// temperature does; none where several do. One that hangs in the air may.
 [[nodiscard]] std::optional<FaultySensor> faulty_sensor(Machine const& machine, std::vector<BinnedRun> const& runs);
 
 }  // namespace thermotwin::twin

@@ -28,7 +28,8 @@ std::string unit_of(MeasuredChannel const& channel, Machine const& machine) {
   return rotation ? "urad" : "um";
 }
 
-std::vector<ChannelGap> gaps(Machine const& before, Machine const& after, std::vector<BinnedRun> const& runs) {
+std::vector<ChannelGap> gaps(Machine const& before, Machine const& after, std::vector<BinnedRun> const& runs,
+                             Machine const* calibrated) {
   std::vector<ChannelGap> result;
   for (auto const& run : runs) {
     Eigen::MatrixXd const was = run.values - LinearisedRun(before, run).prediction();
@@ -38,6 +39,10 @@ std::vector<ChannelGap> gaps(Machine const& before, Machine const& after, std::v
       result.push_back({run.run->name, channel.name, channel.displacement, unit_of(channel, before),
                         spread(was.col(Eigen::Index(c))), spread(is.col(Eigen::Index(c)))});
     }
+    if (!calibrated) continue;
+    Eigen::MatrixXd const fitted = run.values - LinearisedRun(*calibrated, run).prediction();
+    auto* const own = result.data() + result.size() - run.run->channels.size();
+    for (Eigen::Index c = 0; c < fitted.cols(); ++c) own[c].calibrated = spread(fitted.col(c));
   }
   return result;
 }

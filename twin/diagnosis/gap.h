@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,13 @@ struct ChannelGap {
   bool displacement = false;
   std::string unit = "K";            ///< in which people read it: K, um, urad
   double before = 0.0, after = 0.0;  ///< RMS [K, m, rad] of the machine as it was and as it is amended
+  double calibrated = NAN;           ///< of the machine whose numbers were fitted, without what was added to it
 };
 
 /// Both machines along the same runs, channel by channel. One constant per channel and run is taken off: an
 /// instrument's offset, and the zero of a displacement, belong to no machine.
 [[nodiscard]] std::vector<ChannelGap> gaps(Machine const& before, Machine const& after,
-                                           std::vector<BinnedRun> const& runs);
+                                           std::vector<BinnedRun> const& runs, Machine const* calibrated = nullptr);
 
 /// In which people read a channel's gap: K, um, urad.
 [[nodiscard]] std::string unit_of(MeasuredChannel const& channel, Machine const& machine);

@@ -3,6 +3,7 @@
 
 #include <ceres/ceres.h>
 #include <cmath>
+#include <glog/logging.h>
 
 namespace thermotwin::twin {
 namespace {
@@ -51,6 +52,7 @@ LeastSquaresResult solve(LeastSquares const& least_squares) {
   options.initial_trust_region_radius = 1e8;  // near Gauss–Newton: the priors keep steps short
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
+  FLAGS_minloglevel = google::GLOG_FATAL;  // a fit that ends early says so by `converged`
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   result.cost = summary.final_cost;

@@ -14,7 +14,7 @@ namespace dimension = thermal::dimension;
 
 std::optional<double> deviation_of(std::string const& table, std::string const& key, thermal::Dimension const& of) {
   if (key == "grease_factor" || of == dimension::torque) return 0.25;
-  if (table == "film" && (key == "area" || key == "coefficient")) return 0.20;
+  if (table == "film" && (key == "area" || key == "coefficient" || key == "factor")) return 0.20;
   if (of == dimension::conductance || of == dimension::film_coefficient) return 0.30;
   if (of == dimension::power) return 0.25;
   if (key == "mass" || key == "heat_capacity") return 0.10;
@@ -58,6 +58,12 @@ bool is_nothing(Value const& value) {
   return (number && *number == 0.0) || (whole && *whole == 0);
 }
 
+/// A film of which the file says neither area nor coefficient is as uncertain as its correlation.
+void add_factor(Value& film) {
+  if (film.find("area") || film.find("coefficient") || film.find("factor")) return;
+  std::get<Value::Table>(film.content).push_back({"factor", film.where, {film.where, 1.0}});
+}
+
 /// Every step of the structural loop may do more or less than it was computed to.
 void add_growth(Value& channel, std::string const& kind, Value const& document, std::vector<UncertainNumber>& numbers) {
   Value* segments = channel.find("segment");
@@ -95,6 +101,7 @@ std::vector<UncertainNumber> uncertain_numbers(Value& document) {
   };
   for (std::string const kind : {"lump", "bar", "hollow_cylinder", "block"})
     with_tables(kind, [&](Value& table) { add_numbers(document, kind, table, numbers); });
+  with_tables("film", add_factor);
   for (auto const& entry : effect_catalogue())
     with_tables(entry.name, [&](Value& table) { add_numbers(document, entry.name, table, numbers); });
   for (std::string const kind : {"rotation", "displacement"})

@@ -10,16 +10,16 @@
 namespace thermotwin::twin {
 namespace {
 
-/// q = A (T_fluid − T_surface)/(1/h + r). Ports: surface cell, fluid. c = {A, r, size, coefficient, emissivity},
+/// q = A (T_fluid − T_surface)/(1/(f h) + r). Ports: surface cell, fluid. c = {A, r, size, coefficient, emissivity, f},
 /// u = {ω}. The correlation gives h from the temperatures, the speed and what else it needs.
 template <class Correlation>
 struct FilmLaw {
   static constexpr std::string_view name = Correlation::name;
-  static constexpr int ports = 2, coefficients = 5, inputs = 1;
+  static constexpr int ports = 2, coefficients = 6, inputs = 1;
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    S const h = Correlation::template film<S>(T[0], T[1], c[2], c[3], c[4], u[0]);
+    S const h = c[5] * Correlation::template film<S>(T[0], T[1], c[2], c[3], c[4], u[0]);
     q[0] = c[0] * h / (1.0 + c[1] * h) * (T[1] - T[0]);
     q[1] = -q[0];
   }
@@ -119,7 +119,7 @@ struct Film {
   std::string name, to = "ambient", correlation = "room";
   std::vector<std::string> on;
   std::optional<double> area, coefficient, diameter, height;
-  double emissivity = thermal::painted_emissivity;
+  double emissivity = thermal::painted_emissivity, factor = 1.0;
   std::string speed = "spindle.speed";
 
   template <class Fields>
@@ -135,6 +135,8 @@ struct Film {
     f("height", &Film::height, dimension::length, "of a vertical plate; area over perimeter of a horizontal one",
       positive);
     f("emissivity", &Film::emissivity, dimension::dimensionless, "of a room film", Range{0.05, 1.0});
+    f("factor", &Film::factor, dimension::dimensionless, "of the surface's coefficient over the correlation's",
+      Range{0.1, 10.0});
     f("speed", &Film::speed, "input channel with the speed of rotation, or what runs the fan");
   }
 
@@ -160,7 +162,7 @@ struct Film {
     for (auto const& contact : place.site.contacts)
       assembly.network().add(correlations().at(correlation), assembly.part(),
                              {assembly.node(place, contact.node), fluid(assembly, contact.centre)},
-                             {contact.area, contact.half_resistance, size(), needed(), emissivity}, {input});
+                             {contact.area, contact.half_resistance, size(), needed(), emissivity, factor}, {input});
   }
   [[nodiscard]] thermal::Port fluid(Assembly& assembly, Eigen::Vector3d const& point) const {
     return to == "ambient" ? assembly.air(point) : assembly.port(to);
@@ -187,7 +189,7 @@ Effect const& film_effect() {
   static Effect const effect = make_effect<Film>(
       {"film",
        "convection and radiation from a surface to the room or to a fluid",
-       "q = h A (T_fluid − T_surface), in series with the half cell of a discretised body. room: h = 1.7·1.3 "
+       "q = f h A (T_fluid − T_surface), in series with the half cell of a discretised body. room: h = 1.7·1.3 "
        "|ΔT|^(1/3) + "
        "0.8 ε 4σ T_m³;  rotating_cylinder: Nu = (Nu_f³ + Nu_n³)^(1/3), Nu_f = 0.133 Re^(2/3) Pr^(1/3) (anderson: 0.10 "
        "Re^(2/3); slow: 0.683 Re^0.466 Pr^(1/3); jungnickel: h = 3.75 ω^0.7 R^0.4), Nu_n Churchill & Chu;  "

@@ -29,8 +29,12 @@ VectorXd with_leaps(VectorXd values, int count) {
   return values;
 }
 
-std::optional<FaultySensor> found(std::vector<MeasuredChannel> channels) {
+/// One sample a minute; `missing` minutes without any after the 200th.
+std::optional<FaultySensor> found(std::vector<MeasuredChannel> channels, double missing = 0.0) {
   MeasuredRun run;
+  run.name = "monday";
+  run.time = VectorXd::NullaryExpr(
+      channels[0].values.size(), [&](Eigen::Index i) { return 60.0 * (double(i) + (i < 200 ? 0.0 : missing)); });
   run.channels = std::move(channels);
   BinnedRun binned;
   binned.run = &run;
@@ -45,7 +49,30 @@ TEST(FaultySensor, IsOneWhoseReadingsLeapAndStayForAWhile) {
   auto const sensor = found({{"T1", false, warming()}, {"T2", false, with_leaps(warming(), 3)}});
   ASSERT_TRUE(sensor);
   EXPECT_EQ(sensor->name, "T2");
-  EXPECT_FALSE(sensor->dead);
+  EXPECT_EQ(sensor->what, "jumps about as no body's temperature does");
+}
+
+VectorXd with_step(double size) {
+  VectorXd values = warming();
+  values.tail(280).array() += size;
+  return values;
+}
+
+TEST(FaultySensor, IsOneWhoseReadingsLeapOnceForEver) {
+  auto const sensor = found({{"T1", false, warming()}, {"T2", false, with_step(-1.0)}});
+  ASSERT_TRUE(sensor);
+  EXPECT_EQ(sensor->name, "T2");
+  EXPECT_EQ(sensor->what, "jumps by -0.94 K at 3.33 h of monday and stays there, as no body's temperature does");
+}
+
+TEST(FaultySensor, IsNoneThatIsDisturbedForASample) {
+  VectorXd values = warming();
+  values[300] += 3.0;
+  EXPECT_FALSE(found({{"T1", false, warming()}, {"T2", false, values}}));
+}
+
+TEST(FaultySensor, IsNoneWhereNobodyLookedForAnHour) {
+  EXPECT_FALSE(found({{"T1", false, warming()}, {"T2", false, with_step(-1.0)}}, 60.0));
 }
 
 TEST(FaultySensor, IsOneThatShowsNothing) {
@@ -53,7 +80,7 @@ TEST(FaultySensor, IsOneThatShowsNothing) {
   auto const sensor = found({{"T1", false, nothing}, {"T2", false, warming()}});
   ASSERT_TRUE(sensor);
   EXPECT_EQ(sensor->name, "T1");
-  EXPECT_TRUE(sensor->dead);
+  EXPECT_EQ(sensor->what, "shows nothing in a run");
 }
 
 TEST(FaultySensor, MayLeapWhereItHangsInTheAir) {
