@@ -16,6 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_places = 6, most_keys = 3;
+constexpr double loud = 4.0;
 
 /// "coefficient = 27 W/(m2 K) ± 10 W/(m2 K), with area = 0.5 m2": few keys are told, many stand in the amended file.
 std::string amplitude_text(Finding const& finding) {
@@ -191,6 +192,15 @@ std::string words_of_heat(Diagnosis const& diagnosis) {
   return text + "\n";
 }
 
+/// Channels that err by much more than was expected of them: "T3 (4 times)".
+std::string loud_channels(Diagnosis const& diagnosis) {
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < diagnosis.channels.size(); ++c)
+    if (diagnosis.noise_heard[c] >= loud)
+      names.push_back(fmt::format("{} ({:g} times)", diagnosis.channels[c], diagnosis.noise_heard[c]));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 std::string headline(Diagnosis const& diagnosis) {
   switch (diagnosis.verdict) {
     case Diagnosis::Verdict::nothing:
@@ -226,6 +236,8 @@ std::string report_json(DiagnosisReport const& report) {
                                    : diagnosis.explanations[0].alternatives[0].hypothesis.body}};
   json["tried"] = diagnosis.hypotheses.size();
   json["visible"] = diagnosis.visible;
+  for (std::size_t c = 0; c < diagnosis.channels.size(); ++c)
+    json["noise_heard"][diagnosis.channels[c]] = diagnosis.noise_heard[c];
   json["where"] = Json::array();
   for (auto const& [body, regime] : diagnosis.where) json["where"].push_back({{"body", body}, {"regime", regime}});
   auto const gap = whole(report.held_out.empty() ? report.fitted : report.held_out);
@@ -262,6 +274,8 @@ std::string report_text(DiagnosisReport const& report) {
   if (diagnosis.verdict == Diagnosis::Verdict::nothing)
     text += fmt::format("Of {} effects at their sites, {} would have been seen at half of their largest size.\n\n",
                         diagnosis.hypotheses.size(), diagnosis.visible);
+  if (auto const loudest = loud_channels(diagnosis); !loudest.empty())
+    text += fmt::format("More error than expected was taken for noise at {}.\n\n", loudest);
   text += words_of_proposal(diagnosis);
   if (auto const& sensor = diagnosis.faulty_sensor) text += fmt::format("{} {}.\n\n", sensor->name, sensor->what);
   text += words_of_heat(diagnosis);

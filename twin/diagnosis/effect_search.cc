@@ -127,6 +127,15 @@ void EffectSearch::listen_to_noise() {
   fit_ = estimation_->fit(fit_.x, 10);
 }
 
+std::vector<double> EffectSearch::noise_heard() const {
+  std::vector<double> times;
+  for (std::size_t c = 0; c < expected_.size(); ++c) {
+    auto const& heard = estimation_->noise()[c];
+    times.push_back(std::max(heard.fast / expected_[c].fast, heard.slow_share / expected_[c].slow_share));
+  }
+  return times;
+}
+
 Eigen::MatrixXd EffectSearch::whitened_signatures(std::vector<Hypothesis> const& hypotheses) const {
   Eigen::MatrixXd columns = signatures(*estimation_, fit_, hypotheses);
   estimation_->whiten(columns);

@@ -58,6 +58,8 @@ class EffectSearch {
   [[nodiscard]] Estimation const& estimation() const { return estimation_.value(); }
   [[nodiscard]] Fit const& fit() const { return fit_; }
   [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
+  /// How much more model error than expected was heard in each channel; 1: no more.
+  [[nodiscard]] std::vector<double> noise_heard() const;
   /// How many hypotheses would be seen at half of their largest amplitude, as far as `--plan` wants it.
   [[nodiscard]] std::size_t visible() const { return visible_; }
 

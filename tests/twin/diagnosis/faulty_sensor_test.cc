@@ -33,8 +33,8 @@ VectorXd with_leaps(VectorXd values, int count) {
 std::optional<FaultySensor> found(std::vector<MeasuredChannel> channels, double missing = 0.0) {
   MeasuredRun run;
   run.name = "monday";
-  run.time = VectorXd::NullaryExpr(
-      channels[0].values.size(), [&](Eigen::Index i) { return 60.0 * (double(i) + (i < 200 ? 0.0 : missing)); });
+  run.time = VectorXd::NullaryExpr(channels[0].values.size(),
+                                   [&](Eigen::Index i) { return 60.0 * (double(i) + (i < 200 ? 0.0 : missing)); });
   run.channels = std::move(channels);
   BinnedRun binned;
   binned.run = &run;
