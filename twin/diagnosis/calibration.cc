@@ -134,8 +134,11 @@ Calibration calibrate_files(CalibrateFiles const& files) {
   std::string const text = text_of_file(files.machine);
   Value const document = parse_toml(text, files.machine.string());
   std::vector<std::string> remarks;
-  auto const measured = read_runs(files.data, Machine::build(document), remarks);
-  auto calibration = calibrate(document, binned(measured));
+  Machine const machine = Machine::build(document);
+  auto const measured = read_runs(files.data, machine, remarks);
+  auto const runs = binned(measured);
+  auto calibration = calibrate(document, runs);
+  calibration.doubts = doubts(machine, runs);
   calibration.remarks = remarks;
   if (!files.output.empty())
     write_amended(files.machine, files.output,

@@ -6,6 +6,7 @@
 
 #include "twin/diagnosis/estimation.h"
 #include "twin/diagnosis/gap.h"
+#include "twin/diagnosis/plausibility.h"
 
 namespace thermotwin::twin {
 
@@ -47,6 +48,7 @@ struct Calibration {
   bool converged = false;
   std::vector<ChannelGap> gaps;  ///< of the nominal machine and of `document`
   Value document;                ///< the machine with the numbers as written
+  std::vector<Doubt> doubts;     ///< of calibrate_files
   std::vector<std::string> remarks;
 };
 

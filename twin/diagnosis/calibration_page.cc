@@ -53,6 +53,8 @@ Json json_of(ChannelGap const& gap) {
           {"after", scale * gap.after}};
 }
 
+Json json_of(Doubt const& doubt) { return {{"run", doubt.run}, {"channel", doubt.channel}, {"text", doubt.text}}; }
+
 template <class Items>
 Json list_of(Items const& items) {
   Json list = Json::array();
@@ -113,8 +115,8 @@ std::string gap_table(Calibration const& calibration) {
 }  // namespace
 
 std::string calibration_table(Calibration const& calibration) {
-  std::string text = fmt::format("\n{}\n{}\n{}\n{}\n", number_table(calibration), instrument_table(calibration),
-                                 collinearity_text(calibration), gap_table(calibration));
+  std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n", doubt_lines(calibration.doubts), number_table(calibration),
+                                 instrument_table(calibration), collinearity_text(calibration), gap_table(calibration));
   text += fmt::format("misfit: {:.2f} of what the expected noise makes; {}\n", calibration.misfit,
                       calibration.misfit > more_than_noise ? "something is missing: ask `diagnose`"
                                                            : "whether an effect is missing, `diagnose` tells");
@@ -125,17 +127,18 @@ std::string calibration_table(Calibration const& calibration) {
 
 std::string calibration_json(Calibration const& calibration) {
   auto const sum = whole(calibration.gaps);
-  Json const json = {{"machine", calibration.machine},
-                     {"numbers", list_of(calibration.numbers)},
-                     {"instruments", list_of(calibration.instruments)},
-                     {"inseparable", calibration.inseparable},
-                     {"collinearity", calibration.collinearity},
-                     {"weakest_direction", calibration.weakest},
-                     {"misfit", calibration.misfit},
-                     {"converged", calibration.converged},
-                     {"gap", {{"before", sum.before}, {"after", sum.after}}},
-                     {"gaps", list_of(calibration.gaps)},
-                     {"remarks", calibration.remarks}};
+  Json json = {{"machine", calibration.machine},
+               {"numbers", list_of(calibration.numbers)},
+               {"instruments", list_of(calibration.instruments)},
+               {"inseparable", calibration.inseparable},
+               {"collinearity", calibration.collinearity},
+               {"weakest_direction", calibration.weakest},
+               {"misfit", calibration.misfit},
+               {"converged", calibration.converged},
+               {"gap", {{"before", sum.before}, {"after", sum.after}}},
+               {"gaps", list_of(calibration.gaps)},
+               {"remarks", calibration.remarks}};
+  json["doubts"] = list_of(calibration.doubts);
   return json.dump(2) + "\n";
 }
 

@@ -101,6 +101,9 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   auto const runs = read_runs(files.data, machine, report.remarks);
   auto const unseen = read_runs(files.held_out, machine, report.remarks);
   auto const fitted = binned(runs), held_out = binned(unseen);
+  std::vector<BinnedRun> every_run = fitted;
+  every_run.insert(every_run.end(), held_out.begin(), held_out.end());
+  report.doubts = doubts(machine, every_run);
   DiagnosisOptions options;
   options.without = files.without;
   options.progress = files.progress;

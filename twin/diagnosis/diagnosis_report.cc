@@ -69,6 +69,13 @@ Json json_of(FreeHeat const& heat) {
   return {{"body", heat.site.body}, {"watts", sum / time}, {"gain", heat.gain}, {"runs", runs}};
 }
 
+Json json_of(std::vector<Doubt> const& doubts) {
+  Json list = Json::array();
+  for (auto const& doubt : doubts)
+    list.push_back({{"run", doubt.run}, {"channel", doubt.channel}, {"text", doubt.text}});
+  return list;
+}
+
 double in_unit(std::string const& unit, double si) { return unit == "K" ? si : 1e6 * si; }
 
 Json json_of(std::vector<ChannelGap> const& gaps) {
@@ -263,13 +270,14 @@ std::string report_json(DiagnosisReport const& report) {
                                  {"standard_error", std::sqrt(diagnosis.amended.covariance(i, i))},
                                  {"prior", diagnosis.unknowns[u].deviation}});
   }
+  json["doubts"] = json_of(report.doubts);
   json["remarks"] = report.remarks;
   return json.dump(2) + "\n";
 }
 
 std::string report_text(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
-  std::string text = "\n" + headline(diagnosis) + "\n\n";
+  std::string text = doubt_lines(report.doubts) + "\n" + headline(diagnosis) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
   if (diagnosis.verdict == Diagnosis::Verdict::nothing)
     text += fmt::format("Of {} effects at their sites, {} would have been seen at half of their largest size.\n\n",

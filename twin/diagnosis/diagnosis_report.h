@@ -5,6 +5,7 @@
 
 #include "twin/diagnosis/diagnosis.h"
 #include "twin/diagnosis/gap.h"
+#include "twin/diagnosis/plausibility.h"
 
 namespace thermotwin::twin {
 
@@ -12,7 +13,8 @@ namespace thermotwin::twin {
 struct DiagnosisReport {
   Diagnosis diagnosis;
   std::vector<ChannelGap> fitted, held_out;
-  std::vector<std::string> remarks;  ///< about the data
+  std::vector<Doubt> doubts;         ///< about the data
+  std::vector<std::string> remarks;  ///< the same, of less weight
 };
 
 /// Verdict, effects with their intervals and weights, unaccounted heat, gaps per channel, estimates: everything, for

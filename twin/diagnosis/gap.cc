@@ -6,7 +6,6 @@
 #include "twin/diagnosis/linearised_run.h"
 
 namespace thermotwin::twin {
-namespace {
 
 double spread(Eigen::VectorXd const& values) {
   double sum = 0.0, squares = 0.0, count = 0.0;
@@ -19,7 +18,12 @@ double spread(Eigen::VectorXd const& values) {
   return count > 0.0 ? std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count))) : NAN;
 }
 
-}  // namespace
+/// From the spreads of sum and difference: 4 cov(a, b) = var(a + b) − var(a − b). A value that is missing in one is in
+/// both.
+double correlation(Eigen::VectorXd const& a, Eigen::VectorXd const& b) {
+  double const scale = 4.0 * spread(a + 0.0 * b) * spread(b + 0.0 * a);
+  return scale > 0.0 ? (std::pow(spread(a + b), 2) - std::pow(spread(a - b), 2)) / scale : 0.0;
+}
 
 std::string unit_of(MeasuredChannel const& channel, Machine const& machine) {
   if (!channel.displacement) return "K";

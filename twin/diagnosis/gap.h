@@ -23,6 +23,11 @@ struct ChannelGap {
 [[nodiscard]] std::vector<ChannelGap> gaps(Machine const& before, Machine const& after,
                                            std::vector<BinnedRun> const& runs, Machine const* calibrated = nullptr);
 
+/// RMS about the mean of the values that there are; NaN if there are none.
+[[nodiscard]] double spread(Eigen::VectorXd const& values);
+/// Of the values that both have; 0 where one of them does not move.
+[[nodiscard]] double correlation(Eigen::VectorXd const& a, Eigen::VectorXd const& b);
+
 /// In which people read a channel's gap: K, um, urad.
 [[nodiscard]] std::string unit_of(MeasuredChannel const& channel, Machine const& machine);
 

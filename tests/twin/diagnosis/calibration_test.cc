@@ -18,6 +18,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::StartsWith;
 using thermotwin::tests::contents;
 using thermotwin::tests::refusal;
 using thermotwin::tests::TemporaryDirectory;
@@ -62,6 +63,14 @@ TEST_F(CalibrationTest, NumbersThatTheDataDoNotKnowAreNotIdentified) {
   auto const& bed = number("lump.bed.mass");
   EXPECT_FALSE(bed.identified);
   EXPECT_NEAR(bed.deviation, 0.10, 0.02);  // the prior's
+}
+
+TEST_F(CalibrationTest, DoubtsOfTheDataAreToldFirst) {
+  EXPECT_TRUE(calibration.doubts.empty());
+  Calibration doubted = calibration;
+  doubted.doubts = {{"run", "E_Z", "E_Z moves against the machine"}};
+  EXPECT_THAT(calibration_table(doubted), StartsWith(doubt_lines(doubted.doubts)));
+  EXPECT_THAT(calibration_json(doubted), HasSubstr(R"("text": "E_Z moves against the machine")"));
 }
 
 TEST_F(CalibrationTest, GapShrinksThoughOnlyIdentifiedNumbersChange) {

@@ -16,6 +16,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::StartsWith;
 using thermotwin::tests::contents;
 using thermotwin::tests::refusal;
 using thermotwin::tests::TemporaryDirectory;
@@ -86,6 +87,14 @@ TEST_F(DiagnoseFilesTest, AmendedFileSaysWhatWasFoundAndWhere) {
   EXPECT_THAT(text, HasSubstr("2 ln of the evidence"));
   EXPECT_THAT(text, HasSubstr("growth_factor: ± "));
   EXPECT_THAT(text, HasSubstr("# was 0.55; ± 0."));
+}
+
+TEST_F(DiagnoseFilesTest, DoubtsOfTheDataAreToldFirst) {
+  EXPECT_TRUE(report.doubts.empty());
+  DiagnosisReport doubted = report;
+  doubted.doubts = {{"run1", "E_Z", "E_Z moves against the machine"}};
+  EXPECT_THAT(report_text(doubted), StartsWith(doubt_lines(doubted.doubts)));
+  EXPECT_THAT(report_json(doubted), HasSubstr(R"("text": "E_Z moves against the machine")"));
 }
 
 TEST_F(DiagnoseFilesTest, GapShrinksOnTheUnseenRun) {
