@@ -62,7 +62,7 @@ TEST(FaultySensor, IsOneWhoseReadingsLeapOnceForEver) {
   auto const sensor = found({{"T1", false, warming()}, {"T2", false, with_step(-1.0)}});
   ASSERT_TRUE(sensor);
   EXPECT_EQ(sensor->name, "T2");
-  EXPECT_EQ(sensor->what, "jumps by -0.94 K at 3.33 h of monday and stays there, as no body's temperature does");
+  EXPECT_EQ(sensor->what, "jumps by -1 K at 3.33 h of monday and stays there, as no body's temperature does");
 }
 
 TEST(FaultySensor, IsNoneThatIsDisturbedForASample) {
