@@ -76,6 +76,20 @@ Signal Signal::magnitude() const {
   return {times_, values, interpolation_};
 }
 
+Signal Signal::with_piece(double from, double to, double value) const {
+  std::vector<double> times, values;
+  auto const add = [&](double t, double v) {
+    times.push_back(t);
+    values.push_back(v);
+  };
+  for (std::size_t k = 0; k < times_.size() && times_[k] < from; ++k) add(times_[k], values_[k]);
+  add(from, value);
+  add(to, at(to));
+  for (std::size_t k = 0; k < times_.size(); ++k)
+    if (times_[k] > to) add(times_[k], values_[k]);
+  return {times, values, interpolation_};
+}
+
 Signal schedule(std::vector<Block> const& blocks, int cycles, double afterwards, double until) {
   std::vector<double> times;
   std::vector<double> values;

@@ -33,7 +33,10 @@ class Signal {
   [[nodiscard]] Signal scaled(double factor) const;
   /// This signal with every value made positive.
   [[nodiscard]] Signal magnitude() const;
+  /// This signal held at another value from one time until another.
+  [[nodiscard]] Signal with_piece(double from, double to, double value) const;
 
+  [[nodiscard]] Interpolation interpolation() const { return interpolation_; }
   [[nodiscard]] std::vector<double> const& times() const { return times_; }
   [[nodiscard]] std::vector<double> const& values() const { return values_; }
 

@@ -32,6 +32,14 @@ TEST(Signal, JumpsOnlyWhereItsValueChanges) {
   EXPECT_TRUE(slopes().jumps().empty());
 }
 
+TEST(Signal, APieceStandsInPlaceOfWhatWasThere) {
+  auto const changed = steps().with_piece(5.0, 20.0, 3.0);
+  EXPECT_EQ(changed.jumps(), (std::vector<double>{5.0, 20.0}));
+  EXPECT_EQ(changed.at(0.0), 1.0);
+  EXPECT_EQ(changed.at(12.0), 3.0);
+  EXPECT_EQ(changed.at(20.0), 5.0);
+}
+
 TEST(Signal, IntegralIsTheAreaUnderIt) {
   EXPECT_DOUBLE_EQ(steps().integral(20.0), 10.0 + 50.0);
   EXPECT_DOUBLE_EQ(slopes().integral(10.0), 25.0);

@@ -11,6 +11,8 @@
 #include "output/dataset_file.h"
 #include "tests/output/temporary_directory.h"
 #include "tests/scenarios/refusal.h"
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/diagnosis/measured_data.h"
 #include "twin/diagnosis/prediction.h"
 #include "twin/experiment_file.h"
 #include "twin/run.h"
@@ -22,10 +24,10 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
-using tests::contents;
-using tests::put;
-using tests::refusal;
-using tests::TemporaryDirectory;
+using thermotwin::tests::contents;
+using thermotwin::tests::put;
+using thermotwin::tests::refusal;
+using thermotwin::tests::TemporaryDirectory;
 
 Machine const& machine() {
   static Machine const v450 = Machine::read(machine_file("v450"));
@@ -152,6 +154,79 @@ TEST(MeasuredRun, DeadSensorsAndGapsBecomeRemarks) {
   EXPECT_TRUE(run.channels[2].values.tail(59).array().isNaN().all());
   EXPECT_TRUE(std::isfinite(run.channels[2].values[100]));
   EXPECT_TRUE(std::isnan(run.channels[4].values[7]));
+}
+
+/// Value of a course's channel there [SI].
+double value_at(thermal::Course const& course, std::string const& name, double time) {
+  auto const& channels = course.channels();
+  std::vector<double> values(channels.size());
+  course.evaluate(time, values);
+  auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
+  return values.at(std::size_t(it - channels.begin()));
+}
+
+TEST(MeasuredRun, WhatMayHaveBeenGivenInAGapIsTheOtherExtremeInEachHalf) {
+  auto dataset = tests::without_rows(simulated(), 54.0 * 60.0, 74.0 * 60.0);
+  keep_inputs(dataset, {"spindle.speed", "ambient.temperature", "z.feed", "machine.on"});
+  auto const run = measured_run(dataset, machine(), "gap");
+  std::vector<std::string> names;
+  for (auto const& alternative : run.alternatives) names.push_back(alternative.name);
+  EXPECT_THAT(names, testing::UnorderedElementsAre("spindle.speed from 0.90 h to 1.23 h, first half",
+                                                   "spindle.speed from 0.90 h to 1.23 h, second half",
+                                                   "z.feed from 0.90 h to 1.23 h, first half",
+                                                   "z.feed from 0.90 h to 1.23 h, second half"));
+  double const fastest = thermal::from_unit(6000.0, "rpm");
+  for (auto const& [name, course] : run.alternatives) {
+    bool const spindle = name.starts_with("spindle"), first = name.ends_with("first half");
+    for (double const minute : {53.0, 58.0, 70.0, 75.0}) {
+      bool const other = first ? minute == 58.0 : minute == 70.0;
+      double const t = 60.0 * minute;
+      EXPECT_NEAR(value_at(*course, "spindle.speed", t), spindle && other ? fastest : 0.0, 1e-9) << name << minute;
+      EXPECT_NEAR(value_at(*course, "z.feed", t), minute > 74.0 || (!spindle && other) ? 0.0 : 0.1, 1e-9)
+          << name << minute;
+      EXPECT_EQ(value_at(*course, "machine.on", t), 1.0);
+    }
+  }
+}
+
+TEST(MeasuredRun, ALoggerThatWasOffBecomesOneRemarkOnInputsAndOneOnReadings) {
+  auto dataset = tests::without_rows(simulated(), 54.0 * 60.0, 74.0 * 60.0);
+  keep_inputs(dataset, {"spindle.speed", "ambient.temperature"});
+  auto const run = measured_run(dataset, machine(), "gap");
+  std::vector<std::string> told;
+  for (auto const& remark : run.remarks)
+    if (remark.find("0.90 h") != std::string::npos) told.push_back(remark);
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_THAT(told[0], testing::StartsWith(fmt::format(
+                           "{} channels have no reading for 0.33 h from 0.90 h on, where the data have no rows: T1, T2",
+                           run.channels.size())));
+  EXPECT_EQ(told[1],
+            "not recorded from 0.90 h to 1.23 h: spindle.speed, which a fit to this run estimates; without a fit the "
+            "last value is held, and readings after the gap depend on it (until 15 min after it they are left out); "
+            "ambient.temperature, taken from the rows beside the gap");
+}
+
+TEST(MeasuredRun, ReadingsInAGapOfTheSpeedAndSoonAfterItAreLeftOut) {
+  auto dataset = simulated();
+  channel(dataset.inputs, "spindle.speed").values.segment(55, 20).setConstant(std::nan(""));
+  auto const run = measured_run(dataset, machine(), "gap");
+  EXPECT_EQ(run.time.size(), dataset.time_s.size() - 35);
+  EXPECT_EQ(run.time[54], 54.0 * 60.0);
+  EXPECT_EQ(run.time[55], (75.0 + 15.0) * 60.0);
+  for (auto const& one : run.channels) EXPECT_EQ(one.values.size(), run.time.size()) << one.name;
+}
+
+/// A programme that is written down where it changes has no gap, nor has what never changes.
+TEST(MeasuredRun, WhatIsRecordedWhereItChangesHasNoGap) {
+  MeasuredData data;
+  data.time = Eigen::VectorXd::LinSpaced(181, 0.0, 3 * 3600.0);
+  data.readings = {{"T1", "degC", "", data.time / 3600.0}};
+  data.inputs = {{"spindle.speed", "rad/s", {0.0, 1800.0, 9000.0}, {100.0, 0.0, 200.0}},
+                 {"ambient.temperature", "K", {0.0}, {293.0}},
+                 {"ambient.gradient", "K/m", {0.0}, {0.0}}};
+  auto const run = measured_run(std::move(data), machine(), "programme");
+  EXPECT_TRUE(run.alternatives.empty());
+  EXPECT_THAT(run.remarks, testing::Not(Contains(HasSubstr("not recorded"))));
 }
 
 TEST(MeasuredRun, MissingInputsAreNamed) {

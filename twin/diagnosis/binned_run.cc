@@ -13,11 +13,18 @@ struct Stretch {
   bool after_jump;
 };
 
+/// Of the course or of what may have been given instead.
+double next_jump(MeasuredRun const& run, double t) {
+  double next = run.course->next_jump(t);
+  for (auto const& alternative : run.alternatives) next = std::min(next, alternative.course->next_jump(t));
+  return next;
+}
+
 std::vector<Stretch> rows_of(MeasuredRun const& run, double interval) {
   std::vector<Stretch> rows;
   double const end = run.time[run.time.size() - 1];
   for (double from = run.time[0]; from < end;) {
-    double const to = std::min(run.course->next_jump(from), end);
+    double const to = std::min(next_jump(run, from), end);
     int const count = std::max(1, int(std::ceil((to - from) / interval - 1e-9)));
     for (int i = 0; i < count; ++i)
       rows.push_back({from + (to - from) * i / count, from + (to - from) * (i + 1) / count, i == 0});

@@ -18,7 +18,8 @@ struct BinStep {
   double at_begin = 0.0, at_end = 0.0;
 };
 
-/// A measured run averaged to rows of some minutes, none of which crosses a jump of the input. What differs within such
+/// A measured run averaged to rows of some minutes, none of which crosses a jump of the input, or of what may have been
+/// given instead. What differs within such
 /// a row is noise; and a row in place of its samples makes a diagnosis ten times as fast.
 struct BinnedRun {
   MeasuredRun const* run = nullptr;

@@ -18,9 +18,10 @@ std::string verdict_of(CalibratedNumber const& number) {
   return number.identified ? "identified" : "not identified: keep prior";
 }
 
-/// Unit of an offset, lag, start or air, and what its SI value is multiplied by.
+/// Unit of an offset, lag, start, air or input, and what its SI value is multiplied by.
 std::pair<std::string, double> unit_of(Unknown const& unknown) {
   if (unknown.kind == Unknown::Kind::lag) return {"s", 1.0};
+  if (unknown.kind == Unknown::Kind::input) return {"1", 1.0};
   if (unknown.name.starts_with("zero of")) return {"um", 1e6};
   return {"K", 1.0};
 }

@@ -20,6 +20,7 @@ constexpr double usual_lag = 30.0;           // [s]
 constexpr double lag_deviation = 25.0;       // [s]
 constexpr double start_deviation = 0.3;      // [K]
 constexpr double air_deviation = 0.2;        // [K]
+constexpr double input_deviation = 0.7;      // of the response to what may have been given instead
 constexpr double amplitude_deviation = 0.5;  // of the trial's largest
 constexpr double relative_step = 1e-4;
 constexpr int start_halvings = 4;
@@ -92,6 +93,16 @@ Unknown zero_unknown(MeasuredChannel const& channel, std::size_t index, std::siz
           int(run)};
 }
 
+/// What the channels show more where this course is the machine's.
+Eigen::VectorXd response_to(std::shared_ptr<thermal::Course const> const& course, Machine const& machine,
+                            BinnedRun const& data, Eigen::MatrixXd const& prediction) {
+  MeasuredRun run = *data.run;
+  run.course = course;
+  BinnedRun other = data;
+  other.run = &run;
+  return (LinearisedRun(machine, other).prediction() - prediction).reshaped();
+}
+
 std::string table_name(std::size_t effect) { return fmt::format("diagnosed_{}", effect + 1); }
 
 /// What people see of an added effect acts through sensors or displacements, not through heat alone.
@@ -149,6 +160,10 @@ void Estimation::add_unknowns() {
                          INFINITY, 0, int(r)});
     unknowns_.push_back(
         {Kind::air, fmt::format("air in run {}", r + 1), 0.0, air_deviation, -INFINITY, INFINITY, 0, int(r)});
+    auto const& alternatives = (*data_)[r].run->alternatives;
+    for (std::size_t a = 0; a < alternatives.size(); ++a)
+      unknowns_.push_back({Kind::input, fmt::format("{}, run {}", alternatives[a].name, r + 1), 0.0, input_deviation,
+                           -INFINITY, INFINITY, a, int(r)});
   }
 }
 
@@ -171,12 +186,13 @@ void Estimation::whiten(Eigen::Ref<Eigen::MatrixXd> signals) const {
   }
 }
 
-/// Offsets, the start and the air: small, so that their response at the prior machine serves throughout.
+/// Offsets, the start and the air: small, so that their response at the prior machine serves throughout. And what was
+/// given in gaps, of which a share is estimated: in proportion to its heat, of which only what is stored is seen.
 void Estimation::find_linear_columns() {
   linear_.clear();
   for (std::size_t u = 0; u < unknowns_.size(); ++u)
     if (unknowns_[u].kind == Unknown::Kind::offset || unknowns_[u].kind == Unknown::Kind::start ||
-        unknowns_[u].kind == Unknown::Kind::air)
+        unknowns_[u].kind == Unknown::Kind::air || unknowns_[u].kind == Unknown::Kind::input)
       linear_.push_back(u);
   linear_columns_.setZero(rows_, Eigen::Index(linear_.size()));
   Machine const machine = Machine::build(document_);
@@ -188,7 +204,7 @@ void Estimation::find_linear_columns() {
   for (std::size_t r = 0; r < data_->size(); ++r) {
     auto const& run = (*data_)[r];
     LinearisedRun const twin(machine, run);
-    Eigen::MatrixXd const response = twin.response(both, initial);
+    Eigen::MatrixXd const response = twin.response(both, initial), prediction = twin.prediction();
     auto const rows = run.time.size();
     for (std::size_t l = 0; l < linear_.size(); ++l) {
       auto const& unknown = unknowns_[linear_[l]];
@@ -196,10 +212,12 @@ void Estimation::find_linear_columns() {
       auto column = linear_columns_.col(Eigen::Index(l)).segment(first_rows_[r], run.values.size());
       if (unknown.kind == Unknown::Kind::start) column = response.col(0);
       if (unknown.kind == Unknown::Kind::air) column = response.col(1);
-      for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
-        if (run.run->channels[c].name != channels_[unknown.index]) continue;
-        if (unknown.kind == Unknown::Kind::offset) column.segment(Eigen::Index(c) * rows, rows).setOnes();
-      }
+      if (unknown.kind == Unknown::Kind::input)
+        column = response_to(run.run->alternatives[unknown.index].course, machine, run, prediction);
+      if (unknown.kind != Unknown::Kind::offset) continue;
+      for (std::size_t c = 0; c < run.run->channels.size(); ++c)
+        if (run.run->channels[c].name == channels_[unknown.index])
+          column.segment(Eigen::Index(c) * rows, rows).setOnes();
     }
   }
   whitened_linear_columns_ = linear_columns_;

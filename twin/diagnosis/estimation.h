@@ -25,12 +25,13 @@ struct Unknown {
     lag,        ///< of a sensor [s]
     start,      ///< deviation of the whole machine's temperature at the start of a run [K]
     air,        ///< deviation of the room air from its record, in one run [K]
+    input,      ///< share of what a run may have been given instead in a gap of its record
   };
   Kind kind = Kind::number;
   std::string name;
   double mean = 0.0, deviation = 1.0;
   double lower = -INFINITY, upper = INFINITY;
-  std::size_t index = 0;  ///< of the number, the effect or the channel
+  std::size_t index = 0;  ///< of the number, the effect, the channel or the run's alternative
   int run = -1;           ///< −1: all
 };
 
@@ -83,7 +84,7 @@ class Estimation {
   [[nodiscard]] Value document_at(Eigen::VectorXd const& x) const;
   /// That machine, with the instruments' lags.
   [[nodiscard]] Machine machine_at(Eigen::VectorXd const& x) const;
-  /// Measured minus predicted and minus offsets, lags, start and air, row × channel of each run, not whitened.
+  /// Measured minus predicted and minus offsets, lags, start, air and gaps, row × channel of each run, not whitened.
   [[nodiscard]] std::vector<Eigen::MatrixXd> residuals_at(Eigen::VectorXd const& x) const;
 
   /// Whitens signals of all runs, (run; channel · rows + row) × column, in place.

@@ -111,26 +111,42 @@ Eigen::Index first_row(std::vector<MeasuredChannel> const& channels, Eigen::Inde
   return 0;
 }
 
-/// Longest time without a reading, and its share of the rows from the first on.
-void remark_gaps(MeasuredChannel const& channel, MeasuredData const& data, Eigen::Index first,
-                 std::vector<std::string>& remarks) {
-  double last = data.time[first], longest = 0.0, from = 0.0;
-  Eigen::Index absent = 0;
-  for (Eigen::Index r = first; r < data.time.size(); ++r) {
-    if (std::isnan(channel.values[r])) {
-      ++absent;
-      if (r + 1 < data.time.size()) continue;
-    }
-    if (data.time[r] - last > longest) {
-      longest = data.time[r] - last;
-      from = last;
-    }
-    last = data.time[r];
+/// The longest time in which a channel has no reading [s].
+struct ReadingGap {
+  double from = 0.0, to = 0.0;
+  bool operator==(ReadingGap const&) const = default;
+};
+
+ReadingGap longest_gap(MeasuredChannel const& channel, Eigen::VectorXd const& time, Eigen::Index first) {
+  ReadingGap longest;
+  double last = time[first];
+  for (Eigen::Index r = first; r < time.size(); ++r) {
+    if (std::isnan(channel.values[r]) && r + 1 < time.size()) continue;
+    if (time[r] - last > longest.to - longest.from) longest = {last, time[r]};
+    last = time[r];
   }
-  Eigen::Index const rows = data.time.size() - first;
-  if (absent < rows && longest > data.max_gap)
-    remarks.push_back(fmt::format("'{}' has no reading for {:.2f} h from {:.2f} h on; {} of {} rows are missing",
-                                  channel.name, longest / 3600.0, from / 3600.0, absent, rows));
+  return longest;
+}
+
+/// One remark for all channels that lack the same rows.
+void remark_gaps(std::vector<MeasuredChannel> const& channels, MeasuredData const& data, Eigen::Index first,
+                 std::vector<std::string>& remarks) {
+  std::vector<std::pair<ReadingGap, std::vector<std::string>>> gaps;
+  for (auto const& channel : channels) {
+    auto const gap = longest_gap(channel, data.time, first);
+    if (gap.to - gap.from <= data.max_gap || channel.values.array().isNaN().all()) continue;
+    auto const same = std::find_if(gaps.begin(), gaps.end(), [&](auto const& known) { return known.first == gap; });
+    (same == gaps.end() ? gaps.emplace_back(gap, std::vector<std::string>{}) : *same).second.push_back(channel.name);
+  }
+  for (auto const& [gap, names] : gaps) {
+    auto const rows = (data.time.array() > gap.from && data.time.array() < gap.to).count();
+    std::string const who =
+        names.size() == 1 ? fmt::format("'{}' has", names[0]) : fmt::format("{} channels have", names.size());
+    remarks.push_back(fmt::format("{} no reading for {:.2f} h from {:.2f} h on, {}{}", who,
+                                  (gap.to - gap.from) / 3600.0, gap.from / 3600.0,
+                                  rows == 0 ? "where the data have no rows" : fmt::format("in {} rows", rows),
+                                  names.size() == 1 ? "" : fmt::format(": {}", fmt::join(names, ", "))));
+  }
 }
 
 void remark_strangers(MeasuredData const& data, std::vector<Expected> const& expected,
@@ -175,7 +191,7 @@ std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const
   if (channels.empty()) no_channel(data, expected, machine);
   bury_dead(channels, data.time, remarks);
   Eigen::Index const first = first_row(channels, data.time.size());
-  for (auto const& channel : channels) remark_gaps(channel, data, first, remarks);
+  remark_gaps(channels, data, first, remarks);
   remark_strangers(data, expected, remarks);
   return channels;
 }

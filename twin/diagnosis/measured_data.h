@@ -20,17 +20,17 @@ struct MeasuredData {
   std::vector<output::Channel> readings;  ///< of sensors, in their units
   std::vector<output::Channel> displacements;
   std::optional<double> initial_temperature;  ///< [K]
-  double max_gap = 600.0;                     ///< longer gaps become remarks [s]
+  double max_gap = 600.0;                     ///< longer gaps become remarks, and those of inputs are estimated [s]
 };
 
-/// The inputs as a course: what is not recorded follows from the rest (scenarios/course.h), axes without a record stand
-/// still, machine and drives are on, the coolant is off; remarks say so.
+/// Adds the inputs as a course: what is not recorded follows from the rest (scenarios/course.h), axes without a record
+/// stand still, machine and drives are on, the coolant is off; remarks say so. And what may have been given instead in
+/// gaps (input_gap.h).
 ///
 /// InputError that lists the inputs that the machine needs and that cannot be supposed: the spindle's speed, the air's
 /// temperature, and whatever has a name of the machine's own; for a speed beyond the machine's; for a unit that
 /// contradicts the channel.
-[[nodiscard]] std::shared_ptr<thermal::Course const> course_of(MeasuredData data, Machine const& machine,
-                                                               std::vector<std::string>& remarks);
+void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine);
 
 /// The machine's channels that the data have, in SI and in the machine's order. A value that no sensor shows (below
 /// −60 °C, above 250 °C) is missing. A sensor that never moves while others do is dead: all its values are missing; one

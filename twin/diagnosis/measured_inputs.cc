@@ -7,6 +7,7 @@
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
+#include "twin/diagnosis/input_gap.h"
 #include "twin/diagnosis/measured_data.h"
 
 namespace thermotwin::twin {
@@ -143,32 +144,9 @@ void remark_suppositions(MeasuredData const& data, Machine const& machine, std::
   if (!said.empty()) remarks.push_back(fmt::format("not in the data, and supposed: {}", fmt::join(said, "; ")));
 }
 
-void remark_gaps(MeasuredData const& data, std::vector<std::string>& remarks) {
-  for (auto const& input : data.inputs) {
-    double last = input.times.front(), longest = 0.0, from = 0.0;
-    for (std::size_t i = 0; i < input.times.size(); ++i) {
-      if (!std::isfinite(input.values[i])) continue;
-      if (input.times[i] - last > longest) {
-        longest = input.times[i] - last;
-        from = last;
-      }
-      last = input.times[i];
-    }
-    double const end = data.time[data.time.size() - 1];
-    if (end - last > longest) {
-      longest = end - last;
-      from = last;
-    }
-    if (longest > data.max_gap)
-      remarks.push_back(fmt::format("input '{}' is missing for {:.2f} h from {:.2f} h on", input.name, longest / 3600.0,
-                                    from / 3600.0));
-  }
-}
-
 }  // namespace
 
-std::shared_ptr<thermal::Course const> course_of(MeasuredData data, Machine const& machine,
-                                                 std::vector<std::string>& remarks) {
+void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
   scenarios::Experiment experiment;
   experiment.duration = data.time[data.time.size() - 1];
   if (SampledInput const* clock = find(data.inputs, "time_of_day"))
@@ -178,11 +156,16 @@ std::shared_ptr<thermal::Course const> course_of(MeasuredData data, Machine cons
   for (auto const& axis : machine.limits.axes) complete_axis(data.inputs, axis);
   check_needs(data, machine);
   check_speed(data, machine);
-  remark_suppositions(data, machine, remarks);
-  remark_gaps(data, remarks);
-  for (auto const& input : data.inputs)
-    if (!is_derived(input, data)) experiment.driven.push_back(scenarios::driven_channel(input));
-  return std::make_shared<scenarios::ExperimentCourse const>(experiment, machine.limits);
+  remark_suppositions(data, machine, run.remarks);
+  std::vector<std::vector<InputGap>> gaps;
+  for (auto const& input : data.inputs) {
+    if (is_derived(input, data)) continue;
+    experiment.driven.push_back(scenarios::driven_channel(input));
+    gaps.push_back(gaps_of(input, data.max_gap, experiment.duration));
+  }
+  remark_gaps(gaps, experiment, run.remarks);
+  run.course = std::make_shared<scenarios::ExperimentCourse const>(experiment, machine.limits);
+  add_alternatives(run, gaps, experiment, machine.limits);
 }
 
 }  // namespace thermotwin::twin

@@ -55,7 +55,7 @@ MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string 
   if (!data.machine.empty() && data.machine != machine.name)
     run.remarks.push_back(fmt::format("measured on '{}', looked at with '{}'", data.machine, machine.name));
   run.channels = channels_of(data, machine, run.remarks);
-  run.course = course_of(std::move(data), machine, run.remarks);
+  add_courses(run, std::move(data), machine);
   return run;
 }
 

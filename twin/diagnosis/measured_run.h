@@ -20,14 +20,21 @@ struct MeasuredChannel {
   Eigen::VectorXd values;  ///< NaN: missing
 };
 
+/// What the machine may have been given instead where its inputs were not recorded.
+struct AlternativeCourse {
+  std::string name;  ///< "spindle.speed from 6.00 h to 7.60 h, first half"
+  std::shared_ptr<thermal::Course const> course;
+};
+
 /// One run to calibrate or diagnose with: the inputs that the machine was given, and what its channels showed.
 struct MeasuredRun {
   std::string name;
   std::shared_ptr<thermal::Course const> course;
-  Eigen::VectorXd time;                       ///< [s], strictly increasing
-  std::vector<MeasuredChannel> channels;      ///< those of the machine that the data have, in the machine's order
-  std::optional<double> initial_temperature;  ///< of the whole machine [K]; default: that of the air around each part
-  std::vector<std::string> remarks;           ///< for people: dead sensors, gaps, channels that the data lack
+  std::vector<AlternativeCourse> alternatives;  ///< two of each gap in what is held between rows: one of each half
+  Eigen::VectorXd time;                         ///< [s], strictly increasing
+  std::vector<MeasuredChannel> channels;        ///< those of the machine that the data have, in the machine's order
+  std::optional<double> initial_temperature;    ///< of the whole machine [K]; default: that of the air around each part
+  std::vector<std::string> remarks;             ///< for people: dead sensors, gaps, channels that the data lack
 };
 
 /// A data set (`.h5` as `run -o` writes it, `.csv` as `export` does) or a measurement file (`.toml`), which maps the

@@ -128,8 +128,8 @@ void add_constants(MeasurementFile const& file, MeasuredData& data) {
     input.name = constant.channel;
     input.unit = thermal::unit_of(quantity.dimension);
     input.absolute_temperature = quantity.absolute_temperature;
-    input.times.assign(data.time.begin(), data.time.end());
-    input.values.assign(input.times.size(), quantity.value);
+    input.times = {0.0};
+    input.values = {quantity.value};
     data.inputs.push_back(std::move(input));
   }
 }

@@ -63,7 +63,8 @@ struct MeasuredTable {
     f("time_column", &MeasuredTable::time_column, "exact name of the column of times");
     f("time_unit", &MeasuredTable::time_unit, "unit of the times in the file");
     f("clock_offset", &MeasuredTable::clock_offset, dimension::time, "added to the times of this table");
-    f("max_gap", &MeasuredTable::max_gap, dimension::time, "gaps longer than this are reported", positive);
+    f("max_gap", &MeasuredTable::max_gap, dimension::time,
+      "longer gaps are told, and what was given in them is estimated", positive);
     f("input", &MeasuredTable::inputs, "columns that the machine was given");
     f("reading", &MeasuredTable::readings, "columns that its sensors showed");
   }

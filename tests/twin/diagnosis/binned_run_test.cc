@@ -1,5 +1,6 @@
 #include "twin/diagnosis/binned_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -126,6 +127,16 @@ TEST(BinnedRun, MissingSamplesAreNotAveraged) {
   EXPECT_TRUE(std::isnan(binned.values(2, 0)));
   EXPECT_EQ(binned.samples(2, 1), 5.0);
   EXPECT_DOUBLE_EQ(binned.values(2, 1), -720.0);
+}
+
+/// The response to what may have been given instead is as exact as that to what was.
+TEST(BinnedRun, RowsDoNotCrossAJumpOfAnAlternative) {
+  auto run = run_of(1800.0, 60.0, {900.0}, line);
+  run.alternatives = {{"other", run_of(1800.0, 60.0, {400.0}, line).course}};
+  std::vector<double> ends;
+  for (auto const& step : bin(run, 300.0).steps) ends.push_back(step.end);
+  EXPECT_EQ(std::count(ends.begin(), ends.end(), 400.0), 1);
+  EXPECT_EQ(std::count(ends.begin(), ends.end(), 900.0), 1);
 }
 
 /// Between two jumps closer than the samples nothing was measured.

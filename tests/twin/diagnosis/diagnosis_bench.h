@@ -53,12 +53,25 @@ inline scenarios::Experiment two_speeds() {
               {duration = "50 min", speed = "0 rpm"}, {duration = "1 h", speed = "4000 rpm"}])");
 }
 
-/// A run of a machine whose sensors lag, as the twin of another is shown it.
-inline MeasuredRun measured(Value const& truth, scenarios::Experiment const& experiment) {
+/// The record of a logger that was off from one time to another [s].
+inline output::Dataset without_rows(output::Dataset dataset, double from, double to) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < dataset.time_s.size(); ++i)
+    if (dataset.time_s[i] <= from || dataset.time_s[i] >= to) kept.push_back(i);
+  dataset.time_s = dataset.time_s(kept).eval();
+  for (auto* group : {&dataset.inputs, &dataset.readings, &dataset.displacements, &dataset.truth_readings,
+                      &dataset.truth_displacements, &dataset.heat})
+    for (auto& channel : *group) channel.values = channel.values(kept).eval();
+  return dataset;
+}
+
+/// A run of a machine whose sensors lag, as the twin of another is shown it: without the rows of a gap.
+inline MeasuredRun measured(Value const& truth, scenarios::Experiment const& experiment, double gap_from = 0.0,
+                            double gap_to = 0.0) {
   Machine machine = Machine::build(truth);
   for (auto& sensor : machine.sensors)
     if (!sensor.description.lag) sensor.description.lag = 30.0;
-  return measured_run(run(machine, experiment, {}).dataset, machine, "hidden");
+  return measured_run(without_rows(run(machine, experiment, {}).dataset, gap_from, gap_to), machine, "hidden");
 }
 
 /// White noise on every sample: of the sensors [K], of the displacements [m].

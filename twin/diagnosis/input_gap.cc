@@ -1,0 +1,143 @@
+#include "twin/diagnosis/input_gap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenarios/course.h"
+#include "thermal/error.h"
+#include "thermal/units.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using scenarios::DrivenChannel;
+using scenarios::Experiment;
+
+constexpr double usual_intervals = 10.0;
+constexpr std::size_t fewest_rows = 10;
+constexpr double settling = 900.0;  // in which a shaft and its bearings forget their speed [s]
+
+double usual_interval(std::vector<double> const& times) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < times.size(); ++i) intervals.push_back(times[i] - times[i - 1]);
+  if (intervals.empty()) return INFINITY;
+  auto const middle = intervals.begin() + std::ptrdiff_t(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
+
+double largest_of(scenarios::Signal const& signal) {
+  double largest = 0.0;
+  for (double const value : signal.values()) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+/// What is held between rows and whose zero is rest; a stroke's is a place. A share or a switch that never changes is a
+/// setting.
+bool is_switched(DrivenChannel const& driven) {
+  auto const dimension = thermal::dimension_of(driven.channel.unit);
+  bool const speed = dimension == thermal::dimension::angular_speed || dimension == thermal::dimension::speed;
+  bool const share = dimension == thermal::dimension::dimensionless && !driven.signal.jumps().empty();
+  return driven.signal.interpolation() == scenarios::Interpolation::step && (speed || share) &&
+         largest_of(driven.signal) > 0.0;
+}
+
+std::string owner_of(DrivenChannel const& driven) {
+  return driven.channel.name.substr(0, driven.channel.name.find('.'));
+}
+
+/// In a part of a gap the channels of one owner have their other extreme.
+Experiment otherwise(Experiment experiment, std::vector<std::size_t> const& channels, InputGap const& part) {
+  bool const slow = std::all_of(channels.begin(), channels.end(), [&](std::size_t k) {
+    auto const& signal = experiment.driven[k].signal;
+    return std::abs(signal.at(part.from)) < 0.5 * largest_of(signal);
+  });
+  for (std::size_t const k : channels) {
+    auto& signal = experiment.driven[k].signal;
+    signal = signal.with_piece(part.from, part.to, slow ? largest_of(signal) : 0.0);
+  }
+  return experiment;
+}
+
+void leave_out_rows(MeasuredRun& run, double from, double to) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index row = 0; row < run.time.size(); ++row)
+    if (run.time[row] <= from || run.time[row] >= to) kept.push_back(row);
+  if (kept.size() < fewest_rows)
+    throw thermal::InputError(
+        fmt::format("{}: the inputs are missing from {:.2f} h on, and {} rows of readings are left "
+                    "beside that; nothing can be said",
+                    run.name, from / 3600.0, kept.size()));
+  run.time = run.time(kept).eval();
+  for (auto& channel : run.channels) channel.values = channel.values(kept).eval();
+}
+
+std::string words_of(InputGap const& gap) {
+  return fmt::format("from {:.2f} h to {:.2f} h", gap.from / 3600.0, gap.to / 3600.0);
+}
+
+}  // namespace
+
+std::vector<InputGap> gaps_of(scenarios::SampledInput const& input, double longest, double end) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < input.times.size(); ++i)
+    if (std::isfinite(input.values[i])) times.push_back(input.times[i]);
+  double const least = std::max(longest, usual_intervals * usual_interval(times));
+  times.push_back(end);
+  std::vector<InputGap> gaps;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    InputGap const gap{std::max(0.0, times[i - 1]), std::min(end, times[i])};
+    if (gap.to - gap.from > least) gaps.push_back(gap);
+  }
+  return gaps;
+}
+
+void add_alternatives(MeasuredRun& run, std::vector<std::vector<InputGap>> const& gaps, Experiment const& experiment,
+                      scenarios::MachineLimits const& limits) {
+  auto const& driven = experiment.driven;
+  std::vector<bool> done(driven.size(), false);
+  for (std::size_t first = 0; first < driven.size(); ++first) {
+    if (done[first] || !is_switched(driven[first])) continue;
+    std::vector<std::size_t> together;
+    for (std::size_t k = first; k < driven.size(); ++k)
+      if (owner_of(driven[k]) == owner_of(driven[first]) && is_switched(driven[k])) {
+        together.push_back(k);
+        done[k] = true;
+      }
+    for (auto const& gap : gaps[first]) {
+      double const middle = 0.5 * (gap.from + gap.to);
+      for (auto const& [half, from, to] : {std::tuple{"first", gap.from, middle}, {"second", middle, gap.to}})
+        run.alternatives.push_back(
+            {fmt::format("{} {}, {} half", driven[first].channel.name, words_of(gap), half),
+             std::make_shared<scenarios::ExperimentCourse const>(otherwise(experiment, together, {from, to}), limits)});
+      leave_out_rows(run, gap.from, gap.to + settling);
+    }
+  }
+}
+
+void remark_gaps(std::vector<std::vector<InputGap>> const& gaps, Experiment const& experiment,
+                 std::vector<std::string>& remarks) {
+  std::vector<InputGap> all;
+  for (auto const& of_input : gaps)
+    for (auto const& gap : of_input)
+      if (std::find(all.begin(), all.end(), gap) == all.end()) all.push_back(gap);
+  for (auto const& gap : all) {
+    std::vector<std::string> estimated, others;
+    for (std::size_t k = 0; k < gaps.size(); ++k)
+      if (std::find(gaps[k].begin(), gaps[k].end(), gap) != gaps[k].end())
+        (is_switched(experiment.driven[k]) ? estimated : others).push_back(experiment.driven[k].channel.name);
+    std::string remark = fmt::format("not recorded {}: ", words_of(gap));
+    if (!estimated.empty())
+      remark += fmt::format(
+          "{}, which a fit to this run estimates; without a fit the last value is held, and readings after the gap "
+          "depend on it (until {:.0f} min after it they are left out)",
+          fmt::join(estimated, ", "), settling / 60.0);
+    if (!estimated.empty() && !others.empty()) remark += "; ";
+    if (!others.empty()) remark += fmt::format("{}, taken from the rows beside the gap", fmt::join(others, ", "));
+    remarks.push_back(remark);
+  }
+}
+
+}  // namespace thermotwin::twin
