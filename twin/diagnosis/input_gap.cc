@@ -16,7 +16,7 @@ using scenarios::DrivenChannel;
 using scenarios::Experiment;
 
 constexpr double usual_intervals = 10.0;
-constexpr std::size_t fewest_rows = 10;
+constexpr std::size_t least_left = 10;
 constexpr double settling = 900.0;  // in which a shaft and its bearings forget their speed [s]
 
 double usual_interval(std::vector<double> const& times) {
@@ -65,7 +65,7 @@ void leave_out_rows(MeasuredRun& run, double from, double to) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index row = 0; row < run.time.size(); ++row)
     if (run.time[row] <= from || run.time[row] >= to) kept.push_back(row);
-  if (kept.size() < fewest_rows)
+  if (kept.size() < least_left)
     throw thermal::InputError(
         fmt::format("{}: the inputs are missing from {:.2f} h on, and {} rows of readings are left "
                     "beside that; nothing can be said",

@@ -40,7 +40,7 @@ constexpr double far_more = 3.0;         // times what the machine would go thro
 constexpr double crawling = 0.1;         // of the machine's largest speed
 constexpr double hottest_room = 323.15;  // K
 constexpr double speed_step = 0.1;       // of the run's largest speed
-constexpr double settling = hour, soonest = 15.0 * minute;
+constexpr double room_response = hour, soonest = 15.0 * minute;
 constexpr double room_step = 0.7;  // K, on average over changes of speed
 constexpr double fewest_steps = 4.0, standard_errors = 4.0;
 constexpr double shortest_run = 5.0 * minute, short_run = 2.0 * hour, longest_run = 60.0 * day;
@@ -249,7 +249,7 @@ void Examination::examine_room_with_speed(VectorXd const& air, VectorXd const& s
   for (std::size_t s = 0; s + 1 < steps.size(); ++s) {
     Index const from = steps[s];
     Index to = from;
-    while (to + 1 < steps[s + 1] && data_.time[to + 1] <= data_.time[from] + settling) ++to;
+    while (to + 1 < steps[s + 1] && data_.time[to + 1] <= data_.time[from] + room_response) ++to;
     if (data_.time[to] < data_.time[from] + soonest) continue;
     bool const faster = std::abs(speed[from]) > std::abs(speed[from - 1]);
     double const change = (faster ? 1.0 : -1.0) * (air[to] - air[from - 1]);
