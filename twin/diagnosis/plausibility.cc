@@ -74,7 +74,9 @@ class Examination {
   std::vector<Doubt> operator()();
 
  private:
-  void doubt(std::string const& channel, std::string text) { doubts_.push_back({data_.run->name, channel, text}); }
+  void doubt(std::string const& channel, std::string text) {
+    doubts_.push_back({data_.run->name, channel, std::move(text)});
+  }
   [[nodiscard]] std::string const& name(Index c) const { return data_.run->channels[std::size_t(c)].name; }
   [[nodiscard]] bool is_displacement(Index c) const { return data_.run->channels[std::size_t(c)].displacement; }
   /// RMS about the mean: of a channel, of its prediction, and of a channel less the prediction of one.
