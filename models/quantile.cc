@@ -11,4 +11,10 @@ double quantile(std::span<double const> ordered, double share) {
   return ordered[below] + (place - static_cast<double>(below)) * (above - ordered[below]);
 }
 
+double upper_median(std::vector<double> values) {
+  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace thermotwin::models

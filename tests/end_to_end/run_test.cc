@@ -109,20 +109,30 @@ TEST(Run, JsonSummaryForPrograms) {
   EXPECT_NE(text.find("\"imbalance\""), std::string::npos);
 }
 
-TEST(Run, StoppedByTheUserKeepsThePartialFileAndTheOldOne) {
-  TemporaryDirectory const directory;
-  std::ofstream(directory / "run.h5") << "what the user had";
+/// How the program ends (waitpid) that gets Ctrl-C after a while.
+int stopped_after(std::chrono::milliseconds while_running, std::vector<std::string> words) {
+  words.insert(words.begin(), program);
   pid_t const child = fork();
   if (child == 0) {
-    std::string const path = (directory / "run.h5").string();
-    execl(program.c_str(), "thermotwin", "run", "etve", "-q", "-m", "v450", "--set", "experiment.sampling=0.1 s", "-o",
-          path.c_str(), nullptr);
+    std::vector<char*> arguments;
+    for (auto& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    execv(program.c_str(), arguments.data());
     _exit(127);
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  std::this_thread::sleep_for(while_running);
   kill(child, SIGINT);
   int status = 0;
   waitpid(child, &status, 0);
+  return status;
+}
+
+TEST(Run, StoppedByTheUserKeepsThePartialFileAndTheOldOne) {
+  TemporaryDirectory const directory;
+  std::ofstream(directory / "run.h5") << "what the user had";
+  int const status = stopped_after(
+      std::chrono::milliseconds(700),
+      {"run", "etve", "-q", "-m", "v450", "--set", "experiment.sampling=0.1 s", "-o", (directory / "run.h5").string()});
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_TRUE(tests::contents(directory / "run.h5") == "what the user had");
@@ -134,15 +144,7 @@ TEST(Commands, DiagnosisIsStoppedAtOnce) {
   TemporaryDirectory const directory;
   auto const data = (directory / "run.h5").string(), amended = (directory / "amended.toml").string();
   answer(program + " run golden_b_4000 -q -o " + data);
-  pid_t const child = fork();
-  if (child == 0) {
-    execl(program.c_str(), "thermotwin", "diagnose", "v450", data.c_str(), "-o", amended.c_str(), nullptr);
-    _exit(127);
-  }
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  kill(child, SIGINT);
-  int status = 0;
-  waitpid(child, &status, 0);
+  int const status = stopped_after(std::chrono::milliseconds(200), {"diagnose", "v450", data, "-o", amended});
   ASSERT_TRUE(WIFSIGNALED(status));
   EXPECT_EQ(WTERMSIG(status), SIGINT);
   EXPECT_FALSE(fs::exists(amended));

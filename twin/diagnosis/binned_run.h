@@ -19,8 +19,8 @@ struct BinStep {
 };
 
 /// A measured run averaged to rows of some minutes, none of which crosses a jump of the input, or of what may have been
-/// given instead. What differs within such
-/// a row is noise; and a row in place of its samples makes a diagnosis ten times as fast.
+/// given instead. What differs within such a row is noise; and a row in place of its samples makes a diagnosis ten
+/// times as fast.
 struct BinnedRun {
   MeasuredRun const* run = nullptr;
   std::vector<BinStep> steps;

@@ -54,8 +54,6 @@ Json json_of(ChannelGap const& gap) {
           {"after", scale * gap.after}};
 }
 
-Json json_of(Doubt const& doubt) { return {{"run", doubt.run}, {"channel", doubt.channel}, {"text", doubt.text}}; }
-
 template <class Items>
 Json list_of(Items const& items) {
   Json list = Json::array();
@@ -128,18 +126,18 @@ std::string calibration_table(Calibration const& calibration) {
 
 std::string calibration_json(Calibration const& calibration) {
   auto const sum = whole(calibration.gaps);
-  Json json = {{"machine", calibration.machine},
-               {"numbers", list_of(calibration.numbers)},
-               {"instruments", list_of(calibration.instruments)},
-               {"inseparable", calibration.inseparable},
-               {"collinearity", calibration.collinearity},
-               {"weakest_direction", calibration.weakest},
-               {"misfit", calibration.misfit},
-               {"converged", calibration.converged},
-               {"gap", {{"before", sum.before}, {"after", sum.after}}},
-               {"gaps", list_of(calibration.gaps)},
-               {"remarks", calibration.remarks}};
-  json["doubts"] = list_of(calibration.doubts);
+  Json const json = {{"machine", calibration.machine},
+                     {"numbers", list_of(calibration.numbers)},
+                     {"instruments", list_of(calibration.instruments)},
+                     {"inseparable", calibration.inseparable},
+                     {"collinearity", calibration.collinearity},
+                     {"weakest_direction", calibration.weakest},
+                     {"misfit", calibration.misfit},
+                     {"converged", calibration.converged},
+                     {"gap", {{"before", sum.before}, {"after", sum.after}}},
+                     {"gaps", list_of(calibration.gaps)},
+                     {"remarks", calibration.remarks},
+                     {"doubts", doubts_json(calibration.doubts)}};
   return json.dump(2) + "\n";
 }
 

@@ -55,7 +55,6 @@ Diagnosis Diagnostician::operator()() {
   d.calibrated_document = search_.plain().document_at(d.calibrated.x);
   d.visible = search_.visible();
   d.noise_heard = search_.noise_heard();
-  d.channels = amended.channels();
   if (!d.effects.empty()) d.left = scan_for_free_heat(amended, d.amended);
   d.faulty_sensor = faulty_sensor(machine_, runs_);
   d.verdict = verdict();

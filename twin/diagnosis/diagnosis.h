@@ -40,9 +40,8 @@ struct Diagnosis {
   std::vector<Unknown> unknowns;       ///< of `amended`
   Value document;                      ///< the machine as amended: calibrated values and the effects
   Value calibrated_document;           ///< with calibrated values alone
-  std::vector<double> noise_heard;     ///< of every channel, over what was expected
-  std::vector<std::string> channels;   ///< their names
-  std::size_t visible = 0;             ///< hypotheses that would have been seen at half of their largest amplitude
+  std::vector<std::pair<std::string, double>> noise_heard;  ///< of every channel, over what was expected
+  std::size_t visible = 0;  ///< hypotheses that would have been seen at half of their largest amplitude
 };
 
 [[nodiscard]] std::string name_of(Diagnosis::Verdict verdict);

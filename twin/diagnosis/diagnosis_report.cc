@@ -69,13 +69,6 @@ Json json_of(FreeHeat const& heat) {
   return {{"body", heat.site.body}, {"watts", sum / time}, {"gain", heat.gain}, {"runs", runs}};
 }
 
-Json json_of(std::vector<Doubt> const& doubts) {
-  Json list = Json::array();
-  for (auto const& doubt : doubts)
-    list.push_back({{"run", doubt.run}, {"channel", doubt.channel}, {"text", doubt.text}});
-  return list;
-}
-
 double in_unit(std::string const& unit, double si) { return unit == "K" ? si : 1e6 * si; }
 
 Json json_of(std::vector<ChannelGap> const& gaps) {
@@ -202,9 +195,8 @@ std::string words_of_heat(Diagnosis const& diagnosis) {
 /// Channels that err by much more than was expected of them: "T3 (4 times)".
 std::string loud_channels(Diagnosis const& diagnosis) {
   std::vector<std::string> names;
-  for (std::size_t c = 0; c < diagnosis.channels.size(); ++c)
-    if (diagnosis.noise_heard[c] >= loud)
-      names.push_back(fmt::format("{} ({:g} times)", diagnosis.channels[c], diagnosis.noise_heard[c]));
+  for (auto const& [channel, times] : diagnosis.noise_heard)
+    if (times >= loud) names.push_back(fmt::format("{} ({:g} times)", channel, times));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -243,8 +235,7 @@ std::string report_json(DiagnosisReport const& report) {
                                    : diagnosis.explanations[0].alternatives[0].hypothesis.body}};
   json["tried"] = diagnosis.hypotheses.size();
   json["visible"] = diagnosis.visible;
-  for (std::size_t c = 0; c < diagnosis.channels.size(); ++c)
-    json["noise_heard"][diagnosis.channels[c]] = diagnosis.noise_heard[c];
+  for (auto const& [channel, times] : diagnosis.noise_heard) json["noise_heard"][channel] = times;
   json["where"] = Json::array();
   for (auto const& [body, regime] : diagnosis.where) json["where"].push_back({{"body", body}, {"regime", regime}});
   auto const gap = whole(report.held_out.empty() ? report.fitted : report.held_out);
@@ -270,7 +261,7 @@ std::string report_json(DiagnosisReport const& report) {
                                  {"standard_error", std::sqrt(diagnosis.amended.covariance(i, i))},
                                  {"prior", diagnosis.unknowns[u].deviation}});
   }
-  json["doubts"] = json_of(report.doubts);
+  json["doubts"] = doubts_json(report.doubts);
   json["remarks"] = report.remarks;
   return json.dump(2) + "\n";
 }

@@ -127,11 +127,12 @@ void EffectSearch::listen_to_noise() {
   fit_ = estimation_->fit(fit_.x, 10);
 }
 
-std::vector<double> EffectSearch::noise_heard() const {
-  std::vector<double> times;
+std::vector<std::pair<std::string, double>> EffectSearch::noise_heard() const {
+  std::vector<std::pair<std::string, double>> times;
   for (std::size_t c = 0; c < expected_.size(); ++c) {
     auto const& heard = estimation_->noise()[c];
-    times.push_back(std::max(heard.fast / expected_[c].fast, heard.slow_share / expected_[c].slow_share));
+    times.emplace_back(estimation_->channels()[c],
+                       std::max(heard.fast / expected_[c].fast, heard.slow_share / expected_[c].slow_share));
   }
   return times;
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "twin/diagnosis/estimation.h"
@@ -59,7 +60,7 @@ class EffectSearch {
   [[nodiscard]] Fit const& fit() const { return fit_; }
   [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
   /// How much more model error than expected was heard in each channel; 1: no more.
-  [[nodiscard]] std::vector<double> noise_heard() const;
+  [[nodiscard]] std::vector<std::pair<std::string, double>> noise_heard() const;
   /// How many hypotheses would be seen at half of their largest amplitude, as far as `--plan` wants it.
   [[nodiscard]] std::size_t visible() const { return visible_; }
 

@@ -425,8 +425,8 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   auto const count = Eigen::Index(unknowns_.size());
   problem.residuals = rows_ + count;
   problem.start = start;
-  for (int i = 0; i < start_halvings && !(traced = trace(problem.start));
-       ++i)  // so much of an effect no machine endures
+  // So much of an effect may be more than a machine endures.
+  for (int i = 0; i < start_halvings && !(traced = trace(problem.start)); ++i)
     problem.start.tail(Eigen::Index(effects_.size())) *= 0.5;
   problem.lower.resize(count);
   problem.upper.resize(count);

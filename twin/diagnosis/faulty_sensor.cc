@@ -18,14 +18,10 @@ struct Change {
 
 /// Those between neighbouring samples; across a gap anything may happen.
 std::vector<Change> changes_of(Eigen::VectorXd const& time, Eigen::VectorXd const& values) {
-  std::vector<double> intervals;
-  for (Eigen::Index i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
-  if (intervals.empty()) return {};
-  auto const middle = intervals.begin() + std::ptrdiff_t(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
+  double const usual = usual_interval({time.data(), std::size_t(time.size())});
   std::vector<Change> changes;
   for (Eigen::Index i = 1; i < values.size(); ++i)
-    if (double const by = values[i] - values[i - 1]; !std::isnan(by) && time[i] - time[i - 1] < 2.0 * *middle)
+    if (double const by = values[i] - values[i - 1]; !std::isnan(by) && time[i] - time[i - 1] < 2.0 * usual)
       changes.push_back({time[i], values[i - 1], by});
   return changes;
 }

@@ -36,17 +36,18 @@ std::vector<ChannelGap> gaps(Machine const& before, Machine const& after, std::v
                              Machine const* calibrated) {
   std::vector<ChannelGap> result;
   for (auto const& run : runs) {
-    Eigen::MatrixXd const was = run.values - LinearisedRun(before, run).prediction();
-    Eigen::MatrixXd const is = run.values - LinearisedRun(after, run).prediction();
+    auto const left_by = [&](Machine const& machine) -> Eigen::MatrixXd {
+      return run.values - LinearisedRun(machine, run).prediction();
+    };
+    Eigen::MatrixXd const was = left_by(before), is = left_by(after);
+    Eigen::MatrixXd const fitted = calibrated ? left_by(*calibrated) : Eigen::MatrixXd();
     for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
       auto const& channel = run.run->channels[c];
+      auto const column = Eigen::Index(c);
       result.push_back({run.run->name, channel.name, channel.displacement, unit_of(channel, before),
-                        spread(was.col(Eigen::Index(c))), spread(is.col(Eigen::Index(c)))});
+                        spread(was.col(column)), spread(is.col(column)),
+                        calibrated ? spread(fitted.col(column)) : NAN});
     }
-    if (!calibrated) continue;
-    Eigen::MatrixXd const fitted = run.values - LinearisedRun(*calibrated, run).prediction();
-    auto* const own = result.data() + result.size() - run.run->channels.size();
-    for (Eigen::Index c = 0; c < fitted.cols(); ++c) own[c].calibrated = spread(fitted.col(c));
   }
   return result;
 }

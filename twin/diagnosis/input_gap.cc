@@ -19,15 +19,6 @@ constexpr double usual_intervals = 10.0;
 constexpr std::size_t least_left = 10;
 constexpr double settling = 900.0;  // in which a shaft and its bearings forget their speed [s]
 
-double usual_interval(std::vector<double> const& times) {
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < times.size(); ++i) intervals.push_back(times[i] - times[i - 1]);
-  if (intervals.empty()) return INFINITY;
-  auto const middle = intervals.begin() + std::ptrdiff_t(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return *middle;
-}
-
 double largest_of(scenarios::Signal const& signal) {
   double largest = 0.0;
   for (double const value : signal.values()) largest = std::max(largest, std::abs(value));
@@ -49,7 +40,7 @@ std::string owner_of(DrivenChannel const& driven) {
 }
 
 /// In a part of a gap the channels of one owner have their other extreme.
-Experiment otherwise(Experiment experiment, std::vector<std::size_t> const& channels, InputGap const& part) {
+Experiment otherwise(Experiment experiment, std::vector<std::size_t> const& channels, RecordGap const& part) {
   bool const slow = std::all_of(channels.begin(), channels.end(), [&](std::size_t k) {
     auto const& signal = experiment.driven[k].signal;
     return std::abs(signal.at(part.from)) < 0.5 * largest_of(signal);
@@ -74,27 +65,27 @@ void leave_out_rows(MeasuredRun& run, double from, double to) {
   for (auto& channel : run.channels) channel.values = channel.values(kept).eval();
 }
 
-std::string words_of(InputGap const& gap) {
+std::string words_of(RecordGap const& gap) {
   return fmt::format("from {:.2f} h to {:.2f} h", gap.from / 3600.0, gap.to / 3600.0);
 }
 
 }  // namespace
 
-std::vector<InputGap> gaps_of(scenarios::SampledInput const& input, double longest, double end) {
+std::vector<RecordGap> gaps_of(scenarios::SampledInput const& input, double longest, double end) {
   std::vector<double> times;
   for (std::size_t i = 0; i < input.times.size(); ++i)
     if (std::isfinite(input.values[i])) times.push_back(input.times[i]);
   double const least = std::max(longest, usual_intervals * usual_interval(times));
   times.push_back(end);
-  std::vector<InputGap> gaps;
+  std::vector<RecordGap> gaps;
   for (std::size_t i = 1; i < times.size(); ++i) {
-    InputGap const gap{std::max(0.0, times[i - 1]), std::min(end, times[i])};
+    RecordGap const gap{std::max(0.0, times[i - 1]), std::min(end, times[i])};
     if (gap.to - gap.from > least) gaps.push_back(gap);
   }
   return gaps;
 }
 
-void add_alternatives(MeasuredRun& run, std::vector<std::vector<InputGap>> const& gaps, Experiment const& experiment,
+void add_alternatives(MeasuredRun& run, std::vector<std::vector<RecordGap>> const& gaps, Experiment const& experiment,
                       scenarios::MachineLimits const& limits) {
   auto const& driven = experiment.driven;
   std::vector<bool> done(driven.size(), false);
@@ -117,9 +108,9 @@ void add_alternatives(MeasuredRun& run, std::vector<std::vector<InputGap>> const
   }
 }
 
-void remark_gaps(std::vector<std::vector<InputGap>> const& gaps, Experiment const& experiment,
+void remark_gaps(std::vector<std::vector<RecordGap>> const& gaps, Experiment const& experiment,
                  std::vector<std::string>& remarks) {
-  std::vector<InputGap> all;
+  std::vector<RecordGap> all;
   for (auto const& of_input : gaps)
     for (auto const& gap : of_input)
       if (std::find(all.begin(), all.end(), gap) == all.end()) all.push_back(gap);

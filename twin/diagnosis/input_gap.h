@@ -5,19 +5,13 @@
 #include "scenarios/experiment.h"
 #include "scenarios/machine_limits.h"
 #include "scenarios/sampled.h"
-#include "twin/diagnosis/measured_run.h"
+#include "twin/diagnosis/measured_data.h"
 
 namespace thermotwin::twin {
 
-/// A time in which an input was not recorded [s].
-struct InputGap {
-  double from, to;
-  bool operator==(InputGap const&) const = default;
-};
-
 /// The gaps until `end`, the end of the run, that are longer than `longest` and than ten usual intervals of the input:
 /// what is recorded only where it changes has none.
-[[nodiscard]] std::vector<InputGap> gaps_of(scenarios::SampledInput const& input, double longest, double end);
+[[nodiscard]] std::vector<RecordGap> gaps_of(scenarios::SampledInput const& input, double longest, double end);
 
 /// Adds what the machine may have been given instead in those gaps of its inputs, in the order of `experiment.driven`.
 /// In each half of a gap, what stood still or was below half of its largest value in the record goes there, and what
@@ -26,11 +20,11 @@ struct InputGap {
 ///
 /// Rows within such a gap and for a quarter of an hour after it are left out: what they show depends on when within
 /// its half the input changed.
-void add_alternatives(MeasuredRun& run, std::vector<std::vector<InputGap>> const& gaps,
+void add_alternatives(MeasuredRun& run, std::vector<std::vector<RecordGap>> const& gaps,
                       scenarios::Experiment const& experiment, scenarios::MachineLimits const& limits);
 
 /// For people: one remark for each gap, which names the inputs that have it.
-void remark_gaps(std::vector<std::vector<InputGap>> const& gaps, scenarios::Experiment const& experiment,
+void remark_gaps(std::vector<std::vector<RecordGap>> const& gaps, scenarios::Experiment const& experiment,
                  std::vector<std::string>& remarks);
 
 }  // namespace thermotwin::twin

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <limits>
 
+#include "models/quantile.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
@@ -23,10 +24,7 @@ double median_of_finite(Eigen::VectorXd const& values) {
   std::vector<double> finite;
   for (double const value : values)
     if (std::isfinite(value)) finite.push_back(value);
-  if (finite.empty()) return missing;
-  auto const middle = finite.begin() + std::ptrdiff_t(finite.size() / 2);
-  std::nth_element(finite.begin(), middle, finite.end());
-  return *middle;
+  return finite.empty() ? missing : models::upper_median(std::move(finite));
 }
 
 /// Of what a channel of the machine is the reading.
@@ -111,14 +109,9 @@ Eigen::Index first_row(std::vector<MeasuredChannel> const& channels, Eigen::Inde
   return 0;
 }
 
-/// The longest time in which a channel has no reading [s].
-struct ReadingGap {
-  double from = 0.0, to = 0.0;
-  bool operator==(ReadingGap const&) const = default;
-};
-
-ReadingGap longest_gap(MeasuredChannel const& channel, Eigen::VectorXd const& time, Eigen::Index first) {
-  ReadingGap longest;
+/// In which a channel has no reading.
+RecordGap longest_gap(MeasuredChannel const& channel, Eigen::VectorXd const& time, Eigen::Index first) {
+  RecordGap longest;
   double last = time[first];
   for (Eigen::Index r = first; r < time.size(); ++r) {
     if (std::isnan(channel.values[r]) && r + 1 < time.size()) continue;
@@ -131,7 +124,7 @@ ReadingGap longest_gap(MeasuredChannel const& channel, Eigen::VectorXd const& ti
 /// One remark for all channels that lack the same rows.
 void remark_gaps(std::vector<MeasuredChannel> const& channels, MeasuredData const& data, Eigen::Index first,
                  std::vector<std::string>& remarks) {
-  std::vector<std::pair<ReadingGap, std::vector<std::string>>> gaps;
+  std::vector<std::pair<RecordGap, std::vector<std::string>>> gaps;
   for (auto const& channel : channels) {
     auto const gap = longest_gap(channel, data.time, first);
     if (gap.to - gap.from <= data.max_gap || channel.values.array().isNaN().all()) continue;

@@ -23,6 +23,12 @@ struct MeasuredData {
   double max_gap = 600.0;                     ///< longer gaps become remarks, and those of inputs are estimated [s]
 };
 
+/// A time in which something was not recorded [s].
+struct RecordGap {
+  double from = 0.0, to = 0.0;
+  bool operator==(RecordGap const&) const = default;
+};
+
 /// Adds the inputs as a course: what is not recorded follows from the rest (scenarios/course.h), axes without a record
 /// stand still, machine and drives are on, the coolant is off; remarks say so. And what may have been given instead in
 /// gaps (input_gap.h).

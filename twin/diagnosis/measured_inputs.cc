@@ -157,7 +157,7 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
   check_needs(data, machine);
   check_speed(data, machine);
   remark_suppositions(data, machine, run.remarks);
-  std::vector<std::vector<InputGap>> gaps;
+  std::vector<std::vector<RecordGap>> gaps;
   for (auto const& input : data.inputs) {
     if (is_derived(input, data)) continue;
     experiment.driven.push_back(scenarios::driven_channel(input));

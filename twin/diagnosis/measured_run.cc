@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "models/quantile.h"
 #include "output/csv.h"
 #include "output/dataset_file.h"
 #include "thermal/error.h"
@@ -42,6 +43,13 @@ MeasuredRun naming(std::filesystem::path const& path, Action action) {
 }
 
 }  // namespace
+
+double usual_interval(std::span<double const> times) {
+  if (times.size() < 2) return INFINITY;
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < times.size(); ++i) intervals.push_back(times[i] - times[i - 1]);
+  return models::upper_median(std::move(intervals));
+}
 
 MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string const& name) {
   Eigen::Index const rows = data.time.size();

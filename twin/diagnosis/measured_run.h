@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct MeasuredRun {
   std::optional<double> initial_temperature;    ///< of the whole machine [K]; default: that of the air around each part
   std::vector<std::string> remarks;             ///< for people: dead sensors, gaps, channels that the data lack
 };
+
+/// The median time between neighbours [s]; infinite for fewer than two.
+[[nodiscard]] double usual_interval(std::span<double const> times);
 
 /// A data set (`.h5` as `run -o` writes it, `.csv` as `export` does) or a measurement file (`.toml`), which maps the
 /// columns of a table to inputs and channels. InputError when the inputs that the machine needs are not in it, or none

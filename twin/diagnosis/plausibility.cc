@@ -4,8 +4,10 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "models/quantile.h"
 #include "thermal/physical_constant.h"
 #include "thermal/units.h"
 #include "twin/diagnosis/gap.h"
@@ -18,6 +20,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+using models::upper_median;
 using thermal::zero_celsius;
 
 constexpr char const* room = "ambient.temperature";
@@ -45,13 +48,6 @@ constexpr double room_step = 0.7;  // K, on average over changes of speed
 constexpr double fewest_steps = 4.0, standard_errors = 4.0;
 constexpr double shortest_run = 5.0 * minute, short_run = 2.0 * hour, longest_run = 60.0 * day;
 constexpr double longest_interval = 30.0 * minute;
-
-double middle_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  auto const middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double duration(MeasuredRun const& run) { return run.time[run.time.size() - 1] - run.time[0]; }
 
@@ -202,11 +198,12 @@ void Examination::examine_clock() {
   for (auto const& [c, sensor] : sensors_) examine(c);
   for (Index c = 0; c < seen_.cols(); ++c)
     if (is_displacement(c)) examine(c);
-  double const shift = middle_of(shifts);
+  if (shifts.size() < several) return;
+  double const shift = upper_median(shifts);
   auto const agree = std::size_t(
       std::count_if(shifts.begin(), shifts.end(), [&](double other) { return std::abs(other - shift) <= same_shift; }));
   if (agree < several || 3 * agree < 2 * shifts.size()) return;
-  if (std::abs(shift) < least_shift || middle_of(left) > shift_gain) return;
+  if (std::abs(shift) < least_shift || upper_median(left) > shift_gain) return;
   doubt("", fmt::format("{} of {} channels change about {:.0f} min {} what the inputs say; is a clock off?", agree,
                         shifts.size(), std::abs(shift) / minute, shift > 0.0 ? "after" : "before"));
 }
@@ -219,9 +216,9 @@ void Examination::examine_motion() {
       seen.push_back(movement(c));
       would.push_back(expected(c));
     }
-  if (middle_of(seen) < std::max(least_warming, far_more * middle_of(would))) return;
+  if (seen.empty() || upper_median(seen) < std::max(least_warming, far_more * upper_median(would))) return;
   std::string const text = fmt::format("the sensors go through {:.1f} K RMS where the machine would through {:.1f} K",
-                                       middle_of(seen), middle_of(would));
+                                       upper_median(seen), upper_median(would));
   VectorXd const speed = input_of(data_, "spindle.speed");
   double const fastest = speed.size() > 0 ? speed.cwiseAbs().maxCoeff() : 0.0;
   if (fastest > 0.0 && fastest < crawling * machine_.limits.max_spindle_speed)
@@ -302,6 +299,13 @@ std::vector<Doubt> doubts(Machine const& machine, std::vector<BinnedRun> const& 
                                    name, r + 1, runs[before].run->name, before + 1)});
   }
   return all;
+}
+
+nlohmann::ordered_json doubts_json(std::vector<Doubt> const& doubts) {
+  auto list = nlohmann::ordered_json::array();
+  for (auto const& doubt : doubts)
+    list.push_back({{"run", doubt.run}, {"channel", doubt.channel}, {"text", doubt.text}});
+  return list;
 }
 
 std::string doubt_lines(std::vector<Doubt> const& doubts) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct Doubt {
 ///
 /// What stays hidden: two neighbours swapped that are equally warm, and a run that is cut off where nothing moves.
 [[nodiscard]] std::vector<Doubt> doubts(Machine const& machine, std::vector<BinnedRun> const& runs);
+
+/// List of {run, channel, text}, for programs.
+[[nodiscard]] nlohmann::ordered_json doubts_json(std::vector<Doubt> const& doubts);
 
 /// One line each, for people; empty if there are none.
 [[nodiscard]] std::string doubt_lines(std::vector<Doubt> const& doubts);
