@@ -26,6 +26,10 @@ struct IntegrationOptions {
   LinearSolver solver = LinearSolver::automatic;
   /// Parameters whose forward sensitivities are integrated with the run.
   std::vector<NetworkDerivative> parameters;
+
+  /// Of one step [K]. Temperatures are kelvin, of which only the rise matters: the tolerance is absolute, scaled by a
+  /// rise of 10 K.
+  [[nodiscard]] double tolerance() const { return absolute_tolerance + 10.0 * relative_tolerance; }
 };
 
 /// What the observer sees at each output time; the spans are valid during the call.

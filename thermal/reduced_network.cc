@@ -29,21 +29,21 @@ MatrixXd orthonormal(MatrixXd shapes, VectorXd const& capacity) {
   return shapes;
 }
 
-void check(Network const& network) {
+}  // namespace
+
+void check_reducible(Network const& network) {
   if (!network.relays().empty())
-    throw InputError(fmt::format("the relay '{}' switches by a temperature: such a machine has no reduced model",
+    throw InputError(fmt::format("the relay '{}' switches by a temperature: such a machine is run in full only",
                                  network.relays()[0].name));
   for (auto const& average : network.averages())
     if (average.from_channel >= 0)
-      throw InputError(fmt::format("'{}' moves along its track: such a machine has no reduced model", average.name));
+      throw InputError(fmt::format("'{}' moves along its track: such a machine is run in full only", average.name));
 }
-
-}  // namespace
 
 ReducedNetwork::ReducedNetwork(Network const& network, LinearPart const& linear, MatrixXd const& shapes,
                                std::vector<SampledElement> const& elements)
     : network_(&network), elements_(elements), start_(network.nodes()) {
-  check(network);
+  check_reducible(network);
   for (int i = 0; i < network.nodes(); ++i) start_[i] = network.signals()[std::size_t(i)] ? 0.0 : reference_temperature;
   project(linear, shapes);
   add_elements(linear);

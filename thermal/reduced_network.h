@@ -88,6 +88,9 @@ class ReducedNetwork {
   std::vector<Composed> composed_;  ///< averages over nodes of which some are sloped
 };
 
+/// InputError for a network that no constant shapes can stand for: with relays, or a part that moves along a track.
+void check_reducible(Network const& network);
+
 /// Evaluates one reduced network; holds the scratch memory, so one per thread.
 class ReducedEvaluation {
  public:

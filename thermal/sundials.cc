@@ -81,7 +81,6 @@ class Run {
  private:
   void set_up(IntegrationState const& from);
   void attach_linear_solver();
-  double tolerance() const;
   void leave(IntegrationState& state);
   void restart(double t);
   void set_initial_step(double t);
@@ -224,14 +223,11 @@ void Run::attach_linear_solver() {
   CVodeSetLSetupFrequency(cvode, 50);
 }
 
-/// Temperatures are kelvin, of which only the rise matters: the tolerance is absolute, scaled by a rise of 10 K. The
-/// energies are sums over the temperatures and need no control of their own.
-double Run::tolerance() const { return options_.absolute_tolerance + 10.0 * options_.relative_tolerance; }
-
+/// The energies are sums over the temperatures and need no control of their own.
 int Run::error_weights(N_Vector, N_Vector weights, void* user) {
   auto const& run = self(user);
-  N_VConst(1.0 / run.tolerance(), weights);
-  std::fill_n(data(weights) + run.network_.nodes(), NewtonSystem::energies, 1e-6 / run.tolerance());
+  N_VConst(1.0 / run.options_.tolerance(), weights);
+  std::fill_n(data(weights) + run.network_.nodes(), NewtonSystem::energies, 1e-6 / run.options_.tolerance());
   return 0;
 }
 
@@ -257,7 +253,7 @@ void Run::set_up(IntegrationState const& from) {
   if (!network_.relays().empty()) CVodeRootInit(cvode, int(network_.relays().size()), roots);
   step_end_ = t_;
   if (options_.parameters.empty()) return;
-  sensitivities_.emplace(network_, options_.parameters, solver_kind_, tolerance());
+  sensitivities_.emplace(network_, options_.parameters, solver_kind_, options_.tolerance());
   sensitivities_->start(t_, data(y_.get()));
 }
 
@@ -347,7 +343,7 @@ void Run::set_initial_step(double t) {
   evaluation_.rate(data(y_.get()), input(t), rates.data());
   double fastest = 0.0;
   for (double rate : rates) fastest = std::max(fastest, std::abs(rate));
-  CVodeSetInitStep(cvode_.get(), std::clamp(tolerance() / std::max(fastest, 1e-300), shortest, longest));
+  CVodeSetInitStep(cvode_.get(), std::clamp(options_.tolerance() / std::max(fastest, 1e-300), shortest, longest));
 }
 
 /// Integrates to `target`, through jumps and relay switches on the way.

@@ -8,6 +8,7 @@
 #include "output/fields.h"
 #include "output/picture.h"
 #include "thermal/error.h"
+#include "thermal/modal_integration.h"
 #include "thermal/units.h"
 #include "twin/checkpoint.h"
 #include "twin/edge_unit.h"
@@ -294,6 +295,18 @@ std::map<std::string, std::string> solver_provenance(thermal::IntegrationSummary
           {"energy.imbalance", thermal::format_number(summary.energy_imbalance())}};
 }
 
+RunResult run_in_modes(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options) {
+  scenarios::ExperimentCourse const course(experiment, machine.limits);
+  Recorder recorder(machine, experiment, course, options);
+  RunResult result;
+  result.summary = thermal::integrate_in_modes(
+      machine.network(), course, initial_temperatures(machine, experiment, course), scenarios::sample_times(experiment),
+      options.integration, [&](thermal::Sample const& sample) { recorder(sample); });
+  result.dataset = recorder.finish({{"solver.steps", std::to_string(result.summary.steps)},
+                                    {"solver.rate_evaluations", std::to_string(result.summary.rate_evaluations)}});
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> initial_temperatures(Machine const& machine, scenarios::Experiment const& experiment,
@@ -325,6 +338,7 @@ std::vector<output::Channel> input_channels(scenarios::ExperimentCourse const& c
 }
 
 RunResult run(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options) {
+  if (options.in_modes) return run_in_modes(machine, experiment, options);
   scenarios::ExperimentCourse const course(experiment, machine.limits);
   auto const times = scenarios::sample_times(experiment);
   auto const& network = machine.network();

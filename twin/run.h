@@ -26,6 +26,7 @@ class Interrupted : public std::runtime_error {
 /// How a run is carried out and what it leaves behind.
 struct RunOptions {
   thermal::IntegrationOptions integration;
+  bool in_modes = false;                          ///< without heat balance and checkpoint (thermal/modal_integration.h)
   std::optional<std::filesystem::path> dataset;   ///< HDF5 file
   std::optional<std::filesystem::path> fields;    ///< folder of the VTK series
   std::optional<std::filesystem::path> picture;   ///< PNG of the last frame

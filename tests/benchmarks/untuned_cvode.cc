@@ -9,12 +9,14 @@
 #include "scenarios/course.h"
 #include "thermal/evaluation.h"
 #include "thermal/integrate.h"
+#include "thermal/modal_integration.h"
 #include "twin/machine.h"
 #include "twin/run.h"
 
 /// What a campaign is measured against: 24 h of random spectrum on v450 with CVODES as it comes, a sparse matrix, KLU,
 /// the same right-hand side and Jacobian; scalar tolerances of 1e-6, of temperatures in kelvin: 3e-4 K. Its results are
-/// thrown away. Beside it the same integration by us to several tolerances, and the whole run as a campaign makes it.
+/// thrown away. Beside it the same integration by us to several tolerances, by BDF and in modes, and the whole run as a
+/// campaign makes it.
 /// `rms_K`: over all nodes and samples, against a tolerance of 1e-10.
 namespace thermotwin::twin {
 namespace {
@@ -33,14 +35,16 @@ struct Problem {
 
 using States = std::vector<std::vector<double>>;
 
-States integrated(Problem const& problem, double tolerance) {
+using Method = decltype(&thermal::integrate_in_modes);
+
+States integrated(Problem const& problem, double tolerance, Method integrate = thermal::integrate) {
   scenarios::ExperimentCourse const course(problem.experiment, problem.machine.limits);
   std::vector<double> const start(std::size_t(problem.machine.network().nodes()), 295.15);
   thermal::IntegrationOptions options;
   options.relative_tolerance = options.absolute_tolerance = tolerance;
   States states;
-  thermal::integrate(problem.machine.network(), course, start, scenarios::sample_times(problem.experiment), options,
-                     [&](auto const& sample) { states.emplace_back(sample.state.begin(), sample.state.end()); });
+  integrate(problem.machine.network(), course, start, scenarios::sample_times(problem.experiment), options,
+            [&](auto const& sample) { states.emplace_back(sample.state.begin(), sample.state.end()); });
   return states;
 }
 
@@ -135,21 +139,24 @@ void UntunedCvodeKlu24h(benchmark::State& state) {
 BENCHMARK(UntunedCvodeKlu24h)->Unit(benchmark::kMillisecond);
 
 /// To a tolerance in millionths.
-void Integration24h(benchmark::State& state) {
+void Integration24h(benchmark::State& state, Method method) {
   Problem const problem;
   States states;
-  for (auto _ : state) states = integrated(problem, 1e-6 * double(state.range(0)));
+  for (auto _ : state) states = integrated(problem, 1e-6 * double(state.range(0)), method);
   state.counters["rms_K"] = rms_error(problem, states);
 }
-BENCHMARK(Integration24h)->Unit(benchmark::kMillisecond)->Arg(10)->Arg(25)->Arg(30);
+BENCHMARK_CAPTURE(Integration24h, bdf, &thermal::integrate)->Unit(benchmark::kMillisecond)->Arg(10)->Arg(25)->Arg(30);
+BENCHMARK_CAPTURE(Integration24h, modes, &thermal::integrate_in_modes)->Unit(benchmark::kMillisecond)->Arg(10)->Arg(25);
 
-void CampaignRun24h(benchmark::State& state) {
+void CampaignRun24h(benchmark::State& state, bool in_modes) {
   Problem const problem;
   RunOptions options;
   options.integration.relative_tolerance = options.integration.absolute_tolerance = 1e-5;
+  options.in_modes = in_modes;
   for (auto _ : state) benchmark::DoNotOptimize(run(problem.machine, problem.experiment, options).summary.steps);
 }
-BENCHMARK(CampaignRun24h)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(CampaignRun24h, full, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(CampaignRun24h, modes, true)->Unit(benchmark::kMillisecond);
 
 void MachineFromItsDocument(benchmark::State& state) {
   Value const document = read_toml(machine_file("v450"));

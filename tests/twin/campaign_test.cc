@@ -5,6 +5,7 @@
 #include <omp.h>
 #include <set>
 
+#include "output/campaign_file.h"
 #include "output/error.h"
 #include "output/locked_file.h"
 #include "tests/output/temporary_directory.h"
@@ -245,6 +246,38 @@ values = [)toml" + values + "\"1000 rpm\", \"4000 rpm\"]\n");
   EXPECT_EQ(failed_runs(directory / "out"), 1);
   EXPECT_EQ(files.at("failures.csv").find("run,reason\n21,\""), 0u) << files.at("failures.csv");
   EXPECT_NE(files.at("failures.csv").find("1000 rpm"), std::string::npos) << files.at("failures.csv");
+}
+
+/// By BDF to 1e-8, and in modes: twelve machines, six speeds in two hours, without the instruments' errors.
+TEST(Campaign, InModesTheRunsAreThoseOfTheFullModel) {
+  TemporaryDirectory const directory;
+  auto const text = [](std::string const& model, std::string const& tolerance) {
+    return "experiments = [\"spindle_random\"]\nmachine = \"v450\"\nkeep = [\"truth\"]\npart = 12\nmodel = \"" + model +
+           "\"\ntolerance = " + tolerance +
+           "\nset = [\"experiment.duration=2 h\", \"experiment.spindle.random.run=2 h\"]\n"
+           "[[grid]]\npath = \"bearing.front.grease_factor\"\nfrom = 0.4\nto = 0.8\ncount = 12\n";
+  };
+  auto const runs = [&](std::string const& model, std::string const& tolerance) {
+    auto const folder = directory / model;
+    static_cast<void>(made(read(directory, text(model, tolerance)), folder, 2));
+    return output::read_runs(folder / "parts/000000.h5", {"truth"});
+  };
+  auto const full = runs("full", "1e-8"), modes = runs("modes", "1e-5");
+  ASSERT_EQ(full.run.size(), 12U);
+  for (std::string const name : {"truth/readings", "truth/displacements"}) {
+    Eigen::MatrixXd const& exact = *full.find(name);
+    double const gap = (*modes.find(name) - exact).cwiseAbs().maxCoeff();
+    EXPECT_LT(gap, 1e-3) << name;  // K, um
+    EXPECT_GT(gap, 0.0) << name;
+    EXPECT_GT((exact.row(11) - exact.row(0)).cwiseAbs().maxCoeff(), 1.0) << name;
+  }
+}
+
+TEST(Campaign, AMachineWithoutModesIsRefusedBeforeAnythingIsWritten) {
+  TemporaryDirectory const directory;
+  auto const campaign = read(directory, "experiments = [\"feed_12000\"]\nmachine = \"vmc850\"\nmodel = \"modes\"\n");
+  EXPECT_THROW(run_campaign(campaign, {directory / "out", {}, {}, nullptr}), thermal::InputError);
+  EXPECT_FALSE(fs::exists(directory / "out"));
 }
 
 TEST(Campaign, AFolderOfAnotherCampaignIsRefused) {

@@ -78,8 +78,10 @@ struct CampaignDescription {
     f("title", &CampaignDescription::title, "one line for people");
     f("experiments", &CampaignDescription::experiments, "files, or names of the catalogue");
     f("machine", &CampaignDescription::machine, "file or name; default: the one that the first experiment names");
-    f.choice("model", &CampaignDescription::model, {"full", "reduced"},
-             "of the machine: all its nodes, or few shapes of them, whose bound is kept of each run");
+    f.choice(
+        "model", &CampaignDescription::model, {"full", "modes", "reduced"},
+        "of the machine: all its nodes; all, by exponential steps in its modes, faster where speeds change often; or "
+        "few shapes of them, whose bound is kept of each run");
     f("set", &CampaignDescription::set, "parameters changed in every run, as run --set has them");
     f("grid", &CampaignDescription::grid, "parameters of which every value meets every other");
     f("latin_hypercube", &CampaignDescription::latin_hypercube, "parameters drawn together from ranges");

@@ -15,6 +15,7 @@
 #include "output/error.h"
 #include "output/locked_file.h"
 #include "thermal/error.h"
+#include "thermal/modal_integration.h"
 #include "twin/campaign/campaign_form.h"
 #include "twin/campaign/campaign_parts.h"
 #include "twin/diagnosis/run_files.h"
@@ -102,6 +103,7 @@ class RunMaker {
       : campaign_(campaign), form_(form), reduced_(reduced) {
     options_.integration.relative_tolerance = campaign.description.tolerance;
     options_.integration.absolute_tolerance = campaign.description.tolerance;
+    options_.in_modes = campaign.description.model == "modes";
     options_.stop = stop;
   }
 
@@ -177,8 +179,10 @@ std::string csv_text(std::string text) {
 }  // namespace
 
 CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& options) {
+  auto const nominal = Machine::build(campaign.machine(campaign.nominal(0)));
+  if (campaign.description.model == "modes") thermal::check_modes(nominal.network());
   claim(campaign, options.folder);
-  CampaignForm const form(campaign, Machine::build(campaign.machine(campaign.nominal(0))));
+  CampaignForm const form(campaign, nominal);
   CampaignParts parts(campaign, form, options.folder, options.share);
   std::optional<ReducedMachine> reduced;
   if (campaign.description.model == "reduced") reduced.emplace(campaign);

@@ -1,0 +1,87 @@
+#include "thermal/modal_integration.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/thermal/random_network.h"
+#include "thermal/error.h"
+
+namespace thermotwin::thermal {
+namespace {
+
+std::vector<std::vector<double>> in_modes(Network const& network, Course const& course,
+                                          std::vector<double> const& start, std::vector<double> const& times,
+                                          IntegrationOptions const& options) {
+  std::vector<std::vector<double>> seen;
+  integrate_in_modes(network, course, start, times, options, [&](Sample const& sample) {
+    seen.emplace_back(sample.temperatures.begin(), sample.temperatures.end());
+  });
+  return seen;
+}
+
+/// Two lumps, a joint, a film of constant coefficient, a constant heat: nothing is left that a step could err by.
+TEST(ModalIntegration, LinearNetworksAreExactHoweverLooseTheTolerance) {
+  NetworkBuilder builder;
+  int const part = builder.part("p");
+  Port const head = builder.add_body("head", {4000.0}), column = builder.add_body("column", {4000.0});
+  Port const air = builder.add_boundary({"air", T0, {}});
+  builder.connect(part, head, column, 6.0);
+  builder.connect(part, head, air, 2.0);
+  builder.connect(part, column, air, 2.0);
+  Network const network = builder.build();
+  // Sum and difference of the two rises decay with 2 W/K and 14 W/K over 4000 J/K.
+  std::vector<double> const start{T0 + 10.0, T0 + 4.0}, times{0.0, 7.0, 300.0, 2000.0, 9000.0};
+  std::size_t row = 0;
+  for (auto const& temperatures : in_modes(network, FunctionCourse(), start, times, tight(1e-2))) {
+    double const t = times[row++];
+    double const sum = 14.0 * std::exp(-2.0 / 4000.0 * t), difference = 6.0 * std::exp(-14.0 / 4000.0 * t);
+    EXPECT_NEAR(temperatures[0] - T0, 0.5 * (sum + difference), 1e-10) << t;
+    EXPECT_NEAR(temperatures[1] - T0, 0.5 * (sum - difference), 1e-10) << t;
+  }
+}
+
+/// Films, radiation, friction, evaporation, flow, averages, capacities that depend on temperature.
+TEST(ModalIntegration, AgreesWithBdfToItsTolerance) {
+  std::vector<double> const times{0.0, 10.0, 300.0, 600.0, 1000.0, 1200.0, 3000.0};
+  int compared = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    auto const random = random_network(seed);
+    try {
+      check_modes(random.network);
+    } catch (InputError const&) {
+      continue;  // a part moves
+    }
+    std::vector<std::vector<double>> exact;
+    integrate(random.network, random_course(), random.start, times, tight(1e-10), [&](Sample const& sample) {
+      exact.emplace_back(sample.temperatures.begin(), sample.temperatures.end());
+    });
+    for (double const tolerance : {1e-4, 1e-5}) {
+      auto const seen = in_modes(random.network, random_course(), random.start, times, tight(tolerance));
+      ASSERT_EQ(seen.size(), exact.size());
+      for (std::size_t row = 0; row < seen.size(); ++row) {
+        ASSERT_EQ(seen[row].size(), exact[row].size());
+        for (std::size_t i = 0; i < seen[row].size(); ++i)
+          ASSERT_NEAR(seen[row][i], exact[row][i], 30.0 * tight(tolerance).tolerance())
+              << "seed " << seed << ", t = " << times[row] << ", tolerance " << tolerance;
+      }
+    }
+    ++compared;
+  }
+  EXPECT_GT(compared, 70);
+}
+
+TEST(ModalIntegration, RefusesWhatHasNoConstantModes) {
+  NetworkBuilder small;
+  int const part = small.part("p");
+  Port const body = small.add_body("body", {100.0});
+  Port const air = small.add_boundary({"air", T0, {}});
+  small.connect(part, body, air, 1.0);
+  small.add_relay("thermostat", body, air, 1.0, 0.5);
+  EXPECT_THROW(check_modes(small.build()), InputError);
+
+  NetworkBuilder large;
+  large.add_body("body", std::vector<double>(401, 100.0));
+  EXPECT_THROW(check_modes(large.build()), InputError);
+}
+
+}  // namespace
+}  // namespace thermotwin::thermal
