@@ -230,6 +230,24 @@ TEST(Jacket, FlowsLessColdOilUnderPressure) {
   EXPECT_EQ(total_at(helix, 303.15, {{"machine.on", 0.0}}), 0.0);
 }
 
+/// The second law, cell by cell: where the wall is as cold as the inlet nothing is taken from it, however warm the rest.
+TEST(CoolantInAWallOfSeveralCells, CoolsNoneBelowItsInlet) {
+  auto const check = [](Snippet const& effect, Changes const& changes) {
+    Machine const machine = Machine::build(bench(effect, changes));
+    auto temperatures = uniform_temperatures(machine, 293.15);
+    auto const sleeve = std::size_t(machine.network().range("sleeve").first);
+    temperatures[sleeve + 2] = 313.15;
+    auto const heat = heat_of(effect, machine, temperatures);
+    EXPECT_NEAR(heat[sleeve], 0.0, 1e-9);
+    EXPECT_NEAR(heat[sleeve + 1], 0.0, 1e-9);
+    double const total = total_at(effect, 313.15, {}, changes);
+    EXPECT_NEAR(heat[sleeve + 2], total / 3.0, 1e-6 * std::abs(total));
+    EXPECT_LT(total, -10.0);
+  };
+  check(snippet("jacket", "helix"), {{"temperature", "20 degC"}});
+  check(snippet("coolant_flow"), {{"through", "sleeve"}, {"inlet_offset", "-0.85 K"}});
+}
+
 TEST(ChannelFilm, HeatsTheStreamCellByCell) {
   auto const& film = snippet("channel_film");
   Machine const machine = Machine::build(bench(film));

@@ -5,7 +5,7 @@
 namespace thermotwin::twin {
 namespace {
 
-/// q = 2 ṁc (T_in − T_m): the node has the mean of inlet and outlet. c = {V̇ ρ c}, u = {flag}.
+/// q = 2 ṁc (T_in − T_m): the node has the mean of inlet and outlet. c = {V̇ ρ c}, of a cell its share; u = {flag}.
 struct MeanTemperatureFlow {
   static constexpr std::string_view name = "coolant flow through a body at mean temperature";
   static constexpr int ports = 2, coefficients = 1, inputs = 1;
@@ -38,9 +38,11 @@ struct CoolantFlow {
   }
 
   void add_to(Assembly& assembly) const {
-    assembly.network().add<MeanTemperatureFlow>(assembly.part(),
-                                                {assembly.port(through), assembly.boundary(inlet, inlet_offset)},
-                                                {flow * density * specific_heat}, {assembly.channel(while_on)});
+    Place const place = assembly.place(through);
+    for (auto const& contact : place.site.contacts)
+      assembly.network().add<MeanTemperatureFlow>(
+          assembly.part(), {assembly.node(place, contact.node), assembly.boundary(inlet, inlet_offset)},
+          {contact.share * flow * density * specific_heat}, {assembly.channel(while_on)});
   }
 };
 

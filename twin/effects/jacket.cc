@@ -28,12 +28,13 @@ struct Helix {
   }
 };
 
-/// q = ṁc (1 − e^{−NTU}) (T_in − T_wall), NTU = A/(1/h + r)/(ṁc), V̇ = V̇₀ (ν₀/ν(T_in))^γ. Ports: wall, inlet.
-/// c = {A, r, V̇₀, γ, ν₀, section, d_h, length or diameter of curvature, number of the fluid}, u = {flag}.
+/// q = s ṁc (1 − e^{−NTU}) (T_in − T_wall), NTU = A/(1/h + r)/(ṁc), V̇ = V̇₀ (ν₀/ν(T_in))^γ: a cell of the wall meets
+/// its share s of area and flow, and is never cooled below the inlet. Ports: cell, inlet.
+/// c = {A, r, V̇₀, γ, ν₀, section, d_h, length or diameter of curvature, number of the fluid, s}, u = {flag}.
 template <class Shape>
 struct JacketLaw {
   static constexpr std::string_view name = Shape::name;
-  static constexpr int ports = 2, coefficients = 9, inputs = 1;
+  static constexpr int ports = 2, coefficients = 10, inputs = 1;
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
@@ -44,7 +45,7 @@ struct JacketLaw {
     S const h = Shape::template film<S>(medium, T[0], T[1], flow, c[5], c[6], c[7]);
     S const capacity_rate = flow * fluid.density * fluid.specific_heat;
     S const conductance = thermal::ntu_conductance<S>(capacity_rate, c[0] / (1.0 / h + c[1]));
-    thermal::exchange<S>(conductance * (T[1] - T[0]), q);
+    thermal::exchange<S>(c[9] * conductance * (T[1] - T[0]), q);
   }
 };
 
@@ -81,29 +82,24 @@ struct Jacket : GivenTemperature {
     double const section = channel_width * channel_height, perimeter = 2.0 * (channel_width + channel_height);
     double const wetted = area.value_or((perimeter - channel_width) * length);
     auto const reference = thermal::properties(thermal::fluid(fluid), flow_temperature);
-    std::vector<double> const numbers = {wetted,
-                                         wall_resistance(place),
-                                         flow,
-                                         flow_exponent,
-                                         reference.kinematic_viscosity,
-                                         section,
-                                         4.0 * section / perimeter,
-                                         helix_diameter.value_or(length),
-                                         thermal::number_of_fluid(fluid)};
-    std::vector<thermal::Port> const ports = {assembly.port(place), inlet};
     std::vector<int> const inputs = {assembly.channel(while_on)};
-    if (helix_diameter)
-      assembly.network().add<JacketLaw<Helix>>(assembly.part(), ports, numbers, inputs);
-    else
-      assembly.network().add<JacketLaw<StraightChannel>>(assembly.part(), ports, numbers, inputs);
-  }
-
- private:
-  /// From the nodes to the surface, mean [m² K/W].
-  static double wall_resistance(Place const& place) {
-    double sum = 0.0;
-    for (auto const& contact : place.site.contacts) sum += contact.share * contact.half_resistance;
-    return sum;
+    for (auto const& contact : place.site.contacts) {
+      std::vector<thermal::Port> const ports = {assembly.node(place, contact.node), inlet};
+      std::vector<double> const numbers = {wetted,
+                                           contact.half_resistance,
+                                           flow,
+                                           flow_exponent,
+                                           reference.kinematic_viscosity,
+                                           section,
+                                           4.0 * section / perimeter,
+                                           helix_diameter.value_or(length),
+                                           thermal::number_of_fluid(fluid),
+                                           contact.share};
+      if (helix_diameter)
+        assembly.network().add<JacketLaw<Helix>>(assembly.part(), ports, numbers, inputs);
+      else
+        assembly.network().add<JacketLaw<StraightChannel>>(assembly.part(), ports, numbers, inputs);
+    }
   }
 };
 
@@ -113,7 +109,8 @@ Effect const& jacket_effect() {
   static Effect const effect = make_effect<Jacket>(
       {"jacket",
        "a cooling jacket: flow and film from its geometry, any number of transfer units",
-       "q = ṁc (1 − e^(−NTU)) (T_in − T_wall),  NTU = A/(1/h + r)/ṁc,  V̇ = V̇0 (ν0/ν)^γ;  h: laminar Nu = (3.66³ + "
+       "q = ṁc (1 − e^(−NTU)) (T_in − T_wall), each cell of the wall with its share;  NTU = A/(1/h + r)/ṁc,  V̇ = V̇0 "
+       "(ν0/ν)^γ;  h: laminar Nu = (3.66³ + "
        "1.615³ Re "
        "Pr d/L)^(1/3), Gnielinski from Re 1e4, linear between;  helix: from Re_cr = 2300 [1 + 8.6 (d/D)^0.45] to 2.2e4",
        "boundary, link",
