@@ -65,15 +65,19 @@ struct MaterialDescription {
   }
 };
 
-/// What solids share: how they hang on one another, for the displacements that fields show (thermal/growth_field.h).
+/// What solids share: how they hang on one another, for the displacements that fields show (thermal/growth_field.h),
+/// and whether a sensor could sit on them.
 struct CarriedDescription {
   std::string carried_by;
+  bool turns = false;
   std::optional<Eigen::Vector3d> held_at;
 
   template <class Owner, class Fields>
   static void fields_of(Fields& f) {
     f("carried_by", &Owner::carried_by, "body that carries it, in fields that show displacements; none: the floor");
     f("held_at", &Owner::held_at, dimension::length, "where; default: the middle of what both share");
+    f("turns", &Owner::turns,
+      "no place for a sensor; shafts in bearings, screws, rotating surfaces and what they carry are known to turn");
   }
 };
 

@@ -230,7 +230,8 @@ TEST(Jacket, FlowsLessColdOilUnderPressure) {
   EXPECT_EQ(total_at(helix, 303.15, {{"machine.on", 0.0}}), 0.0);
 }
 
-/// The second law, cell by cell: where the wall is as cold as the inlet nothing is taken from it, however warm the rest.
+/// The second law, cell by cell: where the wall is as cold as the inlet nothing is taken from it, however warm the
+/// rest.
 TEST(CoolantInAWallOfSeveralCells, CoolsNoneBelowItsInlet) {
   auto const check = [](Snippet const& effect, Changes const& changes) {
     Machine const machine = Machine::build(bench(effect, changes));

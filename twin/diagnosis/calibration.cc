@@ -20,14 +20,27 @@ constexpr double still_uncertain = 0.5;  // of the prior's deviation
 constexpr double tied = 0.95;            // correlation
 constexpr double large_share = 0.3;      // of a unit vector
 constexpr int iterations = 12;
+constexpr double more_than_noise = 2.0;  // misfit
+constexpr double far_from_file = 3.0;    // departure
 
-void add_estimates(Calibration& calibration, Estimation const& estimation, Fit const& fit) {
+std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machine const& machine) {
+  if (unknown.kind == Unknown::Kind::lag) return "s";
+  if (unknown.kind == Unknown::Kind::input) return "1";
+  if (unknown.kind != Unknown::Kind::offset || unknown.run < 0) return "K";
+  auto const& channels = estimation.data()[std::size_t(unknown.run)].run->channels;
+  auto const of_zero = std::find_if(channels.begin(), channels.end(), [&](auto const& channel) {
+    return channel.name == estimation.channels()[unknown.index];
+  });
+  return unit_of(*of_zero, machine);
+}
+
+void add_estimates(Calibration& calibration, Estimation const& estimation, Fit const& fit, Machine const& machine) {
   auto const& unknowns = estimation.unknowns();
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
     auto const i = Eigen::Index(u);
     double const deviation = std::sqrt(fit.covariance(i, i));
     if (unknowns[u].kind != Unknown::Kind::number) {
-      calibration.instruments.push_back({unknowns[u], fit.x[i], deviation});
+      calibration.instruments.push_back({unknowns[u], fit.x[i], deviation, unit_of(unknowns[u], estimation, machine)});
       continue;
     }
     auto const& number = estimation.numbers()[unknowns[u].index];
@@ -76,17 +89,15 @@ double misfit_of(Estimation const& estimation, Fit const& fit) {
   return fit.residual.head(estimation.rows()).squaredNorm() / std::max(samples, 1.0);
 }
 
-/// x_I + C_IU C_UU⁻¹ (0 − x_U): the mean of the identified numbers I where the others U are nominal.
-void add_written(Calibration& calibration, Fit const& fit) {
-  std::vector<Eigen::Index> identified, others;
+/// The fit of the identified numbers where the others are nominal; returns all unknowns.
+Eigen::VectorXd add_written(Calibration& calibration, Estimation const& estimation) {
+  std::vector<std::size_t> others;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n)
-    (calibration.numbers[n].identified ? identified : others).push_back(Eigen::Index(n));
-  Eigen::MatrixXd const own = fit.covariance(others, others), cross = fit.covariance(identified, others);
-  Eigen::VectorXd const moved = fit.x(others);
-  Eigen::VectorXd written = fit.x(identified);
-  if (!others.empty()) written -= cross * own.llt().solve(moved);
-  for (std::size_t k = 0; k < identified.size(); ++k)
-    calibration.numbers[std::size_t(identified[k])].written = written[Eigen::Index(k)];
+    if (!calibration.numbers[n].identified) others.push_back(n);
+  Eigen::VectorXd x = estimation.knowing(others).fit(estimation.prior_mean(), iterations).x;
+  for (std::size_t const n : others) x[Eigen::Index(n)] = 0.0;
+  for (std::size_t n = 0; n < calibration.numbers.size(); ++n) calibration.numbers[n].written = x[Eigen::Index(n)];
+  return x;
 }
 
 std::vector<ChangedValue> changes_of(Calibration const& calibration) {
@@ -105,6 +116,13 @@ std::vector<ChangedValue> changes_of(Calibration const& calibration) {
 
 double CalibratedNumber::estimate() const { return number.value(logarithm); }
 double CalibratedNumber::standard_error() const { return std::abs(number.slope(logarithm)) * deviation; }
+double CalibratedNumber::departure() const { return std::abs(logarithm) / number.deviation; }
+
+bool Calibration::falls_short() const {
+  auto const sum = whole(gaps);
+  return misfit > more_than_noise || sum.after > sum.before ||
+         std::any_of(numbers.begin(), numbers.end(), [](auto const& n) { return n.departure() > far_from_file; });
+}
 
 Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) {
   Estimation const estimation = expected_estimation(machine, runs);
@@ -115,15 +133,13 @@ Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) 
   Fit const fit = estimation.fit(estimation.prior_mean(), iterations);
   Calibration calibration;
   calibration.converged = fit.converged;
-  add_estimates(calibration, estimation, fit);
+  Machine const before = Machine::build(machine);
+  add_estimates(calibration, estimation, fit, before);
   calibration.inseparable = inseparable(estimation.unknowns(), fit);
   add_collinearity(calibration, estimation, fit);
   calibration.misfit = misfit_of(estimation, fit);
-  add_written(calibration, fit);
-  Eigen::VectorXd x = fit.x;
-  for (std::size_t n = 0; n < calibration.numbers.size(); ++n) x[Eigen::Index(n)] = calibration.numbers[n].written;
-  calibration.document = estimation.document_at(x);
-  Machine const before = Machine::build(machine), after = Machine::build(calibration.document);
+  calibration.document = estimation.document_at(add_written(calibration, estimation));
+  Machine const after = Machine::build(calibration.document);
   calibration.machine = before.name;
   calibration.gaps = gaps(before, after, runs);
   return calibration;

@@ -19,17 +19,19 @@ struct CalibratedNumber {
   /// the estimate is mostly the prior's and the number keeps its nominal value.
   bool identified = false;
   /// ln(value/nominal) in the calibrated file: 0 if not identified; if so, the most probable value given that those are
-  /// at 0, which leaves a smaller gap than `logarithm` beside numbers that did not move with it.
+  /// at 0, found by a fit of its own: a smaller gap than `logarithm` leaves beside numbers that did not move with it.
   double written = 0.0;
 
   [[nodiscard]] double estimate() const;
   [[nodiscard]] double standard_error() const;  ///< in the number's unit [SI]
+  [[nodiscard]] double departure() const;       ///< of the estimate from the file, in prior standard deviations
 };
 
 /// What belongs to the instruments and the runs, not to the machine: an offset, a lag, a warm start.
 struct CalibratedInstrument {
   Unknown unknown;
   double estimate = 0.0, standard_error = 0.0;  ///< in the unit of the unknown
+  std::string unit;                             ///< in which people read it: K, s, um, urad, 1
 };
 
 /// What measured runs say about the uncertain numbers of a machine that is supposed to lack nothing (physics.md 8.1,
@@ -50,6 +52,10 @@ struct Calibration {
   Value document;                ///< the machine with the numbers as written
   std::vector<Doubt> doubts;     ///< of calibrate_files
   std::vector<std::string> remarks;
+
+  /// Residuals are larger than noise, a number had to leave the file by more than three prior standard deviations, or
+  /// what would be written leaves more than the machine did: something is missing.
+  [[nodiscard]] bool falls_short() const;
 };
 
 /// `machine`: its document. InputError when it has no uncertain number, or cannot be run on the data.

@@ -12,19 +12,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double collinear = 10.0;
-constexpr double more_than_noise = 2.0;
+constexpr double told_departure = 2.0;  // beyond it, people are told
 
 std::string verdict_of(CalibratedNumber const& number) {
-  return number.identified ? "identified" : "not identified: keep prior";
+  std::string const text = number.identified ? "identified" : "not identified: keep prior";
+  if (number.departure() < told_departure) return text;
+  return text + fmt::format("; {:.0f} prior deviations from the file", number.departure());
 }
 
-/// Unit of an offset, lag, start, air or input, and what its SI value is multiplied by.
-std::pair<std::string, double> unit_of(Unknown const& unknown) {
-  if (unknown.kind == Unknown::Kind::lag) return {"s", 1.0};
-  if (unknown.kind == Unknown::Kind::input) return {"1", 1.0};
-  if (unknown.name.starts_with("zero of")) return {"um", 1e6};
-  return {"K", 1.0};
-}
+double si_to_people(CalibratedInstrument const& instrument) { return instrument.unit.starts_with("u") ? 1e6 : 1.0; }
 
 Json json_of(CalibratedNumber const& number) {
   return {{"path", number.number.path},
@@ -34,13 +30,14 @@ Json json_of(CalibratedNumber const& number) {
           {"standard_error", number.standard_error()},
           {"prior_deviation_of_logarithm", number.number.deviation},
           {"deviation_of_logarithm", number.deviation},
+          {"departure", number.departure()},
           {"written", number.number.value(number.written)},
           {"verdict", number.identified ? "identified" : "not identified"}};
 }
 
 Json json_of(CalibratedInstrument const& instrument) {
-  auto const [unit, scale] = unit_of(instrument.unknown);
-  return {{"name", instrument.unknown.name},          {"unit", unit},
+  double const scale = si_to_people(instrument);
+  return {{"name", instrument.unknown.name},          {"unit", instrument.unit},
           {"prior", scale * instrument.unknown.mean}, {"prior_deviation", scale * instrument.unknown.deviation},
           {"estimate", scale * instrument.estimate},  {"standard_error", scale * instrument.standard_error}};
 }
@@ -81,9 +78,9 @@ std::string number_table(Calibration const& calibration) {
 std::string instrument_table(Calibration const& calibration) {
   std::string text = fmt::format("{:<42} {:>14} {:>14}\n", "instrument or run", "estimate", "std. error");
   for (auto const& instrument : calibration.instruments) {
-    auto const [unit, scale] = unit_of(instrument.unknown);
-    text += fmt::format("{:<42} {:>11.3f} {:<2} {:>11.3f} {:<2}\n", instrument.unknown.name,
-                        scale * instrument.estimate, unit, scale * instrument.standard_error, unit);
+    double const scale = si_to_people(instrument);
+    text += fmt::format("{:<42} {:>11.3f} {:<4} {:>11.3f} {}\n", instrument.unknown.name, scale * instrument.estimate,
+                        instrument.unit, scale * instrument.standard_error, instrument.unit);
   }
   return text;
 }
@@ -96,6 +93,14 @@ std::string collinearity_text(Calibration const& calibration) {
   text += fmt::format("collinearity index of the identified numbers: {:.1f}", calibration.collinearity);
   if (calibration.collinearity <= collinear) return text + "\n";
   return text + fmt::format(", above {:.0f}; most of it: {}\n", collinear, fmt::join(calibration.weakest, ", "));
+}
+
+std::string advice(Calibration const& calibration) {
+  auto const sum = whole(calibration.gaps);
+  if (sum.after > sum.before)
+    return "the calibrated file is further from the data than yours: ask `diagnose` what is missing";
+  return calibration.falls_short() ? "numbers alone do not explain the data: ask `diagnose` what is missing"
+                                   : "whether an effect is missing, `diagnose` tells";
 }
 
 std::string gap_table(Calibration const& calibration) {
@@ -116,9 +121,7 @@ std::string gap_table(Calibration const& calibration) {
 std::string calibration_table(Calibration const& calibration) {
   std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n", doubt_lines(calibration.doubts), number_table(calibration),
                                  instrument_table(calibration), collinearity_text(calibration), gap_table(calibration));
-  text += fmt::format("misfit: {:.2f} of what the expected noise makes; {}\n", calibration.misfit,
-                      calibration.misfit > more_than_noise ? "something is missing: ask `diagnose`"
-                                                           : "whether an effect is missing, `diagnose` tells");
+  text += fmt::format("misfit: {:.2f} of what the expected noise makes; {}\n", calibration.misfit, advice(calibration));
   if (!calibration.converged) text += "note: the fit did not converge; the estimates are where it stopped\n";
   for (auto const& remark : calibration.remarks) text += "note: " + remark + "\n";
   return text;
@@ -133,6 +136,7 @@ std::string calibration_json(Calibration const& calibration) {
                      {"collinearity", calibration.collinearity},
                      {"weakest_direction", calibration.weakest},
                      {"misfit", calibration.misfit},
+                     {"falls_short", calibration.falls_short()},
                      {"converged", calibration.converged},
                      {"gap", {{"before", sum.before}, {"after", sum.after}}},
                      {"gaps", list_of(calibration.gaps)},

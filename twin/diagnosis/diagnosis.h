@@ -19,7 +19,7 @@ struct Diagnosis {
     effect,      ///< each missing thing has one name
     either,      ///< at least one has two or three
     sensor,      ///< an instrument is at fault, not the machine
-    none_known,  ///< heat that no effect of the catalogue explains
+    none_known,  ///< heat that none of the effects tried explains
   };
   Verdict verdict = Verdict::nothing;
   /// Of the calibrated machine, before any effect was added, beside the noise that the amended one leaves.

@@ -209,8 +209,8 @@ std::string headline(Diagnosis const& diagnosis) {
                  : "No effect is evident, though the machine leaves more than noise in parts of the data.";
     case Diagnosis::Verdict::none_known:
       return diagnosis.explanations.empty()
-                 ? "Something is missing that no effect of the catalogue explains."
-                 : "Something is missing that no effect of the catalogue explains. What stands in for it:";
+                 ? "Something is missing that none of the effects tried explains."
+                 : "Something is missing that none of the effects tried explains. What stands in for it:";
     case Diagnosis::Verdict::sensor:
       return "An instrument is at fault, not the machine.";
     case Diagnosis::Verdict::effect:

@@ -244,6 +244,12 @@ Estimation Estimation::with(std::vector<Hypothesis> const& effects) const {
   return other;
 }
 
+Estimation Estimation::knowing(std::vector<std::size_t> const& unknowns) const {
+  Estimation other = *this;
+  for (std::size_t const u : unknowns) other.unknowns_[u].deviation *= 1e-4;
+  return other;
+}
+
 Eigen::VectorXd Estimation::prior_mean() const {
   Eigen::VectorXd x(Eigen::Index(unknowns_.size()));
   for (std::size_t u = 0; u < unknowns_.size(); ++u) x[Eigen::Index(u)] = unknowns_[u].mean;

@@ -123,6 +123,7 @@ CandidateRules read_candidate_rules(std::filesystem::path const& path) {
 }
 
 std::vector<std::string> turning_bodies(Value const& document) {
+  constexpr char const* solids[] = {"lump", "bar", "hollow_cylinder", "block"};
   Value copy = document;
   std::set<std::string> turning;
   for (auto const& [kind, key] : {std::pair("bearing", "inner"), std::pair("skf_bearing", "shaft"),
@@ -133,9 +134,13 @@ std::vector<std::string> turning_bodies(Value const& document) {
     for (auto const& correlation : texts_of(*film, "correlation"))
       if (correlation.starts_with("rotating"))
         for (auto const& place : texts_of(*film, "on")) turning.insert(body_of(place));
+  for (auto const* kind : solids)
+    for (auto const* table : tables_of(copy, kind))
+      if (Value const* turns = table->find("turns"); turns && std::get<bool>(turns->content))
+        turning.insert(name_in(*table));
   for (std::size_t before = 0; before != turning.size();) {
     before = turning.size();
-    for (auto const* kind : {"lump", "bar", "hollow_cylinder", "block"})
+    for (auto const* kind : solids)
       for (auto const* table : tables_of(copy, kind))
         for (auto const& carrier : texts_of(*table, "carried_by"))
           if (turning.contains(carrier)) turning.insert(name_in(*table));

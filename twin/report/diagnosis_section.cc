@@ -68,9 +68,9 @@ std::string sentence(Json const& diagnosis) {
   if (verdict == "sensor" && diagnosis.contains("sensor"))
     return fmt::format("The sensor {} is at fault, not the machine.", diagnosis["sensor"]["name"].get<std::string>());
   if (verdict == "none_known" && diagnosis.contains("heat"))
-    return fmt::format("Heat of {:.1f} W on average into {} is missing, and no effect of the catalogue explains it.",
+    return fmt::format("Heat of {:.1f} W on average into {} is missing, and none of the effects tried explains it.",
                        diagnosis["heat"]["watts"].get<double>(), diagnosis["heat"]["body"].get<std::string>());
-  if (diagnosis["effects"].empty()) return "Something is missing that no effect of the catalogue explains.";
+  if (diagnosis["effects"].empty()) return "Something is missing that none of the effects tried explains.";
   return fmt::format("The machine file lacks {}.", missing_things(diagnosis["effects"]));
 }
 

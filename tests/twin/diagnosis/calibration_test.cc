@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "output/dataset_file.h"
@@ -77,6 +78,35 @@ TEST_F(CalibrationTest, GapShrinksThoughOnlyIdentifiedNumbersChange) {
   auto const sum = whole(calibration.gaps);
   EXPECT_LT(sum.after, 0.5 * sum.before);
   EXPECT_LT(calibration.misfit, 1.2);
+}
+
+/// A cabinet of 60 W at the column, of which the file says nothing: the tilt that it makes is beyond what the numbers
+/// of the loop may be.
+TEST_F(CalibrationTest, SaysWhereNumbersAloneDoNotDo) {
+  EXPECT_FALSE(calibration.falls_short());
+  Value const plain = read_toml(machine_file("v450"));
+  Machine const machine = Machine::build(plain);
+  auto const all = hypotheses(plain, machine);
+  auto const heat = std::find_if(
+      all.begin(), all.end(), [](Hypothesis const& h) { return h.effect->name == "heat" && h.body == "column_rear"; });
+  ASSERT_NE(heat, all.end());
+  Machine const shop = Machine::build(with_hypothesis(plain, *heat, "cabinet", 60.0));
+  output::write(run(shop, tests::two_speeds(), {}).dataset, *folder / "shop.h5");
+  auto const measured = read_measured_run(*folder / "shop.h5", machine);
+  auto const short_of = calibrate(plain, {bin(measured, fitting_interval(measured))});
+  EXPECT_TRUE(short_of.falls_short());
+  EXPECT_THAT(calibration_table(short_of), HasSubstr("prior deviations from the file"));
+  EXPECT_THAT(calibration_table(short_of), HasSubstr("ask `diagnose` what is missing"));
+  EXPECT_TRUE(nlohmann::json::parse(calibration_json(short_of)).at("falls_short").get<bool>());
+}
+
+TEST_F(CalibrationTest, ZerosHaveTheUnitOfTheirChannel) {
+  std::map<std::string, std::string> units;
+  for (auto const& instrument : calibration.instruments) units[instrument.unknown.name] = instrument.unit;
+  EXPECT_EQ(units.at("zero of A, run 1"), "urad");
+  EXPECT_EQ(units.at("zero of E_Z, run 1"), "um");
+  EXPECT_EQ(units.at("offset of T1"), "K");
+  EXPECT_EQ(units.at("lag of T1"), "s");
 }
 
 TEST_F(CalibrationTest, FileHasTheIdentifiedNumbersAndNoOthers) {
