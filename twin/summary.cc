@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "twin/drift_test.h"
+
 namespace thermotwin::twin {
 namespace {
 
@@ -43,6 +45,7 @@ std::string summary_table(Machine const& machine, RunResult const& result) {
     text += fmt::format("  {:<14} {:<34} {:>9.2f} {:>9.2f} {:>9.2f} {}\n", channel.name, channel.long_name, e.last,
                         e.lowest, e.highest, channel.unit == "um" ? "µm" : "µrad");
   }
+  if (auto const test = drift_test(data)) text += "\n" + drift_table(*test);
   text += fmt::format(
       "\n  energy     {:.4g} kJ supplied = {:.4g} stored + {:.4g} to the air and coolant + {:.4g} withdrawn; balance "
       "to {:.1e}\n",
@@ -75,6 +78,7 @@ std::string summary_json(Machine const& machine, RunResult const& result) {
   json["duration_s"] = data.time_s[data.time_s.size() - 1];
   json["readings"] = channels(data.readings);
   json["displacements"] = channels(data.displacements);
+  if (auto const test = drift_test(data)) json["drift_test"] = drift_json(*test);
   json["energy"] = {{"supplied_J", s.energy.supplied},
                     {"withdrawn_J", s.energy.withdrawn},
                     {"lost_J", s.energy.lost},

@@ -1,0 +1,118 @@
+#include "twin/drift_test.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "twin/experiment_file.h"
+#include "twin/run.h"
+
+namespace thermotwin::twin {
+namespace {
+
+output::Dataset run_of(std::string const& experiment, std::string const& machine) {
+  auto const file = experiment_file(experiment);
+  return run(Machine::read(machine_file(machine)), read_experiment(read_toml(file), file), {}).dataset;
+}
+
+/// What perfect instruments would have shown.
+output::Dataset truth_of(output::Dataset dataset) {
+  dataset.displacements = dataset.truth_displacements;
+  dataset.positioning = dataset.truth_positioning;
+  return dataset;
+}
+
+/// E_Z(t) = 8 (1 − e^{−t/τ}) while the spindle turns from 10 to 250 min, then back with the same τ of 40 min.
+TEST(DriftTest, FiguresAreThoseOfTheClosedForm) {
+  constexpr double tau = 2400.0, from = 600.0, to = 15000.0;
+  output::Dataset dataset;
+  dataset.time_s = Eigen::VectorXd::LinSpaced(311, 0.0, 18600.0);
+  Eigen::VectorXd speed(311), growth(311);
+  auto const warm = [](double t) { return 8.0 * (1.0 - std::exp(-t / tau)); };
+  for (Eigen::Index r = 0; r < 311; ++r) {
+    double const t = dataset.time_s[r];
+    speed[r] = t >= from && t < to ? 4000.0 : 0.0;
+    growth[r] = 1.5 + (t < from ? 0.0 : t < to ? warm(t - from) : warm(to - from) * std::exp(-(t - to) / tau));
+  }
+  dataset.inputs = {{"spindle.speed", "rpm", "", speed}};
+  dataset.displacements = {{"E_Z", "um", "", growth}};
+  auto const test = drift_test(dataset);
+  ASSERT_TRUE(test);
+  EXPECT_EQ(test->kind, DriftTest::Kind::spindle);
+  EXPECT_EQ(test->from, from);
+  EXPECT_EQ(test->to, to);
+  auto const& drift = test->drifts.at(0);
+  EXPECT_NEAR(drift.first_hour, warm(3600.0), 1e-12);
+  EXPECT_NEAR(drift.at_stop, warm(to - from), 1e-12);
+  EXPECT_NEAR(drift.last_hour, warm(to - from) - warm(to - from - 3600.0), 1e-12);
+  EXPECT_NEAR(drift.at_end, warm(to - from) * std::exp(-3600.0 / tau), 1e-12);
+  EXPECT_NEAR(drift.range, warm(to - from), 1e-12);
+}
+
+TEST(DriftTest, AShortRunHasNoFirstHour) {
+  output::Dataset dataset;
+  dataset.time_s = Eigen::Vector3d(0.0, 600.0, 1200.0);
+  dataset.inputs = {{"spindle.speed", "rpm", "", Eigen::Vector3d(3000.0, 3000.0, 3000.0)}};
+  dataset.displacements = {{"E_Z", "um", "", Eigen::Vector3d(0.0, 2.0, 3.0)}};
+  auto const drift = drift_test(dataset)->drifts.at(0);
+  EXPECT_TRUE(std::isnan(drift.first_hour));
+  EXPECT_TRUE(std::isnan(drift.at_end));
+  EXPECT_EQ(drift.at_stop, 3.0);
+  EXPECT_NE(drift_table(*drift_test(dataset)).find("-"), std::string::npos);
+  dataset.displacements.clear();
+  EXPECT_FALSE(drift_test(dataset));
+}
+
+/// methods.md §11, A2: drift and tilt after 60 min and at the end are the world's within twice the sensor's noise.
+TEST(DriftTest, OfTheSpindleIsTheWorldsWithinTheProbesNoise) {
+  auto const seen = run_of("spindle_standard", "v450");
+  auto const test = drift_test(seen), truth = drift_test(truth_of(seen));
+  ASSERT_TRUE(test && truth);
+  EXPECT_EQ(test->kind, DriftTest::Kind::spindle);
+  EXPECT_EQ(test->to, 240.0 * 60.0);
+  ASSERT_EQ(test->drifts.size(), seen.displacements.size());
+  for (std::size_t c = 0; c < test->drifts.size(); ++c) {
+    Eigen::VectorXd const error = seen.displacements[c].values - seen.truth_displacements[c].values;
+    double const noise = std::sqrt((error.array() - error.mean()).square().mean());
+    EXPECT_GT(noise, 0.0);
+    EXPECT_NEAR(test->drifts[c].first_hour, truth->drifts[c].first_hour, 2.0 * std::sqrt(2.0) * noise)
+        << test->drifts[c].name;
+    EXPECT_NEAR(test->drifts[c].at_stop, truth->drifts[c].at_stop, 2.0 * std::sqrt(2.0) * noise)
+        << test->drifts[c].name;
+  }
+}
+
+/// methods.md §11, A2: the range of a test at rest within 5 %, of every channel that the room moves by 2 um or more.
+TEST(DriftTest, RangeOfTheEnvironmentIsTheWorldsWithinFivePercent) {
+  auto const seen = run_of("etve", "v450");
+  auto const test = drift_test(seen), truth = drift_test(truth_of(seen));
+  ASSERT_TRUE(test && truth);
+  EXPECT_EQ(test->kind, DriftTest::Kind::environment);
+  int compared = 0;
+  for (std::size_t c = 0; c < test->drifts.size(); ++c) {
+    if (truth->drifts[c].range < 2.0) continue;
+    EXPECT_NEAR(test->drifts[c].range, truth->drifts[c].range, 0.05 * truth->drifts[c].range) << test->drifts[c].name;
+    ++compared;
+  }
+  EXPECT_GE(compared, 2);
+}
+
+TEST(DriftTest, AnAxisWithALaserDriftsAtBothEnds) {
+  auto const seen = run_of("feed_12000", "vmc850");
+  auto const test = drift_test(seen);
+  ASSERT_TRUE(test);
+  EXPECT_EQ(test->kind, DriftTest::Kind::axis);
+  auto const& between = test->drifts.back();
+  auto const& ends = seen.positioning.at(0);
+  EXPECT_EQ(between.name, "z, between them");
+  auto const at = [&](Eigen::Index pass, Eigen::Index place) {
+    return 0.5 * (ends.forward_um(pass, place) + ends.backward_um(pass, place));
+  };
+  Eigen::Index const last = ends.position_mm.size() - 1, end = ends.time_s.size() - 1;
+  if (ends.time_s[end] <= test->to) {
+    EXPECT_NEAR(between.at_stop, at(end, last) - at(end, 0) - (at(0, last) - at(0, 0)), 1e-9);
+  }
+  EXPECT_GT(std::abs(between.at_stop), 5.0);  // the screw grows
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

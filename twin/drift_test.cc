@@ -1,0 +1,155 @@
+#include "twin/drift_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double sixty_minutes = 3600.0;
+
+/// A course with a time axis of its own: the laser passes when it likes.
+struct Course {
+  std::string name, unit;
+  VectorXd time, values;
+
+  /// By a straight line between neighbours; NaN outside.
+  [[nodiscard]] double at(double t) const;
+  [[nodiscard]] double range() const;
+};
+
+double Course::at(double t) const {
+  if (time.size() == 0 || t < time[0] || t > time[time.size() - 1]) return NAN;
+  Index const next = std::lower_bound(time.begin(), time.end(), t) - time.begin();
+  if (next == 0) return values[0];
+  double const share = (t - time[next - 1]) / (time[next] - time[next - 1]);
+  return share == 1.0 ? values[next] : values[next - 1] + share * (values[next] - values[next - 1]);
+}
+
+double Course::range() const {
+  double low = INFINITY, high = -INFINITY;
+  for (double const value : values)
+    if (!std::isnan(value)) low = std::min(low, value), high = std::max(high, value);
+  return high - low;
+}
+
+std::vector<Course> courses_of(output::Dataset const& dataset) {
+  std::vector<Course> courses;
+  for (auto const& channel : dataset.displacements)
+    courses.push_back({channel.name, channel.unit, dataset.time_s, channel.values});
+  for (auto const& axis : dataset.positioning) {
+    if (axis.position_mm.size() < 2) continue;
+    Eigen::MatrixXd const mean = 0.5 * (axis.forward_um + axis.backward_um);
+    Index const last = axis.position_mm.size() - 1;
+    auto const at = [&](Index p) { return fmt::format("{} at {:g} mm", axis.axis, axis.position_mm[p]); };
+    courses.push_back({at(0), "um", axis.time_s, mean.col(0)});
+    courses.push_back({at(last), "um", axis.time_s, mean.col(last)});
+    courses.push_back({axis.axis + ", between them", "um", axis.time_s, mean.col(last) - mean.col(0)});
+  }
+  return courses;
+}
+
+/// When something moves; the first sample at which it does, and the first at which it does no more.
+struct Motion {
+  bool known = false;  ///< the data set has such an input
+  Index first = -1, stop = -1;
+};
+
+Motion motion_of(output::Dataset const& dataset, std::string const& ending) {
+  Motion motion;
+  for (auto const& input : dataset.inputs) {
+    if (!input.name.ends_with(ending)) continue;
+    motion.known = true;
+    for (Index r = 0; r < input.values.size(); ++r) {
+      if (!(std::abs(input.values[r]) > 0.0)) continue;
+      if (motion.first < 0 || r < motion.first) motion.first = r;
+      motion.stop = std::max(motion.stop, std::min(r + 1, input.values.size() - 1));
+    }
+  }
+  return motion;
+}
+
+ChannelDrift drift_of(Course const& course, double from, double to) {
+  double const start = course.at(std::max(from, course.time.size() > 0 ? course.time[0] : from));
+  double const end = course.time.size() > 0 ? course.time[course.time.size() - 1] : to;
+  double const stop = std::min(to, end);
+  bool const long_enough = stop - from >= sixty_minutes;
+  return {course.name,
+          course.unit,
+          course.range(),
+          long_enough ? course.at(from + sixty_minutes) - start : NAN,
+          long_enough ? course.at(stop) - course.at(stop - sixty_minutes) : NAN,
+          course.at(stop) - start,
+          end > to ? course.at(end) - start : NAN};
+}
+
+std::string shown(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2f}", value); }
+
+std::string heading_of(DriftTest const& test) {
+  std::string const when = fmt::format("{:.0f} to {:.0f} min", test.from / 60.0, test.to / 60.0);
+  switch (test.kind) {
+    case DriftTest::Kind::environment:
+      return "environment, at rest";
+    case DriftTest::Kind::spindle:
+      return "spindle, " + when;
+    case DriftTest::Kind::axis:
+      return "axis, " + when;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<DriftTest> drift_test(output::Dataset const& dataset) {
+  auto const courses = courses_of(dataset);
+  Motion const spindle = motion_of(dataset, "spindle.speed"), axes = motion_of(dataset, ".feed");
+  if (courses.empty() || dataset.time_s.size() < 2 || !(spindle.known || axes.known)) return std::nullopt;
+  DriftTest test;
+  Motion const& motion = spindle.first >= 0 ? spindle : axes;
+  bool const moves = motion.first >= 0;
+  if (moves) test.kind = spindle.first >= 0 ? DriftTest::Kind::spindle : DriftTest::Kind::axis;
+  test.from = dataset.time_s[moves ? motion.first : 0];
+  test.to = dataset.time_s[moves ? motion.stop : dataset.time_s.size() - 1];
+  for (auto const& course : courses) test.drifts.push_back(drift_of(course, test.from, test.to));
+  return test;
+}
+
+std::string drift_table(DriftTest const& test) {
+  std::string text = fmt::format("  drift in the style of ISO 230-3: {}\n", heading_of(test));
+  bool const at_rest = test.kind == DriftTest::Kind::environment;
+  if (at_rest)
+    text += fmt::format("  {:<26} {:>10}\n", "", "range");
+  else
+    text += fmt::format("  {:<26} {:>10} {:>10} {:>10} {:>10}\n", "", "60 min", "last 60", "at stop", "at end");
+  for (auto const& drift : test.drifts) {
+    std::string const unit = drift.unit == "um" ? "µm" : "µrad";
+    if (at_rest)
+      text += fmt::format("  {:<26} {:>10} {}\n", drift.name, shown(drift.range), unit);
+    else
+      text += fmt::format("  {:<26} {:>10} {:>10} {:>10} {:>10} {}\n", drift.name, shown(drift.first_hour),
+                          shown(drift.last_hour), shown(drift.at_stop), shown(drift.at_end), unit);
+  }
+  return text;
+}
+
+nlohmann::ordered_json drift_json(DriftTest const& test) {
+  constexpr char const* kinds[] = {"environment", "spindle", "axis"};
+  nlohmann::ordered_json json = {{"kind", kinds[int(test.kind)]}, {"from_s", test.from}, {"to_s", test.to}};
+  json["drifts"] = nlohmann::ordered_json::array();
+  for (auto const& drift : test.drifts)
+    json["drifts"].push_back({{"name", drift.name},
+                              {"unit", drift.unit},
+                              {"range", drift.range},
+                              {"first_hour", drift.first_hour},
+                              {"last_hour", drift.last_hour},
+                              {"at_stop", drift.at_stop},
+                              {"at_end", drift.at_end}});
+  return json;
+}
+
+}  // namespace thermotwin::twin
