@@ -57,6 +57,8 @@ struct RunCommand {
   void operator()() const;
 
  private:
+  void check_outputs(std::filesystem::path const& machine_path, std::filesystem::path const& experiment_path,
+                     scenarios::Experiment const& programme) const;
   void set_checkpoint(RunOptions& options) const;
   void run_reduced(Machine const& machine, scenarios::Experiment const& programme, RunOptions const& options) const;
 };
@@ -80,6 +82,16 @@ void RunCommand::add_to(CLI::App& app) {
   command->add_flag("--json", json, "print the summary as JSON");
   command->add_flag("--quiet,-q", quiet, "print nothing but errors");
   command->callback([this] { (*this)(); });
+}
+
+void RunCommand::check_outputs(std::filesystem::path const& machine_path, std::filesystem::path const& experiment_path,
+                               scenarios::Experiment const& programme) const {
+  check_suffix(dataset, "a data set", {".h5"});
+  check_suffix(picture, "a picture", {".png"});
+  RunFiles read = {experiment_path};
+  for (auto const& recording : programme.recorded)
+    read.push_back(scenarios::resolved_path(recording.file, programme.directory));
+  for (auto const& output : {dataset, picture}) refuse_to_overwrite(output, machine_path, read);
 }
 
 void RunCommand::set_checkpoint(RunOptions& options) const {
@@ -112,6 +124,7 @@ void RunCommand::operator()() const {
   machine_document = read_toml(path);
   for (auto const& text : settings) apply(setting(text), machine_document, experiment_document);
   auto const programme = read_experiment(experiment_document, experiment_path);
+  check_outputs(path, experiment_path, programme);
   Machine const built = Machine::build(machine_document);
 
   RunOptions options;
@@ -244,6 +257,8 @@ void add_other_commands(CLI::App& app) {
   export_command->add_flag("--truth", groups->truth, "noise-free readings and displacements, too");
   export_command->add_flag("--heat", groups->heat, "heat of every part, too");
   export_command->callback([input, output, groups] {
+    check_suffix(*output, "a table", {".csv"});
+    refuse_to_overwrite(*output, {}, {*input});
     auto const data = output::read(*input);
     if (output->empty())
       output::export_csv(data, std::cout, *groups);
@@ -272,6 +287,7 @@ void add_calibrate_command(CLI::App& app) {
   command->add_flag("--json", *json, "print everything as JSON");
   command->callback([files, json, machine] {
     files->machine = machine_file(*machine);
+    check_suffix(files->output, "a machine", {".toml"});
     auto const calibration = calibrate_files(*files);
     fmt::print("{}", *json ? calibration_json(calibration) : calibration_table(calibration));
   });
@@ -298,7 +314,8 @@ void add_replay_command(CLI::App& app) {
   command->add_option("dataset", *file, "data set of a run (HDF5)")->required();
   command->add_option("--output,-o", *kept, "keep the new data set");
   command->callback([file, kept] {
-    refuse_to_overwrite(*kept, *file, {});
+    check_suffix(*kept, "a data set", {".h5"});
+    refuse_to_overwrite(*kept, {}, {*file});
     std::optional<Progress> progress(*file);
     auto const made = replay(
         *file, *kept, [&](double share) { progress->show(share); }, &stop_requested);
