@@ -2,6 +2,7 @@
 #include "twin/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <fmt/format.h>
@@ -11,7 +12,6 @@
 #include "output/csv.h"
 #include "output/dataset_file.h"
 #include "output/error.h"
-#include "scenarios/course.h"
 #include "thermal/error.h"
 #include "twin/challenge/challenge.h"
 #include "twin/checkpoint.h"
@@ -30,6 +30,7 @@
 #include "twin/diagnosis/run_files.h"
 #include "twin/effect_page.h"
 #include "twin/experiment_file.h"
+#include "twin/file_check.h"
 #include "twin/needed_solution.h"
 #include "twin/progress.h"
 #include "twin/progress_file.h"
@@ -46,6 +47,13 @@ namespace thermotwin::twin {
 namespace {
 
 std::atomic<bool> stop_requested = false;
+
+constexpr double finest_tolerance = 1e-12, coarsest_tolerance = 0.01;
+
+int fail(int code, std::string_view message) {
+  fmt::print(stderr, "thermotwin: {}\n", message);
+  return code;
+}
 
 struct RunCommand {
   std::string experiment, machine, dataset, fields, picture, field_interval = "15 min", checkpoint;
@@ -168,26 +176,18 @@ void RunCommand::operator()() const {
     fmt::print("{}", summary_table(built, result));
 }
 
-/// What a file is, from the tables that it has: an experiment has a duration.
-void check_file(std::string const& name) {
-  std::filesystem::path const path = name;
-  Value const document = read_toml(path);
-  if (document.find("duration")) {
-    auto const experiment = read_experiment(document, path);
-    auto const machine = Machine::read(machine_of(experiment, path));
-    try {
-      scenarios::ExperimentCourse const course(experiment, machine.limits);
-    } catch (thermal::InputError const& error) {
-      throw located_in(document, error);
-    }
-    fmt::print("{}: an experiment of {:.2f} h on {}; no mistake found\n", name, experiment.duration / 3600.0,
-               machine.name);
-  } else {
-    auto const machine = Machine::build(document);
-    fmt::print("{}: the machine {}: {} nodes, {} parts, {} sensors, {} displacement channels; no mistake found\n", name,
-               machine.name, machine.network().nodes(), machine.network().parts().size(), machine.sensors.size(),
-               machine.displacements.size());
+/// Ends the program with 2 when there is a mistake in one of the files.
+void print_checks(std::vector<std::filesystem::path> const& files) {
+  auto const checks = check_files(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (auto const& warning : checks[i].warnings) fmt::print("warning: {}\n", warning);
+    if (checks[i].mistake.empty())
+      fmt::print("{}: {}; no mistake found\n", files[i].string(), checks[i].text);
+    else
+      fail(2, checks[i].mistake);
   }
+  bool const right = std::all_of(checks.begin(), checks.end(), [](auto const& check) { return check.mistake.empty(); });
+  if (!right) throw CLI::RuntimeError(2);
 }
 
 void describe(std::string const& what) {
@@ -231,11 +231,10 @@ void add_other_commands(CLI::App& app) {
   describe_command->callback([what] { describe(*what); });
 
   auto* check_command = app.add_subcommand("check", "look for mistakes in machine and experiment files");
-  auto files = std::make_shared<std::vector<std::string>>();
-  check_command->add_option("files", *files, "files")->required();
-  check_command->callback([files] {
-    for (auto const& file : *files) check_file(file);
-  });
+  auto files = std::make_shared<std::vector<std::filesystem::path>>();
+  check_command->add_option("files", *files, "files; an experiment is checked together with a machine among them")
+      ->required();
+  check_command->callback([files] { print_checks(*files); });
 
   auto* effects_command = app.add_subcommand("effects", "list the effects that the twin knows, or show one");
   auto name = std::make_shared<std::string>();
@@ -393,13 +392,9 @@ void add_report_command(CLI::App& app) {
   command->add_option("--machine,-m", *machine, "machine to draw, file or name; default: the one in a data set");
   command->callback([files, machine] {
     if (!machine->empty()) files->machine = machine_file(*machine);
+    check_suffix(files->output, "a page", {".html"});
     fmt::print("{}", write_report(*files));
   });
-}
-
-int fail(int code, std::string_view message) {
-  fmt::print(stderr, "thermotwin: {}\n", message);
-  return code;
 }
 
 /// Commands that go on for long end in good order when they are told to; the others end at once and have written
