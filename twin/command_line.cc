@@ -19,6 +19,7 @@
 #include "twin/command_line_compensate.h"
 #include "twin/command_line_difference.h"
 #include "twin/command_line_figure.h"
+#include "twin/command_line_mistake.h"
 #include "twin/command_line_place.h"
 #include "twin/command_line_study.h"
 #include "twin/command_line_view.h"
@@ -124,6 +125,9 @@ void RunCommand::run_reduced(Machine const& machine, scenarios::Experiment const
 }
 
 void RunCommand::operator()() const {
+  if (!(tolerance >= finest_tolerance && tolerance <= coarsest_tolerance))
+    throw thermal::InputError(
+        fmt::format("--tolerance {}: allowed is {} to {}", tolerance, finest_tolerance, coarsest_tolerance));
   auto const experiment_path = experiment_file(experiment);
   Value experiment_document = read_toml(experiment_path);
   Value machine_document{{}, Value::Table{}};
@@ -348,20 +352,24 @@ void add_diagnose_command(CLI::App& app) {
   auto machine = std::make_shared<std::string>();
   command->add_option("machine", *machine, "machine file or name")->required();
   auto* data = command->add_option("data", files->data, "measured runs: .h5, .csv, or a measurement file .toml");
-  command->add_option("--hold-out", files->held_out, "runs that take no part in the fit");
-  command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
-  command->add_option("--without", files->without, "effects that are not to be tried");
+  auto* unseen = command->add_option("--hold-out", files->held_out, "runs that take no part in the fit");
+  auto* amended =
+      command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
+  command->add_option("--without", files->without, "effects that are not to be tried")->delimiter(',');
   auto folder = std::make_shared<std::string>();
-  command->add_option("--report", *folder, "folder for a page to look at (report.html) and diagnosis.json");
+  auto* page =
+      command->add_option("--report", *folder, "folder for a page to look at (report.html) and diagnosis.json");
   command->add_flag("--json", *json, "print everything as JSON");
   auto planned = std::make_shared<std::vector<std::string>>();
   auto* plans =
       command->add_option("--plan", *planned,
                           "before any data: what these experiments (files or names) would show of each effect, "
                           "which could be taken for each other, and what would tell them apart");
-  plans->excludes(data);
+  for (auto* other : {data, unseen, amended, page}) plans->excludes(other);
   command->callback([files, json, machine, planned, data, folder] {
     files->machine = machine_file(*machine);
+    check_suffix(files->output, "a machine", {".toml"});
+    for (auto const& name : files->without) static_cast<void>(effect(name));
     if (!*json) files->progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
     if (!planned->empty()) return print_plan(*files, *planned, *json);
     if (data->empty()) throw thermal::InputError("diagnose needs measured runs, or --plan with experiments");
@@ -407,12 +415,32 @@ void heed_signals(CLI::App& app) {
     });
 }
 
+/// CLI11 would take -1 for 18446744073709551615.
+void refuse_negative_seeds(CLI::App& app) {
+  for (auto* command : app.get_subcommands({}))
+    if (auto* seed = command->get_option_no_throw("--seed"))
+      seed->check([](std::string const& text) {
+        return text.starts_with('-') ? fmt::format("{} is negative; a whole number from 0 on is due", text) : "";
+      });
+}
+
+/// The words of the command line, last one first, as CLI11 takes them; `help run` is `run --help`.
+std::vector<std::string> reversed_words(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words[0] == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 }  // namespace
 
 int command_line(int argc, char** argv) {
   CLI::App app("ThermoTwin: thermal digital twin of a machine tool, and generator of virtual experiments",
                "thermotwin");
-  app.set_version_flag("--version", fmt::format("thermotwin {} ({})", version(), commit()));
+  app.set_version_flag("--version,-v", fmt::format("thermotwin {} ({})", version(), commit()));
   app.require_subcommand(1);
   RunCommand run_command;
   run_command.add_to(app);
@@ -432,11 +460,14 @@ int command_line(int argc, char** argv) {
   add_figure_command(app);
   add_view_command(app, stop_requested);
   heed_signals(app);
+  refuse_negative_seeds(app);
   try {
-    app.parse(argc, argv);
+    app.parse(reversed_words(argc, argv));
     return 0;
   } catch (CLI::ParseError const& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    if (dynamic_cast<CLI::RuntimeError const*>(&error)) return error.get_exit_code();  // all is said
+    return fail(2, command_line_mistake(app, error));
   } catch (Interrupted const& error) {
     return fail(130, error.what());
   } catch (thermal::InputError const& error) {
