@@ -11,10 +11,12 @@ namespace thermotwin::scenarios {
 namespace {
 
 using thermal::format_quantity;
+using thermal::format_temperature;
 using thermal::InputError;
 namespace dimension = thermal::dimension;
 
 constexpr double day = 86400.0;
+constexpr double coldest_air = 273.15 - 50.0, hottest_air = 273.15 + 80.0;  // K, that a machine tool may stand in
 
 double daily(DailyCycle const& cycle, double time_of_day) {
   return cycle.amplitude * std::cos(2.0 * std::numbers::pi * (time_of_day - cycle.peak_time) / day);
@@ -51,6 +53,9 @@ bool door_open(Ambient const& ambient, double t) {
 }
 
 void check(Ambient const& ambient) {
+  if (!(ambient.mean >= coldest_air && ambient.mean <= hottest_air))
+    throw InputError("ambient.mean: " + format_temperature(ambient.mean) + "; allowed is " +
+                     format_temperature(coldest_air) + " to " + format_temperature(hottest_air));
   if (ambient.air_conditioning) require_time(ambient.air_conditioning->period, "ambient.air_conditioning.period");
   for (std::size_t i = 0; i < ambient.door_openings.size(); ++i) {
     DoorOpening const& door = ambient.door_openings[i];

@@ -21,7 +21,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 std::string content_of(std::filesystem::path const& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream content;
-  if (!stream || std::filesystem::is_directory(file)) throw InputError(file.string() + ": cannot be read");
+  if (!std::filesystem::exists(file)) throw InputError(file.string() + ": there is no such file");
+  if (std::filesystem::is_directory(file)) throw InputError(file.string() + ": is a folder; a file is due");
+  if (!stream) throw InputError(file.string() + ": cannot be read");
   if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
   std::string text = content.str();
   return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
@@ -112,6 +114,9 @@ std::vector<std::string> header_of(CsvReader& reader, std::filesystem::path cons
   if (!reader.next()) throw InputError(file.string() + ": is empty; a first line with the columns' names is due");
   std::vector<std::string> names;
   for (std::string_view const field : reader.fields()) names.push_back(name_in(field));
+  for (auto const& [separator, name] : {std::pair(';', "semicolons"), {'\t', "tabs"}})
+    if (names.size() == 1 && names[0].find(separator) != std::string::npos)
+      reader.fail(std::string("the fields are separated by ") + name + "; commas are due, and decimals after a point");
   return names;
 }
 

@@ -14,9 +14,11 @@ using thermal::format_quantity;
 using thermal::InputError;
 namespace dimension = thermal::dimension;
 
-thermal::Dimension dimension_of(std::string const& unit, std::string const& place) {
+/// Puts the place in front of what `action` complains of.
+template <class Action>
+void at(std::string const& place, Action action) {
   try {
-    return thermal::dimension_of(unit);
+    action();
   } catch (InputError const& error) {
     throw InputError(place + error.what());
   }
@@ -29,9 +31,7 @@ void check(Recording const& recording) {
   if (!(recording.max_gap > 0.0)) {
     throw InputError(place + "max_gap: " + format_quantity(recording.max_gap, dimension::time) + " must be above 0 s");
   }
-  if (dimension_of(recording.time_unit, place + "time_unit: ") != dimension::time) {
-    throw InputError(place + "time_unit: '" + recording.time_unit + "' is no unit of time");
-  }
+  at(place + "time_unit: ", [&] { thermal::require_unit(recording.time_unit, dimension::time); });
   for (RecordedColumn const& column : recording.columns) {
     if (column.column.empty() || column.channel.empty()) {
       throw InputError(place + "each of columns needs a column and a channel");
@@ -39,7 +39,7 @@ void check(Recording const& recording) {
     if (column.interpolation != "linear" && column.interpolation != "step") {
       throw InputError(place + "interpolation: '" + column.interpolation + "' must be \"linear\" or \"step\"");
     }
-    dimension_of(column.unit, place + "column '" + column.column + "': ");
+    at(place + "column '" + column.column + "': ", [&] { (void)thermal::dimension_of(column.unit); });
   }
 }
 

@@ -98,10 +98,12 @@ NamedUnit const* find_symbol(std::string_view symbol) {
 /// Reads one unit, left to right; `text` is the whole quantity, for messages.
 class UnitReader {
  public:
-  UnitReader(std::string_view text, std::string_view unit) : text_(text), rest_(unit) {}
+  UnitReader(std::string_view text, std::string_view unit, std::span<std::string_view const> usual)
+      : text_(text), rest_(unit), usual_(usual) {}
 
   Unit read() {
     skip_spaces();
+    whole_ = rest_;
     if (rest_ == "degC") return {dim::temperature_difference, 1, 1, true};
     Unit const unit = product();
     if (!rest_.empty()) fail("unexpected '" + std::string(rest_) + "'");
@@ -155,7 +157,14 @@ class UnitReader {
       if (named == nullptr || !named->takes_prefix) continue;
       return times(named->unit, {dim::dimensionless, prefix.numerator, prefix.denominator}, 1);
     }
-    fail("unknown unit '" + std::string(name) + "'; " + did_you_mean(name, known_symbols()));
+    fail("unknown unit '" + std::string(name) + "'; " + offer(name));
+  }
+
+  std::string offer(std::string_view name) const {
+    bool const alone = name == whole_ && !usual_.empty();
+    auto const known = alone ? std::vector<std::string>(usual_.begin(), usual_.end()) : known_symbols();
+    bool const on_scale = std::find(known.begin(), known.end(), "degC") != known.end();
+    return name == "C" && on_scale ? "did you mean 'degC'?" : did_you_mean(name, known);
   }
 
   int exponent() {
@@ -183,6 +192,8 @@ class UnitReader {
 
   std::string_view text_;
   std::string_view rest_;
+  std::string_view whole_;
+  std::span<std::string_view const> usual_;
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -197,7 +208,9 @@ double Unit::si(double number) const { return absolute ? number + zero_degC : nu
 
 double Unit::number(double si) const { return absolute ? si - zero_degC : si * denominator / numerator; }
 
-Unit read_unit(std::string_view unit, std::string_view text) { return UnitReader(text, unit).read(); }
+Unit read_unit(std::string_view unit, std::string_view text, std::span<std::string_view const> usual) {
+  return UnitReader(text, unit, usual).read();
+}
 
 std::string in_ascii(std::string_view text) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> signs = {{{"\u00b5", "u"},

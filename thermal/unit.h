@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,8 +19,9 @@ struct Unit {
   [[nodiscard]] double number(double si) const;
 };
 
-/// Reads a unit as parse_quantity describes it, in ASCII; `text` is what messages quote. Throws InputError.
-Unit read_unit(std::string_view unit, std::string_view text);
+/// Reads a unit as parse_quantity describes it, in ASCII; `text` is what messages quote. Throws InputError, which
+/// offers one of `usual` for an unknown unit that stands alone; by default any unit.
+Unit read_unit(std::string_view unit, std::string_view text, std::span<std::string_view const> usual = {});
 
 /// Writes the usual non-ASCII signs in letters: µ, °C, ², ³, ·, Ω; without spaces at its ends.
 std::string in_ascii(std::string_view text);

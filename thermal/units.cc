@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <span>
 #include <vector>
 
 #include "thermal/error.h"
+#include "thermal/nearest_name.h"
 #include "thermal/unit.h"
 
 namespace thermotwin::thermal {
@@ -52,9 +54,8 @@ std::string mismatch(std::string_view text, Quantity const& quantity, Dimension 
          " is due, for example \"" + example_of(expected) + "\"";
 }
 
-}  // namespace
-
-Quantity parse_quantity(std::string_view text) {
+/// `due` ends the message about a text that is no number; `usual` units are offered for an unknown one.
+Quantity parse(std::string_view text, std::string const& due, std::span<std::string_view const> usual = {}) {
   std::string const letters = in_ascii(text);
   std::string_view rest = letters;
   if (rest.starts_with('+')) rest.remove_prefix(1);
@@ -62,18 +63,35 @@ Quantity parse_quantity(std::string_view text) {
   auto const [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   if (error == std::errc::result_out_of_range)
     throw InputError("'" + std::string(text) + "': beyond what a double holds");
-  if (error != std::errc()) {
-    throw InputError("'" + std::string(text) + "': a number with a unit is due, for example \"600 mm\"");
-  }
+  if (error != std::errc()) throw InputError("'" + std::string(text) + "': " + due);
   if (!std::isfinite(number)) throw InputError("'" + std::string(text) + "': a finite number is due");
   rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
   if (rest.empty()) return {number, dimension::dimensionless, false};
-  Unit const unit = read_unit(rest, text);
+  if (rest.size() > 1 && rest[0] == ',' && std::isdigit(static_cast<unsigned char>(rest[1]))) {
+    std::string with_point = letters;
+    with_point[with_point.find(',')] = '.';
+    throw InputError("'" + std::string(text) + "': decimals follow a point: \"" + with_point + "\"");
+  }
+  Unit const unit = read_unit(rest, text, usual);
   return {unit.si(number), unit.dimension, unit.absolute};
 }
 
+std::string due_text(Dimension dimension) {
+  bool const plain = dimension == dimension::dimensionless;
+  return (plain ? "a number is due, for example \"" : "a number with a unit is due, for example \"") +
+         example_of(dimension) + "\"";
+}
+
+constexpr std::array<std::string_view, 2> scales = {"degC", "K"};
+
+}  // namespace
+
+Quantity parse_quantity(std::string_view text) { return parse(text, due_text(dimension::length)); }
+
 double parse_value(std::string_view text, Dimension expected) {
-  Quantity const quantity = parse_quantity(text);
+  bool const plain = expected == dimension::dimensionless;
+  Quantity const quantity =
+      parse(text, due_text(expected), plain ? std::span<std::string_view const>() : usual_units(expected));
   if (quantity.dimension != expected) throw InputError(mismatch(text, quantity, expected));
   if (quantity.absolute_temperature) {
     throw InputError("'" + std::string(text) +
@@ -84,7 +102,7 @@ double parse_value(std::string_view text, Dimension expected) {
 }
 
 double parse_temperature(std::string_view text) {
-  Quantity const quantity = parse_quantity(text);
+  Quantity const quantity = parse(text, "a temperature is due, for example \"22 degC\"", scales);
   if (quantity.dimension == dimension::dimensionless) {
     throw InputError(std::string(text) + " has no unit; write for example \"22 degC\"");
   }
@@ -112,6 +130,13 @@ void from_unit(std::span<double> numbers, std::string_view unit) {
 
 Dimension dimension_of(std::string_view unit) { return read(unit).dimension; }
 
+void require_unit(std::string_view unit, Dimension expected) {
+  auto const usual = usual_units(expected);
+  if (read_unit(in_ascii(unit), unit, usual).dimension == expected) return;
+  throw InputError("'" + std::string(unit) + "' is no unit of " + name_of(expected) + "; " +
+                   did_you_mean(unit, std::vector<std::string>(usual.begin(), usual.end())));
+}
+
 std::string missing_unit(std::string_view number, Dimension expected) {
   return std::string(number) + " has no unit; write for example \"" + example_of(expected) + "\"";
 }
@@ -129,9 +154,6 @@ std::string format_quantity(double si, Dimension dimension) {
   return best_text(si, units);
 }
 
-std::string format_temperature(double kelvin) {
-  static constexpr std::array<std::string_view, 2> units = {"degC", "K"};
-  return best_text(kelvin, units);
-}
+std::string format_temperature(double kelvin) { return best_text(kelvin, scales); }
 
 }  // namespace thermotwin::thermal

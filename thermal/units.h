@@ -40,6 +40,9 @@ void from_unit(std::span<double> numbers, std::string_view unit);
 
 Dimension dimension_of(std::string_view unit);
 
+/// InputError, which offers the dimension's usual units, for a unit of another one.
+void require_unit(std::string_view unit, Dimension expected);
+
 /// The error for a bare number where a unit is due: "600 has no unit; write for example \"600 mm\"".
 std::string missing_unit(std::string_view number, Dimension expected);
 

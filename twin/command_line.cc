@@ -2,6 +2,7 @@
 #include "twin/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <fmt/format.h>
@@ -11,7 +12,6 @@
 #include "output/csv.h"
 #include "output/dataset_file.h"
 #include "output/error.h"
-#include "scenarios/course.h"
 #include "thermal/error.h"
 #include "twin/challenge/challenge.h"
 #include "twin/checkpoint.h"
@@ -19,6 +19,7 @@
 #include "twin/command_line_compensate.h"
 #include "twin/command_line_difference.h"
 #include "twin/command_line_figure.h"
+#include "twin/command_line_mistake.h"
 #include "twin/command_line_place.h"
 #include "twin/command_line_study.h"
 #include "twin/command_line_view.h"
@@ -30,6 +31,7 @@
 #include "twin/diagnosis/run_files.h"
 #include "twin/effect_page.h"
 #include "twin/experiment_file.h"
+#include "twin/file_check.h"
 #include "twin/needed_solution.h"
 #include "twin/progress.h"
 #include "twin/progress_file.h"
@@ -47,6 +49,13 @@ namespace {
 
 std::atomic<bool> stop_requested = false;
 
+constexpr double finest_tolerance = 1e-12, coarsest_tolerance = 0.01;
+
+int fail(int code, std::string_view message) {
+  fmt::print(stderr, "thermotwin: {}\n", message);
+  return code;
+}
+
 struct RunCommand {
   std::string experiment, machine, dataset, fields, picture, field_interval = "15 min", checkpoint;
   std::vector<std::string> settings;
@@ -57,6 +66,8 @@ struct RunCommand {
   void operator()() const;
 
  private:
+  void check_outputs(std::filesystem::path const& machine_path, std::filesystem::path const& experiment_path,
+                     scenarios::Experiment const& programme) const;
   void set_checkpoint(RunOptions& options) const;
   void run_reduced(Machine const& machine, scenarios::Experiment const& programme, RunOptions const& options) const;
 };
@@ -82,6 +93,16 @@ void RunCommand::add_to(CLI::App& app) {
   command->callback([this] { (*this)(); });
 }
 
+void RunCommand::check_outputs(std::filesystem::path const& machine_path, std::filesystem::path const& experiment_path,
+                               scenarios::Experiment const& programme) const {
+  check_suffix(dataset, "a data set", {".h5"});
+  check_suffix(picture, "a picture", {".png"});
+  RunFiles read = {experiment_path};
+  for (auto const& recording : programme.recorded)
+    read.push_back(scenarios::resolved_path(recording.file, programme.directory));
+  for (auto const& output : {dataset, picture}) refuse_to_overwrite(output, machine_path, read);
+}
+
 void RunCommand::set_checkpoint(RunOptions& options) const {
   if (checkpoint.empty() && !resume) return;
   if (dataset.empty()) throw thermal::InputError("--checkpoint and --resume stand beside the output; give --output");
@@ -104,6 +125,9 @@ void RunCommand::run_reduced(Machine const& machine, scenarios::Experiment const
 }
 
 void RunCommand::operator()() const {
+  if (!(tolerance >= finest_tolerance && tolerance <= coarsest_tolerance))
+    throw thermal::InputError(
+        fmt::format("--tolerance {}: allowed is {} to {}", tolerance, finest_tolerance, coarsest_tolerance));
   auto const experiment_path = experiment_file(experiment);
   Value experiment_document = read_toml(experiment_path);
   Value machine_document{{}, Value::Table{}};
@@ -112,6 +136,7 @@ void RunCommand::operator()() const {
   machine_document = read_toml(path);
   for (auto const& text : settings) apply(setting(text), machine_document, experiment_document);
   auto const programme = read_experiment(experiment_document, experiment_path);
+  check_outputs(path, experiment_path, programme);
   Machine const built = Machine::build(machine_document);
 
   RunOptions options;
@@ -155,26 +180,18 @@ void RunCommand::operator()() const {
     fmt::print("{}", summary_table(built, result));
 }
 
-/// What a file is, from the tables that it has: an experiment has a duration.
-void check_file(std::string const& name) {
-  std::filesystem::path const path = name;
-  Value const document = read_toml(path);
-  if (document.find("duration")) {
-    auto const experiment = read_experiment(document, path);
-    auto const machine = Machine::read(machine_of(experiment, path));
-    try {
-      scenarios::ExperimentCourse const course(experiment, machine.limits);
-    } catch (thermal::InputError const& error) {
-      throw located_in(document, error);
-    }
-    fmt::print("{}: an experiment of {:.2f} h on {}; no mistake found\n", name, experiment.duration / 3600.0,
-               machine.name);
-  } else {
-    auto const machine = Machine::build(document);
-    fmt::print("{}: the machine {}: {} nodes, {} parts, {} sensors, {} displacement channels; no mistake found\n", name,
-               machine.name, machine.network().nodes(), machine.network().parts().size(), machine.sensors.size(),
-               machine.displacements.size());
+/// Ends the program with 2 when there is a mistake in one of the files.
+void print_checks(std::vector<std::filesystem::path> const& files) {
+  auto const checks = check_files(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (auto const& warning : checks[i].warnings) fmt::print("warning: {}\n", warning);
+    if (checks[i].mistake.empty())
+      fmt::print("{}: {}; no mistake found\n", files[i].string(), checks[i].text);
+    else
+      fail(2, checks[i].mistake);
   }
+  bool const right = std::all_of(checks.begin(), checks.end(), [](auto const& check) { return check.mistake.empty(); });
+  if (!right) throw CLI::RuntimeError(2);
 }
 
 void describe(std::string const& what) {
@@ -218,11 +235,10 @@ void add_other_commands(CLI::App& app) {
   describe_command->callback([what] { describe(*what); });
 
   auto* check_command = app.add_subcommand("check", "look for mistakes in machine and experiment files");
-  auto files = std::make_shared<std::vector<std::string>>();
-  check_command->add_option("files", *files, "files")->required();
-  check_command->callback([files] {
-    for (auto const& file : *files) check_file(file);
-  });
+  auto files = std::make_shared<std::vector<std::filesystem::path>>();
+  check_command->add_option("files", *files, "files; an experiment is checked together with a machine among them")
+      ->required();
+  check_command->callback([files] { print_checks(*files); });
 
   auto* effects_command = app.add_subcommand("effects", "list the effects that the twin knows, or show one");
   auto name = std::make_shared<std::string>();
@@ -244,6 +260,8 @@ void add_other_commands(CLI::App& app) {
   export_command->add_flag("--truth", groups->truth, "noise-free readings and displacements, too");
   export_command->add_flag("--heat", groups->heat, "heat of every part, too");
   export_command->callback([input, output, groups] {
+    check_suffix(*output, "a table", {".csv"});
+    refuse_to_overwrite(*output, {}, {*input});
     auto const data = output::read(*input);
     if (output->empty())
       output::export_csv(data, std::cout, *groups);
@@ -272,6 +290,7 @@ void add_calibrate_command(CLI::App& app) {
   command->add_flag("--json", *json, "print everything as JSON");
   command->callback([files, json, machine] {
     files->machine = machine_file(*machine);
+    check_suffix(files->output, "a machine", {".toml"});
     auto const calibration = calibrate_files(*files);
     fmt::print("{}", *json ? calibration_json(calibration) : calibration_table(calibration));
   });
@@ -298,7 +317,8 @@ void add_replay_command(CLI::App& app) {
   command->add_option("dataset", *file, "data set of a run (HDF5)")->required();
   command->add_option("--output,-o", *kept, "keep the new data set");
   command->callback([file, kept] {
-    refuse_to_overwrite(*kept, *file, {});
+    check_suffix(*kept, "a data set", {".h5"});
+    refuse_to_overwrite(*kept, {}, {*file});
     std::optional<Progress> progress(*file);
     auto const made = replay(
         *file, *kept, [&](double share) { progress->show(share); }, &stop_requested);
@@ -332,20 +352,24 @@ void add_diagnose_command(CLI::App& app) {
   auto machine = std::make_shared<std::string>();
   command->add_option("machine", *machine, "machine file or name")->required();
   auto* data = command->add_option("data", files->data, "measured runs: .h5, .csv, or a measurement file .toml");
-  command->add_option("--hold-out", files->held_out, "runs that take no part in the fit");
-  command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
-  command->add_option("--without", files->without, "effects that are not to be tried");
+  auto* unseen = command->add_option("--hold-out", files->held_out, "runs that take no part in the fit");
+  auto* amended =
+      command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
+  command->add_option("--without", files->without, "effects that are not to be tried")->delimiter(',');
   auto folder = std::make_shared<std::string>();
-  command->add_option("--report", *folder, "folder for a page to look at (report.html) and diagnosis.json");
+  auto* page =
+      command->add_option("--report", *folder, "folder for a page to look at (report.html) and diagnosis.json");
   command->add_flag("--json", *json, "print everything as JSON");
   auto planned = std::make_shared<std::vector<std::string>>();
   auto* plans =
       command->add_option("--plan", *planned,
                           "before any data: what these experiments (files or names) would show of each effect, "
                           "which could be taken for each other, and what would tell them apart");
-  plans->excludes(data);
+  for (auto* other : {data, unseen, amended, page}) plans->excludes(other);
   command->callback([files, json, machine, planned, data, folder] {
     files->machine = machine_file(*machine);
+    check_suffix(files->output, "a machine", {".toml"});
+    for (auto const& name : files->without) static_cast<void>(effect(name));
     if (!*json) files->progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
     if (!planned->empty()) return print_plan(*files, *planned, *json);
     if (data->empty()) throw thermal::InputError("diagnose needs measured runs, or --plan with experiments");
@@ -376,13 +400,9 @@ void add_report_command(CLI::App& app) {
   command->add_option("--machine,-m", *machine, "machine to draw, file or name; default: the one in a data set");
   command->callback([files, machine] {
     if (!machine->empty()) files->machine = machine_file(*machine);
+    check_suffix(files->output, "a page", {".html"});
     fmt::print("{}", write_report(*files));
   });
-}
-
-int fail(int code, std::string_view message) {
-  fmt::print(stderr, "thermotwin: {}\n", message);
-  return code;
 }
 
 /// Commands that go on for long end in good order when they are told to; the others end at once and have written
@@ -395,12 +415,32 @@ void heed_signals(CLI::App& app) {
     });
 }
 
+/// CLI11 would take -1 for 18446744073709551615.
+void refuse_negative_seeds(CLI::App& app) {
+  for (auto* command : app.get_subcommands({}))
+    if (auto* seed = command->get_option_no_throw("--seed"))
+      seed->check([](std::string const& text) {
+        return text.starts_with('-') ? fmt::format("{} is negative; a whole number from 0 on is due", text) : "";
+      });
+}
+
+/// The words of the command line, last one first, as CLI11 takes them; `help run` is `run --help`.
+std::vector<std::string> reversed_words(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words[0] == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 }  // namespace
 
 int command_line(int argc, char** argv) {
   CLI::App app("ThermoTwin: thermal digital twin of a machine tool, and generator of virtual experiments",
                "thermotwin");
-  app.set_version_flag("--version", fmt::format("thermotwin {} ({})", version(), commit()));
+  app.set_version_flag("--version,-v", fmt::format("thermotwin {} ({})", version(), commit()));
   app.require_subcommand(1);
   RunCommand run_command;
   run_command.add_to(app);
@@ -420,11 +460,14 @@ int command_line(int argc, char** argv) {
   add_figure_command(app);
   add_view_command(app, stop_requested);
   heed_signals(app);
+  refuse_negative_seeds(app);
   try {
-    app.parse(argc, argv);
+    app.parse(reversed_words(argc, argv));
     return 0;
   } catch (CLI::ParseError const& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    if (dynamic_cast<CLI::RuntimeError const*>(&error)) return error.get_exit_code();  // all is said
+    return fail(2, command_line_mistake(app, error));
   } catch (Interrupted const& error) {
     return fail(130, error.what());
   } catch (thermal::InputError const& error) {

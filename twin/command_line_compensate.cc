@@ -14,6 +14,7 @@
 #include "twin/compensation/compensate.h"
 #include "twin/compensation/compensation_record.h"
 #include "twin/compensation/play.h"
+#include "twin/diagnosis/run_files.h"
 #include "twin/error_model_file.h"
 #include "twin/fit_error_model.h"
 #include "twin/progress.h"
@@ -37,7 +38,15 @@ struct ConnectionArguments {
 
   void add_to(CLI::App& command);
   void require_topics() const;
+  void check_output(std::string const& output, RunFiles read) const;
 };
+
+/// None of `read`, nor of what the broker is met with.
+void ConnectionArguments::check_output(std::string const& output, RunFiles read) const {
+  for (auto const& file : {broker.password_file, broker.ca_file, broker.certificate_file, broker.key_file})
+    read.push_back(file);
+  refuse_to_overwrite(output, {}, read);
+}
 
 /// Of what a topic is made, + and # are for those who subscribe.
 void ConnectionArguments::require_topics() const {
@@ -121,6 +130,8 @@ CompensationSettings CompensateCommand::settings() const {
 
 void CompensateCommand::operator()(std::atomic<bool> const& stop) const {
   require_topics();
+  check_suffix(record, "a data set", {".h5"});
+  check_output(record, {model, machine.empty() ? std::filesystem::path() : machine_file(machine)});
   auto const set = settings();
   CompensateOptions options{broker, topics, axis, {}, {}, {}};
   options.broker.client = fmt::format("thermotwin-compensate-{}-{}", topics.prefix, axis);
@@ -157,6 +168,8 @@ void PlayCommand::add_to(CLI::App& command) {
 
 void PlayCommand::operator()(std::atomic<bool> const& stop) const {
   require_topics();
+  check_suffix(output, "a table", {".csv"});
+  check_output(output, {run});
   VirtualMachineSettings settings{channel, axis, {}, {}};
   settings.limits.largest = um(largest);
   settings.limits.slew = um_per_m * parse_value(slew, dimension::speed);
@@ -186,6 +199,8 @@ void add_fit(CLI::App& app) {
   command->add_option("--seed", fit->seed, "of random starts")->capture_default_str();
   command->add_option("--output,-o", *file, "error model to write (TOML)")->required();
   command->callback([fit, file] {
+    check_suffix(*file, "an error model", {".toml"});
+    refuse_to_overwrite(*file, {}, fit->runs);
     auto const model = fit_error_model(*fit);
     write_error_model(*file, model);
     fmt::print("{} of {} on {}{}{}\n", model.method, fit->error, fmt::join(model.inputs, ", "),

@@ -8,6 +8,7 @@
 #include "output/node_fields.h"
 #include "output/picture.h"
 #include "thermal/units.h"
+#include "twin/diagnosis/run_files.h"
 #include "twin/experiment_file.h"
 #include "twin/machine.h"
 #include "twin/placement/sensor_placement.h"
@@ -27,6 +28,7 @@ struct PlaceCommand {
   void operator()();
 
  private:
+  void check_outputs() const;
   void write_map(PlacementReport const& report, Machine const& built) const;
   void write_page(PlacementReport const& report) const;
 };
@@ -87,6 +89,15 @@ std::vector<scenarios::Experiment> read_all(std::vector<std::string> const& name
   return experiments;
 }
 
+void PlaceCommand::check_outputs() const {
+  check_suffix(output, "a list of sensors", {".toml"});
+  check_suffix(picture, "a picture", {".png"});
+  RunFiles read = {candidates};
+  for (auto const* names : {&experiments, &unseen})
+    for (auto const& name : *names) read.push_back(experiment_file(name));
+  for (auto const& file : {output, picture}) refuse_to_overwrite(file, machine_file(machine), read);
+}
+
 void PlaceCommand::write_map(PlacementReport const& report, Machine const& built) const {
   if (!fields.empty()) {
     output::make_directory(fields);
@@ -115,6 +126,7 @@ void PlaceCommand::write_map(PlacementReport const& report, Machine const& built
 }
 
 void PlaceCommand::operator()() {
+  check_outputs();
   Value const document = read_toml(machine_file(machine));
   Machine const built = Machine::build(document);
   options.noise = thermal::parse_value(noise, thermal::dimension::temperature_difference);

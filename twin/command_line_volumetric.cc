@@ -29,10 +29,11 @@ void add_options(CLI::App& command, VolumetricArguments& arguments) {
       ->capture_default_str();
   command.add_flag("--plain", options.plain, "compensate by the plain identification");
   command.add_option("--resolution", arguments.resolution, "of the controller")->capture_default_str();
-  command.add_option("--run", arguments.files.run,
-                     "data set of a run of the machine: how its warming moves the volume");
+  auto* run = command.add_option("--run", arguments.files.run,
+                                 "data set of a run of the machine: how its warming moves the volume");
   command.add_option("--at", arguments.at, "instant of that run at which the machine is measured")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(run);
   command.add_option("--output,-o", arguments.files.output, "folder for tables (CSV), compensation and field (VTK)");
   command.add_option("--picture", arguments.files.picture, "PNG of the error field; needs a display, or xvfb-run");
   command.add_flag("--json", arguments.json, "print everything as JSON");

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
 #include "twin/bodies.h"
 #include "twin/carried_bodies.h"
 #include "twin/channel_flow.h"
+#include "twin/file/document.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/tables.h"
 #include "twin/volumetric/volumetric_machine.h"
@@ -81,6 +83,10 @@ void check_keys(Value const& document) {
                       fmt::format("unknown key '{}'; {}", entry.key, thermal::did_you_mean(entry.key, known)));
 }
 
+/// Keys of the two places between which a part carries heat.
+constexpr std::pair<char const*, char const*> ends[] = {{"from", "to"},   {"inner", "outer"},  {"shaft", "ring"},
+                                                        {"nut", "screw"}, {"rotor", "stator"}, {"first", "second"}};
+
 }  // namespace
 
 /// Goes through a machine's document table by table.
@@ -99,6 +105,7 @@ class MachineBuilder {
   [[nodiscard]] double spindle_limit() const;
   void read_head();
   void read_parts();
+  void check_ends(Value const& table) const;
   void check_terms() const;
   void read_sensors();
   void read_displacements();
@@ -134,6 +141,21 @@ void MachineBuilder::read_head() {
     machine_.limits.axes.push_back({axis.name, axis.rapid_feed, axis.lead, axis.stroke_from, axis.stroke_to});
 }
 
+/// What carries heat between two places needs two.
+void MachineBuilder::check_ends(Value const& table) const {
+  for (auto const& [a, b] : ends) {
+    auto const one = texts_of(table, a), other = texts_of(table, b);
+    if (one.empty() || other.empty()) continue;
+    Place const here = assembly_.place(one[0]), there = assembly_.place(other[0]);
+    auto const shared = [&](auto const& contact) {
+      return std::any_of(there.site.contacts.begin(), there.site.contacts.end(),
+                         [&](auto const& c) { return c.node == contact.node; });
+    };
+    if (here.body == there.body && std::any_of(here.site.contacts.begin(), here.site.contacts.end(), shared))
+      throw InputError(fmt::format("'{}' and '{}' share a cell: heat would go from it to itself", one[0], other[0]));
+  }
+}
+
 /// Parts are added in the order of the file, whatever their kind: a motor finds the torques that stand before it.
 void MachineBuilder::read_parts() {
   std::vector<std::pair<Value const*, Effect const*>> tables;
@@ -147,7 +169,8 @@ void MachineBuilder::read_parts() {
     auto const part = entry->read(*table);
     tables_.claim(*table, entry->name, part->name());
     assembly_.begin_part(entry->name + "." + part->name());
-    located(*table, [&] {
+    located(*table, [&, &table = *table] {
+      check_ends(table);
       part->add_to(assembly_);
       check_terms();
     });

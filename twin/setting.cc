@@ -1,14 +1,48 @@
 #include "twin/setting.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "thermal/error.h"
+#include "twin/file/schema.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
 namespace {
 
 constexpr std::string_view experiment_prefix = "experiment.";
+
+/// Puts the tables on a path that an experiment may have and this one lacks: [coolant] of "coolant.on".
+void add_lacking_tables(Value& experiment, std::string const& path) {
+  auto fields = list_fields<scenarios::Experiment>();
+  Value* here = &experiment;
+  std::size_t begin = 0;
+  for (auto dot = path.find('.'); dot != std::string::npos; dot = path.find('.', begin)) {
+    std::string const part = path.substr(begin, dot - begin);
+    auto const field = std::find_if(fields.begin(), fields.end(), [&](auto const& f) { return f.key == part; });
+    if (field == fields.end() || !field->kind.starts_with("table")) return;
+    if (!here->find(part))
+      std::get<Value::Table>(here->content).push_back({part, here->where, Value{here->where, Value::Table{}}});
+    here = here->find(part);
+    if (!here->is_table()) return;
+    fields = std::vector<FieldRecord>(field->nested);
+    begin = dot + 1;
+  }
+}
+
+/// What an experiment has and a machine has not is meant for the experiment.
+void refuse_experiment_key(Value const& machine, std::string const& path) {
+  std::string const first = path.substr(0, path.find('.'));
+  auto const experiment = list_fields<scenarios::Experiment>();
+  auto const tables = describe_machine();
+  bool const of_experiment =
+      std::any_of(experiment.begin(), experiment.end(), [&](auto const& field) { return field.key == first; });
+  bool const of_machine = first == "title" || std::any_of(tables.begin(), tables.end(),
+                                                          [&](auto const& table) { return table.name == first; });
+  if (of_experiment && !of_machine && !machine.find(first))
+    throw thermal::InputError(
+        fmt::format("parameter '{0}': a machine has no '{1}'; did you mean '{2}{0}'?", path, first, experiment_prefix));
+}
 
 }  // namespace
 
@@ -30,10 +64,14 @@ std::string text_of(Setting const& setting) {
 }
 
 void apply(Setting const& setting, Value& machine, Value& experiment) {
-  if (setting.of_experiment())
-    set_parameter(experiment, setting.path.substr(experiment_prefix.size()), setting.value);
-  else
+  if (setting.of_experiment()) {
+    std::string const path = setting.path.substr(experiment_prefix.size());
+    add_lacking_tables(experiment, path);
+    set_parameter(experiment, path, setting.value, experiment_prefix);
+  } else {
+    refuse_experiment_key(machine, setting.path);
     set_parameter(machine, setting.path, setting.value);
+  }
 }
 
 std::filesystem::path machine_of(scenarios::Experiment const& experiment,

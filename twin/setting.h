@@ -22,7 +22,8 @@ struct Setting {
 /// As a word of a command line: experiment.duration="2 h".
 [[nodiscard]] std::string text_of(Setting const& setting);
 
-/// Paths that begin with `experiment.` go to the experiment, the others to the machine.
+/// Paths that begin with `experiment.` go to the experiment, the others to the machine. Tables that an experiment may
+/// have need not be there yet. InputError with the nearest name.
 void apply(Setting const& setting, Value& machine, Value& experiment);
 
 /// The file of the machine that an experiment names; FileError when it names none.

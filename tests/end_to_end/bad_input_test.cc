@@ -2,6 +2,7 @@
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
+#include <map>
 #include <sstream>
 
 #include "tests/end_to_end/program.h"
@@ -92,8 +93,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "the name 'front_ring' is taken"},
         Mistake{"DuplicateJoint", "name = \"rear_seat\"", "name = \"front_seat\"  # again", "front_seat\"  # again",
                 "the name 'front_seat' is taken"},
-        Mistake{"NoPath", "from = \"motor\"\nto = \"rotor\"", "from = \"motor\"\nto = \"motor\"", "name = \"rotor\"",
+        Mistake{"NoPath", "from = \"motor\"\nto = \"rotor\"", "from = \"motor\"\nto = \"bed\"", "name = \"rotor\"",
                 "the body 'rotor' has no path"},
+        Mistake{"OneEnd", "from = \"motor\"\nto = \"rotor\"", "from = \"motor\"\nto = \"motor\"", "",
+                "'motor' and 'motor' share a cell"},
+        Mistake{"DecimalComma", "mass = \"70 kg\"", "mass = \"70,5 kg\"", "", "decimals follow a point: \"70.5 kg\""},
         Mistake{"NegativeConductance", "conductance = \"18 W/K\"", "conductance = \"-18 W/K\"", "",
                 "must not be negative"},
         Mistake{"SensorOutside", "at = \"cartridge[130 mm]\"", "at = \"cartridge[330 mm]\"", "",
@@ -140,7 +144,10 @@ TEST_P(WrongExperiment, IsToldWithPlace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BadInput, WrongExperiment,
-                         testing::Values(Mistake{"EmptySpectrum",
+                         testing::Values(Mistake{"CoolRoom", "duration = \"10 min\"\n[spindle]\n",
+                                                 "duration = \"10 min\"\nambient.mean = \"22 K\"\n[spindle]\n",
+                                                 "ambient.mean", "22 K; allowed is -50 degC to 80 degC"},
+                                         Mistake{"EmptySpectrum",
                                                  "blocks = [{duration = \"10 min\", speed = \"2000 rpm\"}]",
                                                  "blocks = []", "[spindle]", "the spectrum is empty"},
                                          Mistake{"TooFast", "2000 rpm", "20000 rpm", "", "20000 rpm"},
@@ -188,12 +195,109 @@ TEST(BadInput, NamesThatDoNotExist) {
         Row{"run golden_b_2000 -m v450 --set bearing.frnt.grease_factor=0.8", "did you mean 'front'?"},
         Row{"run golden_b_2000 -m v450 --set bearing.front.grease_fctor=0.8", "did you mean 'grease_factor'?"},
         Row{"run golden_b_2000 -m v450 --set bearing.front.grease_factor", "path=value"},
+        Row{"run golden_b_2000 -m v450 --set experiment.duratoin=1h",
+            "parameter experiment.duratoin: unknown key 'duratoin'; did you mean 'duration'?"},
+        Row{"run golden_b_2000 -m v450 --set ambient.mean=22degC", "did you mean 'experiment.ambient.mean'?"},
+        Row{"run golden_b_2000 -m v450 --fieldz x", "run: unknown option '--fieldz'; did you mean '--fields'?"},
+        Row{"run golden_b_2000 v450", "run: 'v450' is an argument too many"},
+        Row{"diagnose v450 a.h5 --without radiation,hot_neighbor", "did you mean 'hot_neighbour'?"},
         Row{"effects bering", "did you mean 'bearing'?"}, Row{"describe machin", "machine"},
-        Row{"rum", "Run with --help"}}) {
+        Row{"rnu", "unknown command 'rnu'; did you mean 'run'?"}}) {
     auto const answer = program(arguments);
     EXPECT_EQ(answer.code, 2) << arguments;
     EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
   }
+}
+
+TEST(BadInput, CommandsThatLackSomething) {
+  struct Row {
+    std::string arguments, message;
+  };
+  for (auto const& [arguments, message] :
+       {Row{"", "a command is due; thermotwin --help lists them"},
+        Row{"run", "run: experiment is required\nUsage: thermotwin run [OPTIONS] experiment\n"},
+        Row{"describe", "Usage: thermotwin describe [OPTIONS] what\n"},
+        Row{"view", "Usage: thermotwin view [OPTIONS] data...\n"},
+        Row{"volumetric mill200 --at 600s", "volumetric: --at requires --run"},
+        Row{"diagnose v450 --plan etve -o amended.toml", "diagnose: --output excludes --plan"}}) {
+    auto const answer = program(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
+  }
+}
+
+TEST(BadInput, HelpAndVersionUnderTheirOtherNames) {
+  EXPECT_EQ(program("help").text, program("--help").text);
+  EXPECT_EQ(program("help run").text, program("run --help").text);
+  EXPECT_EQ(program("-v").text, program("--version").text);
+}
+
+TEST(BadInput, NumbersThatCannotBe) {
+  for (std::string const tolerance : {"-1", "0", "5", "nan"}) {
+    auto const answer = program("run golden_b_2000 --tolerance " + tolerance);
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_NE(answer.text.find("allowed is 1e-12 to 0.01"), std::string::npos) << answer.text;
+  }
+  for (std::string const command : {"volumetric mill200", "challenge --key", "place v450 -k 3", "fit a.h5 -o m.toml"}) {
+    auto const answer = program(command + " --seed -1");
+    EXPECT_EQ(answer.code, 2) << command;
+    EXPECT_NE(answer.text.find("-1 is negative"), std::string::npos) << answer.text;
+  }
+}
+
+TEST(BadInput, FilesThatAreReadAreNeverWritten) {
+  tests::TemporaryDirectory const directory;
+  std::map<std::string, std::string> const files = {
+      {"machine.toml", read_text(source / "twin/machines/v450.toml")},
+      {"experiment", read_text(source / "scenarios/catalogue/golden_b_2000.toml")},
+      {"sites.toml", "budget = 3\n"},
+      {"monday.h5", "a day of measurements"},
+      {"model", "an error model"}};
+  for (auto const& [name, text] : files) write_text(directory.path() / name, text);
+  fs::create_symlink("monday.h5", directory.path() / "link.h5");
+  fs::create_symlink("machine.toml", directory.path() / "link.toml");
+  fs::create_symlink("machine.toml", directory.path() / "picture.png");
+  for (std::string const arguments :
+       {"run experiment -m machine.toml -o experiment", "run experiment -m machine.toml --picture picture.png",
+        "volumetric machine.toml --picture picture.png", "export link.h5 -o monday.h5", "export monday -o monday",
+        "fit monday.h5 --error E_Z -o ./monday.h5", "fit link.h5 monday -o monday", "play monday.h5 -o $PWD/monday.h5",
+        "play monday -o monday", "replay link.h5 -o monday.h5", "place machine.toml -k 3 -o link.toml",
+        "place machine.toml -k 3 --candidates sites.toml -o ./sites.toml",
+        "compensate --model model --record ./model"}) {
+    write_text(directory.path() / "monday", "a day of measurements");
+    auto const answer = tests::run_command("cd " + directory.path().string() + " && " +
+                                           std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1");
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_TRUE(answer.text.find("never overwritten") != std::string::npos ||
+                answer.text.find("is written as .") != std::string::npos)
+        << arguments << "\n"
+        << answer.text;
+    EXPECT_TRUE(read_text(directory.path() / "monday") == "a day of measurements") << arguments;
+    for (auto const& [name, text] : files) EXPECT_TRUE(read_text(directory.path() / name) == text) << arguments;
+  }
+}
+
+TEST(BadInput, SuffixesOfOtherFormats) {
+  for (auto const& [arguments, message] :
+       std::map<std::string, std::string>{{"run golden_b_2000 -o out.txt", "out.txt: a data set is written as .h5"},
+                                          {"run golden_b_2000 --picture a.jpg", "a.jpg: a picture is written as .png"},
+                                          {"export a.h5 -o a.xlsx", "a.xlsx: a table is written as .csv"},
+                                          {"calibrate v450 a.h5 -o b.h5", "b.h5: a machine is written as .toml"},
+                                          {"report a.h5 -o a.pdf", "a.pdf: a page is written as .html"}}) {
+    auto const answer = program(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
+  }
+}
+
+TEST(BadInput, CheckGoesOnWithTheNextFile) {
+  tests::TemporaryDirectory const directory;
+  fs::path const empty = directory.path() / "empty.toml";
+  write_text(empty, "");
+  auto const answer = program("check " + empty.string() + " " + (source / "twin/machines/v450.toml").string());
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("empty.toml: the file is empty"), std::string::npos) << answer.text;
+  EXPECT_NE(answer.text.find("no mistake found"), std::string::npos) << answer.text;
 }
 
 TEST(BadInput, OutputsThatCannotBeWritten) {

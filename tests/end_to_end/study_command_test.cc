@@ -59,5 +59,21 @@ TEST(StudyCommand, KnowsTheShippedStudiesByName) {
               HasSubstr("there is no study 'paper_04'; did you mean 'paper_004'?"));
 }
 
+/// Before the runs, and where it stands.
+TEST(StudyCommand, SaysWhereAWorldIsWrong) {
+  TemporaryDirectory const directory;
+  auto const refused = [&](std::string const& from, std::string const& to) {
+    auto text = study;
+    tests::put(directory / "study.toml", text.replace(text.find(from), from.size(), to));
+    return answer(fmt::format("{} study {} -o {}", THERMOTWIN_PROGRAM, (directory / "study.toml").string(),
+                              (directory / "out").string()),
+                  2);
+  };
+  EXPECT_THAT(refused("\"E_Z\"", "\"E_Q\""),
+              HasSubstr("study.toml:8:9: world 'v450': the machine has no displacement 'E_Q'"));
+  EXPECT_THAT(refused("[\"batch_004_K01\"]", "[\"batch_004_K99\"]"),
+              HasSubstr("study.toml:10:10: world 'v450': there is no experiment 'batch_004_K99'"));
+}
+
 }  // namespace
 }  // namespace thermotwin

@@ -93,5 +93,15 @@ TEST(Ambient, RefusesTimesThatCannotBe) {
   EXPECT_EQ(refused(ambient), "ambient.door_openings[0].time_constant: -1 min must be above 0 s");
 }
 
+TEST(Ambient, IsThatOfARoomInWhichPeopleWork) {
+  Ambient ambient;
+  ambient.mean = 22.0;
+  EXPECT_EQ(refusal([&] { check(ambient); }), "ambient.mean: 22 K; allowed is -50 degC to 80 degC");
+  ambient.mean = 273.15 + 2200.0;
+  EXPECT_EQ(refusal([&] { check(ambient); }), "ambient.mean: 2200 degC; allowed is -50 degC to 80 degC");
+  ambient.mean = 273.15 + 45.0;
+  EXPECT_EQ(refusal([&] { check(ambient); }), "accepted");
+}
+
 }  // namespace
 }  // namespace thermotwin::scenarios

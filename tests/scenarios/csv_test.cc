@@ -78,8 +78,16 @@ TEST_F(Csv, NamesTheNearestColumn) {
 TEST_F(Csv, RefusesFilesWithoutRows) {
   EXPECT_EQ(refused("", {"t"}), "data.csv: is empty; a first line with the columns' names is due");
   EXPECT_EQ(refused("t,a\n\n", {"t"}), "data.csv: has no rows under its header");
-  EXPECT_TRUE(tests::refusal([&] { read_csv(directory_ / "none.csv", {"t"}); }).ends_with("none.csv: cannot be read"));
-  EXPECT_TRUE(tests::refusal([&] { read_csv(directory_.path(), {"t"}); }).ends_with(": cannot be read"));
+  EXPECT_TRUE(
+      tests::refusal([&] { read_csv(directory_ / "none.csv", {"t"}); }).ends_with("none.csv: there is no such file"));
+  EXPECT_TRUE(tests::refusal([&] { read_csv(directory_.path(), {"t"}); }).ends_with(": is a folder; a file is due"));
+}
+
+TEST_F(Csv, SaysWhichSeparatorItFound) {
+  EXPECT_EQ(refused("t;S (rpm)\n0;1,5\n", {"t"}),
+            "data.csv:1:1: the fields are separated by semicolons; commas are due, and decimals after a point");
+  EXPECT_EQ(refused("t\ta\n0\t1\n", {"t"}),
+            "data.csv:1:1: the fields are separated by tabs; commas are due, and decimals after a point");
 }
 
 }  // namespace

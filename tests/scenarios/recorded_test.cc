@@ -104,7 +104,7 @@ TEST_F(RecordedInput, RefusesUnitsAndWordsThatAreNone) {
             "recorded 'data.csv': column 'a': 'rpmm': unknown unit 'rpmm'; did you mean 'rpm'?");
   Recording r = recording(text);
   r.time_unit = "K";
-  EXPECT_EQ(refused(r), "recorded 'data.csv': time_unit: 'K' is no unit of time");
+  EXPECT_EQ(refused(r), "recorded 'data.csv': time_unit: 'K' is no unit of time; known: 's', 'h', 'min', 'day'");
   r = recording(text);
   r.columns[0].interpolation = "cubic";
   EXPECT_EQ(refused(r), "recorded 'data.csv': interpolation: 'cubic' must be \"linear\" or \"step\"");

@@ -95,6 +95,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"8 m?", "'8 m?': unexpected '?'"}, Refusal{"nan mm", "'nan mm': a finite number is due"},
                     Refusal{"inf", "'inf': a finite number is due"},
                     Refusal{"1e999 m", "'1e999 m': beyond what a double holds"},
+                    Refusal{"70,5 kg", "'70,5 kg': decimals follow a point: \"70.5 kg\""},
+                    Refusal{"22 C", "'22 C': unknown unit 'C'; did you mean 'degC'?"},
                     Refusal{"", "'': a number with a unit is due, for example \"600 mm\""},
                     Refusal{"mm", "'mm': a number with a unit is due, for example \"600 mm\""}));
 
@@ -105,6 +107,13 @@ std::string refusal(std::string const& text, Dimension expected) {
     return error.what();
   }
   return "accepted";
+}
+
+TEST(ParseValue, OffersWhatIsUsualForTheDimension) {
+  EXPECT_EQ(refusal("10 mn", dimension::time), "'10 mn': unknown unit 'mn'; did you mean 'min'?");
+  EXPECT_EQ(refusal("10 mn", dimension::length), "'10 mn': unknown unit 'mn'; did you mean 'mm'?");
+  EXPECT_EQ(refusal("abc", dimension::dimensionless), "'abc': a number is due, for example \"0.8\"");
+  EXPECT_EQ(refusal("abc", dimension::mass), "'abc': a number with a unit is due, for example \"14 kg\"");
 }
 
 TEST(ParseValue, ReturnsSI) { EXPECT_DOUBLE_EQ(parse_value("9 W/K", dimension::conductance), 9.0); }

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "output/dataset_file.h"
+#include "tests/output/temporary_directory.h"
 #include "twin/experiment_file.h"
 #include "twin/run.h"
 
@@ -13,8 +15,11 @@
 namespace thermotwin::twin {
 namespace {
 
+using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 Value document() { return read_toml(machine_file("v450")); }
 
@@ -87,6 +92,25 @@ TEST(Comparison, PageAndJsonSayTheSame) {
   EXPECT_DOUBLE_EQ(json["runs"][0]["channels"][0]["regimes"]["5000 rpm"]["before"], channel.parts[1].before);
   EXPECT_DOUBLE_EQ(json["total"]["K"]["after"], total(comparison, "K").after);
   EXPECT_THAT(comparison_table(comparison), HasSubstr(fmt::format("{:>8.3g}", channel.whole.before)));
+}
+
+/// The user has added a sensor; the machine that came before has none of that name.
+TEST(Comparison, IsOfTheChannelsThatBothMachinesHave) {
+  thermotwin::tests::TemporaryDirectory const folder;
+  auto const text = thermotwin::tests::contents(machine_file("v450"));
+  thermotwin::tests::put(folder / "mine.toml", text + "\n[[temperature_sensor]]\nname = \"T99\"\nat = \"motor\"\n");
+  auto const experiment = parse_toml(R"(
+    machine = "v450"
+    duration = "1 h"
+    spindle.blocks = [{duration = "1 h", speed = "5000 rpm"}])",
+                                     "experiment.toml");
+  auto const made = run(Machine::read(folder / "mine.toml"), read_experiment(experiment, "experiment.toml"), {});
+  output::write(made.dataset, folder / "run.h5");
+  auto const compared = compare_files(folder / "mine.toml", machine_file("v450"), {folder / "run.h5"}).runs.at(0);
+  std::vector<std::string> names;
+  for (auto const& channel : compared.channels) names.push_back(channel.name);
+  EXPECT_THAT(names, AllOf(Contains("T1"), Not(Contains("T99"))));
+  EXPECT_THAT(compared.remarks, Contains("of the first machine only, so not compared: T99"));
 }
 
 }  // namespace

@@ -320,10 +320,13 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
   EXPECT_THAT(with(all, "\"ridge\"", "\"twins\""), HasSubstr("small.toml:5:21: no model 'twins'; known: "));
   EXPECT_THAT(with(all, "\"ridge\"", "\"linear\""), HasSubstr("small.toml:5:21: 'linear' is given twice"));
   EXPECT_THAT(with(all, "seeds = 5", "seeds = 3"), HasSubstr("'seeds' is 3; allowed is 5 to 1000"));
-  EXPECT_THAT(with(all, "E_Z", "E_W"), HasSubstr("world 'v450': fast.toml has no displacement 'E_W'; did you mean"));
-  EXPECT_THAT(with(all, "\"T9\"", "\"T19\""), HasSubstr("the machine has no sensor 'T19'; did you mean"));
+  EXPECT_THAT(with(all, "E_Z", "E_W"),
+              HasSubstr("small.toml:10:9: world 'v450': the machine has no displacement 'E_W'; did you mean"));
+  EXPECT_THAT(with(all, "\"T9\"", "\"T19\""),
+              HasSubstr("small.toml:11:24: world 'v450': the machine has no sensor 'T19'; did you mean"));
   EXPECT_THAT(with(all, "error =", "eror ="), HasSubstr("small.toml:10:1: unknown key 'eror'; did you mean 'error'"));
-  EXPECT_THAT(with(all, "slow.toml", "missing.toml"), HasSubstr("missing.toml' is not there"));
+  EXPECT_THAT(with(all, "slow.toml", "missing.toml"),
+              HasSubstr("small.toml:13:9: world 'v450': 'missing.toml' is not there: "));
   EXPECT_THAT(with(all, "slow.toml", "fast.toml"), HasSubstr("'fast.toml' is in 'train', too"));
   EXPECT_THAT(with(all, "test = [\"slow.toml\"]", ""), HasSubstr("has nothing to test on; give 'test' or 'split'"));
   EXPECT_THAT(with("reference = \"all + liner\"\n" + all, "Small", "Small"),

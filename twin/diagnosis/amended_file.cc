@@ -6,6 +6,7 @@
 
 #include "output/atomic_file.h"
 #include "thermal/error.h"
+#include "twin/diagnosis/run_files.h"
 #include "twin/file/value.h"
 #include "twin/influence_file.h"
 
@@ -212,9 +213,7 @@ std::string with_last_words(std::string_view text, std::string_view comment) {
 }
 
 void write_amended(fs::path const& machine_file, fs::path const& path, std::string_view text) {
-  if (fs::exists(path) && fs::equivalent(machine_file, path))
-    throw thermal::InputError(
-        fmt::format("{}: that is the machine's own file, which is never overwritten; name another one", path.string()));
+  refuse_to_overwrite(path, machine_file, {});
   output::write_atomically(path, text);
   auto const from = weights_file(machine_file), to = weights_file(path);
   if (fs::exists(from) && !fs::exists(to)) fs::copy_file(from, to);

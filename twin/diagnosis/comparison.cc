@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "thermal/error.h"
 #include "twin/diagnosis/gap.h"
@@ -61,6 +62,25 @@ ComparedRun compare_run(Machine const& before, Machine const& after, MeasuredRun
   return result;
 }
 
+/// The run as both machines know it.
+MeasuredRun common_run(std::filesystem::path const& path, Machine const& before, Machine const& after) {
+  MeasuredRun run = read_measured_run(path, before);
+  MeasuredRun const other = read_measured_run(path, after);  // what only this machine needs must be there, too
+  std::vector<std::string> left_out;
+  std::erase_if(run.channels, [&](MeasuredChannel const& channel) {
+    bool const known = std::any_of(other.channels.begin(), other.channels.end(),
+                                   [&](auto const& theirs) { return theirs.name == channel.name; });
+    if (!known) left_out.push_back(channel.name);
+    return !known;
+  });
+  if (run.channels.empty())
+    throw thermal::InputError(
+        fmt::format("{}: it has no channel that '{}' and '{}' both have", path.string(), before.name, after.name));
+  if (!left_out.empty())
+    run.remarks.push_back(fmt::format("of the first machine only, so not compared: {}", fmt::join(left_out, ", ")));
+  return run;
+}
+
 }  // namespace
 
 Comparison compare(Machine const& before, Machine const& after, std::vector<MeasuredRun> const& runs) {
@@ -73,10 +93,7 @@ Comparison compare_files(std::filesystem::path const& before, std::filesystem::p
                          std::vector<std::filesystem::path> const& data) {
   Machine const was = Machine::read(before), is = Machine::read(after);
   std::vector<MeasuredRun> runs;
-  for (auto const& path : data) {
-    runs.push_back(read_measured_run(path, was));
-    static_cast<void>(read_measured_run(path, is));  // what only the second machine needs must be there, too
-  }
+  for (auto const& path : data) runs.push_back(common_run(path, was, is));
   Comparison comparison = compare(was, is, runs);
   comparison.before = before.string();
   comparison.after = after.string();

@@ -41,7 +41,7 @@ struct Comparison {
 };
 
 [[nodiscard]] Comparison compare(Machine const& before, Machine const& after, std::vector<MeasuredRun> const& runs);
-/// The same from files.
+/// The same from files, for the channels that both machines have; a remark of the run names those of the first only.
 [[nodiscard]] Comparison compare_files(std::filesystem::path const& before, std::filesystem::path const& after,
                                        std::vector<std::filesystem::path> const& data);
 

@@ -37,8 +37,11 @@ void check_times(MeasuredTable const& table, scenarios::CsvTable const& csv) {
 LoadedTable load(MeasuredTable const& table, std::filesystem::path const& directory) {
   if (table.inputs.empty() && table.readings.empty())
     throw InputError(fmt::format("'{}' has neither an input nor a reading; name its columns", table.file));
-  if (thermal::dimension_of(table.time_unit) != dimension::time)
-    throw InputError(fmt::format("time_unit: '{}' is no unit of time", table.time_unit));
+  try {
+    thermal::require_unit(table.time_unit, dimension::time);
+  } catch (InputError const& error) {
+    throw InputError(fmt::format("time_unit: {}", error.what()));
+  }
   std::vector<std::string> columns = {table.time_column};
   for (auto const& input : table.inputs) columns.push_back(input.column);
   for (auto const& reading : table.readings) columns.push_back(reading.column);

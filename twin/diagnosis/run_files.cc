@@ -1,8 +1,8 @@
 #include "twin/diagnosis/run_files.h"
 
+#include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
-#include <sstream>
+#include <fmt/ranges.h>
 
 #include "thermal/error.h"
 
@@ -25,14 +25,6 @@ std::vector<BinnedRun> binned(std::vector<MeasuredRun> const& runs) {
   return result;
 }
 
-std::string text_of_file(fs::path const& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw thermal::InputError(fmt::format("'{}' cannot be read", path.string()));
-  return text.str();
-}
-
 std::string names_of(RunFiles const& files) {
   std::vector<std::string> names;
   for (auto const& file : files) names.push_back(file.filename().string());
@@ -49,6 +41,12 @@ void refuse_to_overwrite(fs::path const& output, fs::path const& machine, RunFil
           fmt::format("{}: that is one of the files to be read, which are never overwritten; "
                       "name another one",
                       output.string()));
+}
+
+void check_suffix(fs::path const& output, std::string_view what, std::vector<std::string> const& suffixes) {
+  auto const suffix = output.extension().string();
+  if (suffix.empty() || std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end()) return;
+  throw thermal::InputError(fmt::format("{}: {} is written as {}", output.string(), what, fmt::join(suffixes, " or ")));
 }
 
 }  // namespace thermotwin::twin

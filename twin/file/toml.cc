@@ -1,10 +1,9 @@
 // The only file that knows toml++.
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
-#include <sstream>
 #include <toml++/toml.h>
 
+#include "twin/file/text_file.h"
 #include "twin/file/value.h"
 
 namespace thermotwin::twin {
@@ -70,11 +69,12 @@ Value parse_toml(std::string_view text, std::string const& file_name) {
 }
 
 Value read_toml(std::filesystem::path const& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  if (!file || !(text << file.rdbuf()) || std::filesystem::is_directory(path))
-    throw FileError({path.string(), 0, 0}, "the file cannot be read");
-  return parse_toml(text.str(), path.string());
+  std::string const text = text_of_file(path);
+  Location const where{path.string(), 0, 0};
+  if (text.empty()) throw FileError(where, "the file is empty");
+  if (text.starts_with("\x89HDF"))
+    throw FileError(where, "is a data set (HDF5); a machine, experiment or other text file (TOML) is due");
+  return parse_toml(text, path.string());
 }
 
 }  // namespace thermotwin::twin

@@ -91,10 +91,11 @@ std::string Value::text() const {
   return std::visit(Visitor{}, content);
 }
 
-std::pair<Value*, std::string> find_parameter(Value& document, std::string_view path) {
+std::pair<Value*, std::string> find_parameter(Value& document, std::string_view path, std::string_view prefix) {
   auto const parts = split(path);
   auto const fail = [&](std::string const& what, std::vector<std::string> const& known, std::string const& name) {
-    throw thermal::InputError(fmt::format("parameter '{}': {}; {}", path, what, thermal::did_you_mean(name, known)));
+    throw thermal::InputError(
+        fmt::format("parameter '{}{}': {}; {}", prefix, path, what, thermal::did_you_mean(name, known)));
   };
   Value* here = &document;
   std::size_t next = 0;
@@ -125,9 +126,9 @@ std::pair<Value*, std::string> find_parameter(Value& document, std::string_view 
   return {here, parts.back()};
 }
 
-void set_parameter(Value& document, std::string_view path, std::string const& text) {
-  auto const [table, key] = find_parameter(document, path);
-  Location const where{fmt::format("parameter {}", path), 0, 0};
+void set_parameter(Value& document, std::string_view path, std::string const& text, std::string_view prefix) {
+  auto const [table, key] = find_parameter(document, path, prefix);
+  Location const where{fmt::format("parameter {}{}", prefix, path), 0, 0};
   if (Value* value = table->find(key)) {
     *value = {where, interpret(text)};
     return;

@@ -64,10 +64,11 @@ struct Value::Entry {
 /// Sets a value by the path that names a parameter: `bearing.front.grease_factor` is the key `grease_factor` of the
 /// `[[bearing]]` whose name is "front"; `spindle.maximum_speed` is a key of the table `[spindle]`; tables without names
 /// go by their number from 0: `displacement.E_Z.segment.2.length`. The key need not be there yet. Errors list the
-/// nearest names.
-void set_parameter(Value& document, std::string_view path, std::string const& text);
+/// nearest names; `prefix` is what messages put in front of the path.
+void set_parameter(Value& document, std::string_view path, std::string const& text, std::string_view prefix = {});
 
 /// The table that a path's first parts name, and the key that is left: {"bearing.front", "grease_factor"}.
-[[nodiscard]] std::pair<Value*, std::string> find_parameter(Value& document, std::string_view path);
+[[nodiscard]] std::pair<Value*, std::string> find_parameter(Value& document, std::string_view path,
+                                                            std::string_view prefix = {});
 
 }  // namespace thermotwin::twin

@@ -197,9 +197,9 @@ std::vector<WorldData> study_data(Study const& study, std::function<void(double)
       worlds.push_back(WorldReader(world, *kept).read());
       worlds.back().runs = kept;
     } catch (std::invalid_argument const& error) {
-      throw thermal::InputError(fmt::format("world '{}': {}", world.name, error.what()));
+      throw about(world, error.what());
     } catch (thermal::InputError const& error) {
-      throw thermal::InputError(fmt::format("world '{}': {}", world.name, error.what()));
+      throw about(world, error.what());
     }
   }
   return worlds;

@@ -33,6 +33,7 @@ struct StudyWorld {
   std::string fit = "together";
   double from = 0.0, to = std::numeric_limits<double>::infinity();
   std::vector<StudyInstant> instants;
+  Value table;  ///< where all this stands, for messages
 
   template <class Fields>
   static void fields(Fields& f) {

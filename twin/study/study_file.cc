@@ -10,6 +10,7 @@
 #include "models/selection.h"
 #include "thermal/nearest_name.h"
 #include "twin/file/shipped_file.h"
+#include "twin/file/tables.h"
 #include "twin/file/value.h"
 
 namespace thermotwin::twin {
@@ -143,12 +144,20 @@ NamedModel named_model(std::string const& text) {
   return model;
 }
 
+thermal::InputError about(StudyWorld const& world, std::string const& complaint) {
+  auto const text = fmt::format("world '{}': {}", world.name, complaint);
+  if (!world.table.is_table()) return thermal::InputError(text);
+  return FileError(place_of(world.table, complaint.substr(0, complaint.find(';'))), text);  // not at what it offers
+}
+
 Study read_study(std::filesystem::path const& file) {
   Value const document = read_toml(file);
   Study study;
   read_fields(document, study.description);
   study.directory = file.has_parent_path() ? file.parent_path() : ".";
   check_study(document, study.description);
+  for (std::size_t w = 0; w < study.description.worlds.size(); ++w)
+    study.description.worlds[w].table = tables(document, "world")[w];
   if (study.description.reference.empty())
     study.description.reference =
         combination_name(study.description.selections.front(), study.description.models.front());

@@ -33,6 +33,9 @@ struct Study {
   std::filesystem::path directory;  ///< of the file: names of files in it start here
 };
 
+/// A complaint about a world says which, and where in the study's file what it quotes stands.
+[[nodiscard]] thermal::InputError about(StudyWorld const& world, std::string const& complaint);
+
 /// FileError with line and column: unknown keys, methods and combinations; no world, selection or model; names given
 /// twice; a world without anything to test on.
 [[nodiscard]] Study read_study(std::filesystem::path const& file);

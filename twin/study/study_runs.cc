@@ -33,7 +33,7 @@ Source source_of(std::string const& name, fs::path const& directory) {
   fs::path const given = name;
   if (given.extension() == ".toml" || given.extension() == ".h5" || given.extension() == ".csv") {
     auto const file = given.is_absolute() ? given : directory / given;
-    if (!fs::exists(file)) throw thermal::InputError(fmt::format("'{}' is not there", file.string()));
+    if (!fs::exists(file)) throw thermal::InputError(fmt::format("'{}' is not there: {}", name, file.string()));
     return {file, given.extension() != ".toml" || !read_toml(file).find("duration")};
   }
   if (auto const shipped = measured_folder() / (name + ".toml"); fs::exists(shipped)) return {shipped, true};
@@ -70,22 +70,32 @@ struct Order {
   std::vector<Source> sources;
 };
 
-/// A complaint about a world says which.
 template <class Action>
-auto about(StudyWorld const& world, Action action) {
+auto in_world(StudyWorld const& world, Action action) {
   try {
     return action();
   } catch (FileError const&) {
     throw;
   } catch (thermal::InputError const& error) {
-    throw thermal::InputError(fmt::format("world '{}': {}", world.name, error.what()));
+    throw about(world, error.what());
   }
 }
 
+/// Before hours of runs.
+void check_error(StudyWorld const& world, Machine const& machine) {
+  if (world.error.starts_with("slope ")) return;
+  std::vector<std::string> known;
+  for (auto const& channel : machine.displacements) known.push_back(channel.name);
+  if (std::find(known.begin(), known.end(), world.error) == known.end())
+    throw thermal::InputError(fmt::format("the machine has no displacement '{}'; {}", world.error,
+                                          thermal::did_you_mean(world.error, known)));
+}
+
 Order order_of(StudyWorld const& world, fs::path const& directory) {
-  return about(world, [&] {
+  return in_world(world, [&] {
     Value const nominal = nominal_machine(world, directory);
     Order order{&world, nominal, Machine::build(changed_machine(world, nominal)), {}};
+    check_error(world, order.machine);
     for (auto const* list : {&world.train, &world.test})
       for (auto const& name : *list) order.sources.push_back(source_of(name, directory));
     if (std::all_of(order.sources.begin(), order.sources.end(), [](auto& source) { return source.measured; }))
@@ -165,7 +175,7 @@ std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)
       }
   }
   in_parallel(jobs.size(), progress, stop, [&](std::size_t j) {
-    about(*jobs[j].order->world, [&] {
+    in_world(*jobs[j].order->world, [&] {
       if (jobs[j].source.measured) {
         jobs[j].run =
             std::make_shared<MeasuredRun const>(read_measured_run(jobs[j].source.file, jobs[j].order->machine));

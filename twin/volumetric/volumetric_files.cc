@@ -5,6 +5,7 @@
 #include "output/arrow_field.h"
 #include "output/atomic_file.h"
 #include "output/dataset_file.h"
+#include "twin/diagnosis/run_files.h"
 #include "twin/volumetric/volumetric_report.h"
 
 namespace thermotwin::twin {
@@ -100,6 +101,8 @@ void write_tables(VolumetricStudy const& study, VolumetricFiles const& files) {
 }  // namespace
 
 VolumetricStudy volumetric_files(VolumetricFiles const& files) {
+  check_suffix(files.picture, "a picture", {".png"});
+  refuse_to_overwrite(files.picture, files.machine, {files.run});
   Value document = read_toml(files.machine);
   for (auto const& setting : files.settings) set_parameter(document, setting.path, setting.value);
   auto const machine = read_volumetric(document);

@@ -1,0 +1,54 @@
+#include "twin/setting.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scenarios/refusal.h"
+#include "twin/experiment_file.h"
+#include "twin/machine.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using testing::HasSubstr;
+using thermotwin::tests::refusal;
+
+Value plain_experiment() { return parse_toml("machine = \"v450\"\nduration = \"1 h\"\n", "experiment.toml"); }
+
+/// The experiment after a setting.
+scenarios::Experiment changed(std::string const& text) {
+  Value experiment = plain_experiment(), machine{{}, Value::Table{}};
+  apply(setting(text), machine, experiment);
+  return read_experiment(experiment, "experiment.toml");
+}
+
+TEST(Setting, MakesTablesThatTheExperimentLacks) {
+  EXPECT_FALSE(changed("experiment.duration=2 h").coolant.on);
+  EXPECT_TRUE(changed("experiment.coolant.on=true").coolant.on);
+  EXPECT_DOUBLE_EQ(changed("experiment.ambient.daily_cycle.amplitude=2 K").ambient.daily_cycle->amplitude, 2.0);
+}
+
+TEST(Setting, SaysItsWholePathInMessages) {
+  EXPECT_EQ(refusal([] { (void)changed("experiment.duratoin=2 h"); }),
+            "parameter experiment.duratoin: unknown key 'duratoin'; did you mean 'duration'?");
+  EXPECT_EQ(refusal([] { (void)changed("experiment.coolant.onn=true"); }),
+            "parameter experiment.coolant.onn: unknown key 'onn'; did you mean 'on'?");
+  EXPECT_THAT(refusal([] { (void)changed("experiment.coolnt.on=true"); }),
+              HasSubstr("parameter 'experiment.coolnt.on': there is no 'coolnt'"));
+}
+
+TEST(Setting, OfAnExperimentIsNotLookedForInTheMachine) {
+  EXPECT_EQ(refusal([] { (void)changed("ambient.mean=22 degC"); }),
+            "parameter 'ambient.mean': a machine has no 'ambient'; did you mean 'experiment.ambient.mean'?");
+  EXPECT_THAT(refusal([] { (void)changed("duration=2 h"); }), HasSubstr("did you mean 'experiment.duration'?"));
+}
+
+TEST(Setting, KnowsTheDimensionOfItsKey) {
+  Value machine = read_toml(machine_file("v450")), experiment = plain_experiment();
+  apply(setting("bearing.front.grease_factor=abc"), machine, experiment);
+  EXPECT_THAT(refusal([&] { (void)Machine::build(machine); }),
+              HasSubstr("'grease_factor': 'abc': a number is due, for example \"0.8\""));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

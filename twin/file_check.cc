@@ -1,0 +1,167 @@
+#include "twin/file_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+
+#include "scenarios/course.h"
+#include "thermal/course_inputs.h"
+#include "thermal/error.h"
+#include "twin/experiment_file.h"
+#include "twin/file/document.h"
+#include "twin/file/tables.h"
+#include "twin/machine.h"
+#include "twin/setting.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double rounding = 1e-9;  ///< of a bound that is written in another unit
+
+/// The value, or those of the list.
+std::vector<Value const*> items_of(Value const& value) {
+  std::vector<Value const*> items;
+  if (!value.is_list()) return {&value};
+  for (auto const& item : std::get<Value::List>(value.content)) items.push_back(&item);
+  return items;
+}
+
+/// In SI; none for what is no number.
+std::optional<double> number_of(Value const& value, thermal::Dimension dimension) {
+  Value const table{value.where, Value::Table{{"", value.where, value}}};
+  return number_in(table, "", dimension);
+}
+
+void find_implausible(Value const& table, std::vector<FieldRecord> const& fields, std::vector<std::string>& found) {
+  for (auto const& [key, where, value] : std::get<Value::Table>(table.content)) {
+    auto const field = std::find_if(fields.begin(), fields.end(), [&](auto const& f) { return f.key == key; });
+    if (field == fields.end()) continue;
+    for (auto const* item : items_of(value)) {
+      if (item->is_table()) find_implausible(*item, field->nested, found);
+      if (field->range.empty()) continue;
+      auto const number = number_of(*item, field->dimension);
+      auto const [low, high] = field->plausible;
+      if (number && (*number < low - rounding * std::abs(low) || *number > high + rounding * std::abs(high)))
+        found.push_back(fmt::format("{}: '{}' is {}; outside what is plausible: {}", item->where.text(), key,
+                                    item->text(), field->range));
+    }
+  }
+}
+
+/// Sensitivities may divide what is counted; a file may not.
+void check_counts(Value const& machine) {
+  for (auto const& [kind, where, value] : std::get<Value::Table>(machine.content))
+    for (auto const* table : items_of(value)) {
+      Value const* count = table->is_table() ? table->find("count") : nullptr;
+      if (!count) continue;
+      auto const number = number_of(*count, thermal::dimension::dimensionless);
+      if (number && *number != std::round(*number))
+        throw FileError(count->where, fmt::format("'count' is {}; a whole number is due", count->text()));
+    }
+}
+
+/// All tables of a machine file, as the fields of one.
+std::vector<FieldRecord> machine_fields() {
+  std::vector<FieldRecord> fields;
+  for (auto const& table : describe_machine())
+    fields.push_back({table.name, "table", "", "", "", table.fields, {}, {}});
+  return fields;
+}
+
+struct CheckedMachine {
+  std::filesystem::path file;
+  Value document;
+  Machine machine;
+};
+
+struct CheckedExperiment {
+  std::filesystem::path file;
+  Value document;
+  scenarios::Experiment experiment;
+};
+
+class FileChecker {
+ public:
+  explicit FileChecker(std::vector<std::filesystem::path> const& files) : checks_(files.size()) {
+    for (std::size_t i = 0; i < files.size(); ++i) noting(checks_[i], [&] { read(files[i], i); });
+  }
+  std::vector<FileCheck> operator()();
+
+ private:
+  /// A mistake goes to the file's check.
+  template <class Action>
+  static void noting(FileCheck& check, Action action) {
+    try {
+      action();
+    } catch (thermal::InputError const& error) {
+      check.mistake = error.what();
+    }
+  }
+  void read(std::filesystem::path const& file, std::size_t i);
+  [[nodiscard]] CheckedMachine machine_for(CheckedExperiment const& checked) const;
+
+  std::vector<FileCheck> checks_;
+  std::vector<CheckedMachine> machines_;
+  std::vector<std::pair<std::size_t, CheckedExperiment>> experiments_;
+};
+
+void FileChecker::read(std::filesystem::path const& file, std::size_t i) {
+  Value const document = read_toml(file);
+  auto& check = checks_[i];
+  if (document.find("duration")) {
+    find_implausible(document, list_fields<scenarios::Experiment>(), check.warnings);
+    experiments_.push_back({i, {file, document, read_experiment(document, file)}});
+    return;
+  }
+  auto const machine = Machine::build(document);
+  check_counts(document);
+  find_implausible(document, machine_fields(), check.warnings);
+  check.text = fmt::format("the machine {}: {} nodes, {} parts, {} sensors, {} displacement channels", machine.name,
+                           machine.network().nodes(), machine.network().parts().size(), machine.sensors.size(),
+                           machine.displacements.size());
+  machines_.push_back({file, document, machine});
+}
+
+CheckedMachine FileChecker::machine_for(CheckedExperiment const& checked) const {
+  if (machines_.size() == 1) return machines_[0];
+  auto const named = std::find_if(machines_.begin(), machines_.end(), [&](auto const& machine) {
+    return machine.machine.name == checked.experiment.machine ||
+           machine.file.filename() == std::filesystem::path(checked.experiment.machine).filename();
+  });
+  if (named != machines_.end()) return *named;
+  auto const file = machine_of(checked.experiment, checked.file);
+  Value const document = read_toml(file);
+  return {file, document, Machine::build(document)};
+}
+
+void check_together(CheckedExperiment const& checked, CheckedMachine const& machine) {
+  std::optional<scenarios::ExperimentCourse> course;
+  try {
+    course.emplace(checked.experiment, machine.machine.limits);
+  } catch (thermal::InputError const& error) {
+    throw located_in(checked.document, error);
+  }
+  try {
+    thermal::CourseInputs const inputs(machine.machine.network(), *course);
+  } catch (thermal::InputError const& error) {
+    throw FileError(place_of(machine.document, error.what()), error.what());
+  }
+}
+
+std::vector<FileCheck> FileChecker::operator()() {
+  for (auto const& [i, checked] : experiments_)
+    noting(checks_[i], [&, &check = checks_[i], &checked = checked] {
+      auto const machine = machine_for(checked);
+      check_together(checked, machine);
+      check.text =
+          fmt::format("an experiment of {:.2f} h on {}", checked.experiment.duration / 3600.0, machine.machine.name);
+    });
+  return std::move(checks_);
+}
+
+}  // namespace
+
+std::vector<FileCheck> check_files(std::vector<std::filesystem::path> const& files) { return FileChecker(files)(); }
+
+}  // namespace thermotwin::twin

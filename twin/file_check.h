@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace thermotwin::twin {
+
+/// What `thermotwin check` says of one file.
+struct FileCheck {
+  std::string text;                   ///< what it is, for people
+  std::vector<std::string> warnings;  ///< numbers outside of what is plausible, with their places
+  std::string mistake;                ///< with its place; empty: none
+};
+
+/// Machines and experiments, which have a duration. An experiment is looked at together with the machine among the
+/// files that it names, or the only one; without any, with the machine that it names: every input of the machine must
+/// be given. A mistake in one file does not keep the others from being looked at.
+[[nodiscard]] std::vector<FileCheck> check_files(std::vector<std::filesystem::path> const& files);
+
+}  // namespace thermotwin::twin
