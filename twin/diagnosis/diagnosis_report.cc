@@ -285,8 +285,9 @@ std::string report_text(DiagnosisReport const& report) {
   std::string text = doubt_lines(report.doubts) + "\n" + headline(diagnosis) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
   if (diagnosis.verdict == Diagnosis::Verdict::nothing)
-    text += fmt::format("Of {} effects at their sites, {} would have been seen at half of their largest size.\n\n",
-                        diagnosis.hypotheses.size(), diagnosis.visible);
+    text += fmt::format(
+        "Of {} shapes of effects at their sites, {} would have been seen at half of their largest size.\n\n",
+        diagnosis.hypotheses.size(), diagnosis.visible);
   if (auto const loudest = loud_channels(diagnosis); !loudest.empty())
     text += fmt::format("More error than expected was taken for noise at {}.\n\n", loudest);
   text += words_of_proposal(diagnosis);
