@@ -180,7 +180,7 @@ void add_sensors(vtkRenderWindow& window, vtkCamera* camera, Skin const& skin, d
     Eigen::Vector3d const place = position + magnification * skin.displacement_near(position);
     vtkIdType const point = places->InsertNextPoint(place.data());
     dots->InsertNextCell(1, &point);
-    labels.push_back({view.of(place), {page.scaled(15.0 * double(name.size()) + 4), page.scaled(24)}});
+    labels.push_back({view.of(place), {page.scaled(11.0 * double(name.size())), page.scaled(20)}});
   }
   auto const corners = label_places(labels, page.scaled(9), size);
   std::vector<std::array<Eigen::Vector2d, 2>> leaders;
@@ -190,7 +190,7 @@ void add_sensors(vtkRenderWindow& window, vtkCamera* camera, Skin const& skin, d
     vtkNew<vtkBillboardTextActor3D> label;
     label->SetInput(options.sensors[i].name.c_str());
     label->SetPosition(places->GetPoint(vtkIdType(i)));
-    label->SetDisplayOffset(int(offset.x()) + page.scaled(2), int(offset.y()) + page.scaled(4));
+    label->SetDisplayOffset(int(offset.x()), int(offset.y()));
     set_style(*label->GetTextProperty(), page.scaled(20), true);
     label->GetTextProperty()->SetBackgroundColor(1, 1, 1);
     label->GetTextProperty()->SetBackgroundOpacity(0.7);

@@ -27,14 +27,15 @@ TEST(LabelPlaces, CoverNeitherOneAnotherNorADot) {
     Box const box(places[i], places[i] + size);
     EXPECT_LT((box.center() - labels[i].dot).norm(), 150.0) << i;
     for (std::size_t j = 0; j < places.size(); ++j) {
-      if (i != j) EXPECT_TRUE(box.intersection(Box(places[j], places[j] + size)).isEmpty()) << i << ", " << j;
+      bool const apart = i == j || box.intersection(Box(places[j], places[j] + size)).isEmpty();
+      EXPECT_TRUE(apart) << i << ", " << j;
       EXPECT_FALSE(box.contains(labels[j].dot)) << i << ", " << j;
     }
   }
 }
 
 TEST(LabelPlaces, StayOnThePage) {
-  for (Eigen::Vector2d const dot : {Eigen::Vector2d(2.0, 2.0), Eigen::Vector2d(1598.0, 998.0)}) {
+  for (Eigen::Vector2d const& dot : {Eigen::Vector2d(2.0, 2.0), Eigen::Vector2d(1598.0, 998.0)}) {
     auto const place = label_places({{dot, size}}, radius, page)[0];
     EXPECT_TRUE(Box(Eigen::Vector2d::Zero(), page).contains(Box(place, place + size)));
   }
