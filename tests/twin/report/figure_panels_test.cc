@@ -98,8 +98,9 @@ TEST_F(FigurePanels, RunsHaveTheirDashesAndOfOneChannelTheirColours) {
   EXPECT_EQ(lines[0].dashes, panel(panels, "sensor_temperatures_degC").lines[2].dashes);
   EXPECT_THAT(write_figure_files({files, "residual_sensor_temperatures_degC", {"T1"}, folder / "gap.svg"}),
               HasSubstr("gap.svg"));
-  EXPECT_THAT(tests::contents(folder / "gap.svg"),
-              testing::AllOf(HasSubstr("rgb(0%,45%,70%)"), HasSubstr("rgb(83.9"), HasSubstr("stroke-dasharray")));
+  EXPECT_THAT(
+      tests::contents(folder / "gap.svg"),
+      testing::AllOf(HasSubstr("rgb(0%,45%,70%)"), HasSubstr("rgb(84%,37%,0%)"), HasSubstr("stroke-dasharray")));
 }
 
 TEST_F(FigurePanels, WhatIsSetHoldsUntilTheNextRow) {
