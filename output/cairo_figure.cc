@@ -21,6 +21,7 @@ namespace {
 
 constexpr double pt_per_mm = 72.0 / 25.4;
 constexpr double font_size = 7.0, rule = 0.5, tick_length = 2.5, gap = 2.5, row_height = 10.0;  // pt
+constexpr double row_pitch = 8.0;  // pt, of names one below the other
 constexpr char const* font = "DejaVu Sans";
 
 using CairoSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
@@ -184,9 +185,7 @@ class Drawing {
     frame_.bottom = height - tick_length - 2 * row_height - gap;
     key_ = key_of(pen, figure, frame_.left, frame_.right);
     frame_.top = key_.empty() ? 0.7 * row_height : key_.back().y + 0.5 * row_height + gap;
-    if (frame_.bottom - frame_.top < 30.0 || frame_.right - frame_.left < 30.0)
-      throw thermal::InputError(fmt::format("a figure of {:g} mm by {:g} mm has no room for its axes and its key",
-                                            figure.width, figure.height));
+    check_room();
   }
 
   FigureFrame draw() {
@@ -204,6 +203,22 @@ class Drawing {
   }
 
  private:
+  void check_room() const {
+    double const least_width = figure_.rows.empty() ? 30.0 : 60.0;
+    double const least_height = std::max(30.0, row_pitch * double(figure_.rows.size()));
+    double const wider = least_width - (frame_.right - frame_.left),
+                 higher = least_height - (frame_.bottom - frame_.top);
+    std::string needed;
+    if (wider > 0.0) needed = fmt::format("a width of {:.0f} mm", std::ceil(figure_.width + wider / pt_per_mm));
+    if (higher > 0.0)
+      needed += fmt::format("{}a height of {:.0f} mm", needed.empty() ? "" : " and ",
+                            std::ceil(figure_.height + higher / pt_per_mm));
+    if (!needed.empty())
+      throw thermal::InputError(
+          fmt::format("a figure of {:g} mm by {:g} mm has no room for its axes and its key: {} is due", figure_.width,
+                      figure_.height, needed));
+  }
+
   [[nodiscard]] double at_x(double x) const {
     return frame_.left + (x - frame_.x_low) / (frame_.x_high - frame_.x_low) * (frame_.right - frame_.left);
   }
@@ -284,7 +299,8 @@ class Drawing {
       stroke(frame_.left, at_y(y), frame_.left - tick_length, at_y(y), rule);
       write_text(pen_, number_text(y), frame_.left - tick_length - gap, at_y(y), 1.0);
     }
-    write_text(pen_, figure_.x_label, 0.5 * (frame_.left + frame_.right),
+    double const half = 0.5 * width_of(pen_, figure_.x_label), rightmost = pt_per_mm * figure_.width - 1.0;
+    write_text(pen_, figure_.x_label, std::min(0.5 * (frame_.left + frame_.right), rightmost - half),
                frame_.bottom + tick_length + 1.5 * row_height, 0.5);
     if (!figure_.y_label.empty())
       write_upwards(pen_, figure_.y_label, 0.5 * row_height + 1.0, 0.5 * (frame_.top + frame_.bottom));

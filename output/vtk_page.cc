@@ -16,37 +16,14 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
+#include "output/viridis.h"
+
 namespace thermotwin::output {
-namespace {
-
-constexpr std::array<Colour, 11> viridis = {{{0.267, 0.005, 0.329},
-                                             {0.283, 0.141, 0.458},
-                                             {0.254, 0.265, 0.530},
-                                             {0.207, 0.372, 0.553},
-                                             {0.164, 0.471, 0.558},
-                                             {0.128, 0.567, 0.551},
-                                             {0.135, 0.659, 0.518},
-                                             {0.267, 0.749, 0.441},
-                                             {0.478, 0.821, 0.318},
-                                             {0.741, 0.873, 0.150},
-                                             {0.993, 0.906, 0.144}}};
-
-Colour viridis_at(double share) {
-  double const at = share * (viridis.size() - 1);
-  auto const below = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
-  double const rest = at - static_cast<double>(below);
-  Colour colour{};
-  for (std::size_t i = 0; i < 3; ++i) colour[i] = (1 - rest) * viridis[below][i] + rest * viridis[below + 1][i];
-  return colour;
-}
-
-}  // namespace
-
 void set_viridis(vtkLookupTable& table, Ticks const& ticks) {
   constexpr int n_colours = 256;
   table.SetNumberOfTableValues(n_colours);
   for (int i = 0; i < n_colours; ++i) {
-    auto const [r, g, b] = viridis_at(i / (n_colours - 1.0));
+    auto const [r, g, b] = viridis(i / (n_colours - 1.0));
     table.SetTableValue(i, r, g, b);
   }
   table.SetTableRange(ticks.first, ticks.first + (ticks.count - 1) * ticks.step);

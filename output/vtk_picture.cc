@@ -1,7 +1,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <vtkActor.h>
+#include <vtkActor2D.h>
 #include <vtkBillboardTextActor3D.h>
+#include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkDoubleArray.h>
@@ -13,8 +15,10 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataMapper2D.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
+#include <vtkProperty2D.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
@@ -22,6 +26,7 @@
 
 #include "output/atomic_file.h"
 #include "output/display.h"
+#include "output/label_places.h"
 #include "output/picture.h"
 #include "output/picture_scale.h"
 #include "output/vtk_grid.h"
@@ -120,7 +125,47 @@ void add_edges(vtkRenderer& renderer, vtkPolyData* surface, Colour const& colour
   renderer.AddActor(actor);
 }
 
-/// On a layer of their own, so that no wall hides them.
+/// Where the window shows a point, in pixels from its lower left.
+class PixelView {
+ public:
+  PixelView(vtkCamera& camera, Eigen::Vector2d const& size)
+      : focus_(camera.GetFocalPoint()), size_(size), pixel_(2 * camera.GetParallelScale() / size.y()) {
+    Eigen::Vector3d const along(camera.GetDirectionOfProjection());
+    across_ = along.cross(Eigen::Vector3d(camera.GetViewUp())).normalized();
+    up_ = across_.cross(along);
+  }
+  [[nodiscard]] Eigen::Vector2d of(Eigen::Vector3d const& point) const {
+    Eigen::Vector3d const from_focus = point - focus_;
+    return 0.5 * size_ + Eigen::Vector2d(across_.dot(from_focus), up_.dot(from_focus)) / pixel_;
+  }
+
+ private:
+  Eigen::Vector3d focus_, across_, up_;
+  Eigen::Vector2d size_;
+  double pixel_;
+};
+
+/// From each dot to its name.
+void add_leaders(vtkRenderer& renderer, std::vector<std::array<Eigen::Vector2d, 2>> const& leaders, int width) {
+  vtkNew<vtkPoints> ends;
+  vtkNew<vtkCellArray> lines;
+  for (auto const& leader : leaders) {
+    lines->InsertNextCell(2);
+    for (auto const& end : leader) lines->InsertCellPoint(ends->InsertNextPoint(end.x(), end.y(), 0.0));
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(ends);
+  data->SetLines(lines);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(ink[0], ink[1], ink[2]);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
+  renderer.AddActor2D(actor);
+}
+
+/// On a layer of their own, so that no wall hides them; names that would cover one another stand apart.
 void add_sensors(vtkRenderWindow& window, vtkCamera* camera, Skin const& skin, double magnification,
                  PictureOptions const& options, Page const& page) {
   vtkNew<vtkRenderer> front;
@@ -128,19 +173,30 @@ void add_sensors(vtkRenderWindow& window, vtkCamera* camera, Skin const& skin, d
   front->SetActiveCamera(camera);
   vtkNew<vtkPoints> places;
   vtkNew<vtkCellArray> dots;
+  Eigen::Vector2d const size(window.GetSize()[0], window.GetSize()[1]);
+  PixelView const view(*camera, size);
+  std::vector<Label> labels;
   for (auto const& [name, position] : options.sensors) {
     Eigen::Vector3d const place = position + magnification * skin.displacement_near(position);
     vtkIdType const point = places->InsertNextPoint(place.data());
     dots->InsertNextCell(1, &point);
+    labels.push_back({view.of(place), {page.scaled(11.0 * double(name.size())), page.scaled(20)}});
+  }
+  auto const corners = label_places(labels, page.scaled(9), size);
+  std::vector<std::array<Eigen::Vector2d, 2>> leaders;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    Eigen::Vector2d const offset = corners[i] - labels[i].dot;
+    leaders.push_back({labels[i].dot, labels[i].dot.cwiseMax(corners[i]).cwiseMin(corners[i] + labels[i].size)});
     vtkNew<vtkBillboardTextActor3D> label;
-    label->SetInput(name.c_str());
-    label->SetPosition(place[0], place[1], place[2]);
-    label->SetDisplayOffset(page.scaled(12), page.scaled(8));
+    label->SetInput(options.sensors[i].name.c_str());
+    label->SetPosition(places->GetPoint(vtkIdType(i)));
+    label->SetDisplayOffset(int(offset.x()), int(offset.y()));
     set_style(*label->GetTextProperty(), page.scaled(20), true);
     label->GetTextProperty()->SetBackgroundColor(1, 1, 1);
     label->GetTextProperty()->SetBackgroundOpacity(0.7);
     front->AddActor(label);
   }
+  add_leaders(*front, leaders, page.scaled(1.5));
   vtkNew<vtkPolyData> data;
   data->SetPoints(places);
   data->SetVerts(dots);

@@ -169,7 +169,8 @@ std::vector<output::Channel> displacement_channels(Machine const& machine) {
     for (double x : s.description.positions)
       channels.push_back({fmt::format("{}_{:g}mm", s.description.name, x * 1e3),
                           "um",
-                          fmt::format("position error of axis {} at {:g} mm of the screw", s.description.axis, x * 1e3),
+                          fmt::format("position error of axis {} at {:g} mm of the {} screw", s.description.axis,
+                                      x * 1e3, s.description.support),
                           {}});
   return channels;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 
 #include "output/dataset_file.h"
@@ -23,7 +24,14 @@ bool is_shown(thermal::InputChannel const& channel) {
   return channel.name != "ambient.floor_temperature" && !channel.name.starts_with("clock.");
 }
 
-double to_edge(double si, std::string const& unit) { return unit == "1" ? si : thermal::to_unit(si, unit); }
+/// Without the last bits that two conversions leave, where 15 digits give back the same double: 4000 rpm, not
+/// 3999.9999999999995.
+double to_edge(double si, std::string const& unit) {
+  if (unit == "1") return si;
+  double const number = thermal::to_unit(si, unit);
+  double const given = std::strtod(fmt::format("{:.15g}", number).c_str(), nullptr);
+  return thermal::from_unit(given, unit) == si ? given : number;
+}
 
 /// Of the sensors that have a place: none hangs in the air.
 std::vector<output::SensorPlace> sensor_places(Machine const& machine) {

@@ -1,5 +1,6 @@
 #include "twin/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,6 +27,30 @@ Extremes extremes(Eigen::VectorXd const& values) {
   return e;
 }
 
+/// Letters, of UTF-8.
+std::size_t width_of(std::string const& text) {
+  return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+struct Widths {
+  std::size_t name = 14, title = 34;
+};
+
+/// As wide as the longest name and title.
+Widths widths_of(std::vector<output::Channel> const& channels) {
+  Widths widths;
+  for (auto const& channel : channels) {
+    widths.name = std::max(widths.name, width_of(channel.name));
+    widths.title = std::max(widths.title, width_of(channel.long_name));
+  }
+  return widths;
+}
+
+/// Missing: a dead sensor.
+std::string in_table(double value, int width) {
+  return std::isfinite(value) ? fmt::format("{:>{}.2f}", value, width) : fmt::format("{:>{}}", "-", width);
+}
+
 }  // namespace
 
 std::string summary_table(Machine const& machine, RunResult const& result) {
@@ -33,17 +58,21 @@ std::string summary_table(Machine const& machine, RunResult const& result) {
   auto const& s = result.summary;
   std::string text = fmt::format("\n{}, {:.2f} h, {} nodes\n\n", data.title,
                                  data.time_s[data.time_s.size() - 1] / 3600.0, machine.network().nodes());
-  text += fmt::format("  {:<14} {:<34} {:>9} {:>9} {:>9}\n", "sensor", "", "start °C", "end °C", "largest rise K");
+  auto const sensors = widths_of(data.readings), displacements = widths_of(data.displacements);
+  text += fmt::format("  {:<{}} {:<{}} {:>9} {:>9} {:>14}\n", "sensor", sensors.name, "", sensors.title, "start °C",
+                      "end °C", "largest rise K");
   for (auto const& channel : data.readings) {
     auto const e = extremes(channel.values);
-    text += fmt::format("  {:<14} {:<34} {:>8.2f} {:>8.2f} {:>13.2f}\n", channel.name, channel.long_name, e.first,
-                        e.last, e.highest - e.first);
+    text += fmt::format("  {:<{}} {:<{}} {} {} {}\n", channel.name, sensors.name, channel.long_name, sensors.title,
+                        in_table(e.first, 9), in_table(e.last, 9), in_table(e.highest - e.first, 14));
   }
-  text += fmt::format("\n  {:<14} {:<34} {:>9} {:>9} {:>9}\n", "displacement", "", "end", "lowest", "highest");
+  text += fmt::format("\n  {:<{}} {:<{}} {:>9} {:>9} {:>9}\n", "displacement", displacements.name, "",
+                      displacements.title, "end", "lowest", "highest");
   for (auto const& channel : data.displacements) {
     auto const e = extremes(channel.values);
-    text += fmt::format("  {:<14} {:<34} {:>9.2f} {:>9.2f} {:>9.2f} {}\n", channel.name, channel.long_name, e.last,
-                        e.lowest, e.highest, channel.unit == "um" ? "µm" : "µrad");
+    text += fmt::format("  {:<{}} {:<{}} {} {} {} {}\n", channel.name, displacements.name, channel.long_name,
+                        displacements.title, in_table(e.last, 9), in_table(e.lowest, 9), in_table(e.highest, 9),
+                        channel.unit == "um" ? "µm" : "µrad");
   }
   if (auto const test = drift_test(data)) text += "\n" + drift_table(*test);
   text += fmt::format(

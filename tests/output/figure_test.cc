@@ -168,7 +168,12 @@ TEST(Figure, RefusesWhatItCannotDraw) {
   EXPECT_THAT(refusal(uneven, "uneven.svg"), HasSubstr("'wave' has 241 places and 7 values"));
   auto flat = two_waves();
   flat.height = 12.0;
-  EXPECT_THAT(refusal(flat, "flat.svg"), HasSubstr("no room"));
+  EXPECT_THAT(refusal(flat, "flat.svg"), HasSubstr("no room for its axes and its key: a height of 25 mm is due"));
+  Figure many;
+  for (int i = 0; i < 30; ++i)
+    many.rows.push_back({"correlation_grouping 4 + principal_component_distributed_lag", 1.0 + i, 0.5 + i, 1.5 + i});
+  EXPECT_THAT(refusal(many, "many.svg"),
+              testing::ContainsRegex("a width of [0-9]+ mm and a height of [0-9]+ mm is due"));
   EXPECT_TRUE(folder.files().empty());
 }
 

@@ -100,6 +100,16 @@ Json json_of(std::vector<Disagreement> const& cells) {
   return list;
 }
 
+/// Of a column that holds these names.
+template <class Rows, class Name>
+std::size_t widest(Rows const& rows, std::size_t least, Name const& name) {
+  for (auto const& row : rows) least = std::max(least, name(row).size());
+  return least;
+}
+
+/// A number of a table, or "-" where a dead channel has none.
+std::string in_column(double number) { return std::isnan(number) ? "-" : fmt::format("{:.3f}", number); }
+
 /// Where and when: of each channel that disagrees significantly, the speed at which it does so most.
 std::string words_of(std::vector<Disagreement> const& cells) {
   std::map<std::string, Disagreement const*> worst;
@@ -113,13 +123,16 @@ std::string words_of(std::vector<Disagreement> const& cells) {
   for (auto const& [channel, cell] : worst) order.push_back(cell);
   std::stable_sort(order.begin(), order.end(), [](auto const* a, auto const* b) { return a->power > b->power; });
   order.resize(std::min(order.size(), most_places));
+  auto const channel_width = widest(order, 12, [](auto const* cell) { return cell->channel; });
+  auto const run_width = widest(order, 10, [](auto const* cell) { return cell->run; });
   std::string text = fmt::format(
       "Where and when the calibrated twin disagrees most (measured minus twin; power of noise alone: 1):\n"
-      "  {:<12} {:<10} {:<16} {:>9} {:>9} {:>7}\n",
-      "channel", "run", "part", "mean", "RMS", "power");
+      "  {:<{}} {:<{}} {:<16} {:>9} {:>9} {:<4} {:>7}\n",
+      "channel", channel_width, "run", run_width, "part", "mean", "RMS", "", "power");
   for (auto const* cell : order)
-    text += fmt::format("  {:<12} {:<10} {:<16} {:>+9.3f} {:>9.3f} {:>7.1f} {}\n", cell->channel, cell->run, cell->part,
-                        in_unit(cell->unit, cell->mean), in_unit(cell->unit, cell->rms), cell->power, cell->unit);
+    text += fmt::format("  {:<{}} {:<{}} {:<16} {:>+9.3f} {:>9.3f} {:<4} {:>7.1f}\n", cell->channel, channel_width,
+                        cell->run, run_width, cell->part, in_unit(cell->unit, cell->mean),
+                        in_unit(cell->unit, cell->rms), cell->unit, cell->power);
   return text + "\n";
 }
 
@@ -138,13 +151,14 @@ std::string words_of_gain(Diagnosis const& diagnosis, std::vector<ChannelGap> co
 }
 
 std::string table_of(std::vector<ChannelGap> const& gaps) {
-  std::string text =
-      fmt::format("  {:<20} {:<10} {:>10} {:>10} {:>10}\n", "run", "channel", "file", "calibrated", "amended");
-  for (auto const& gap : gaps) {
-    text += fmt::format("  {:<20} {:<10} {:>10.3f} {:>10.3f} {:>10.3f} {}\n", gap.run, gap.channel,
-                        in_unit(gap.unit, gap.before), in_unit(gap.unit, gap.calibrated), in_unit(gap.unit, gap.after),
-                        gap.unit);
-  }
+  auto const run_width = widest(gaps, 20, [](auto const& gap) { return gap.run; });
+  auto const channel_width = widest(gaps, 10, [](auto const& gap) { return gap.channel; });
+  std::string text = fmt::format("  {:<{}} {:<{}} {:>10} {:>10} {:>10}\n", "run", run_width, "channel", channel_width,
+                                 "file", "calibrated", "amended");
+  for (auto const& gap : gaps)
+    text += fmt::format("  {:<{}} {:<{}} {:>10} {:>10} {:>10} {}\n", gap.run, run_width, gap.channel, channel_width,
+                        in_column(in_unit(gap.unit, gap.before)), in_column(in_unit(gap.unit, gap.calibrated)),
+                        in_column(in_unit(gap.unit, gap.after)), gap.unit);
   return text;
 }
 
@@ -271,8 +285,9 @@ std::string report_text(DiagnosisReport const& report) {
   std::string text = doubt_lines(report.doubts) + "\n" + headline(diagnosis) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
   if (diagnosis.verdict == Diagnosis::Verdict::nothing)
-    text += fmt::format("Of {} effects at their sites, {} would have been seen at half of their largest size.\n\n",
-                        diagnosis.hypotheses.size(), diagnosis.visible);
+    text += fmt::format(
+        "Of {} shapes of effects at their sites, {} would have been seen at half of their largest size.\n\n",
+        diagnosis.hypotheses.size(), diagnosis.visible);
   if (auto const loudest = loud_channels(diagnosis); !loudest.empty())
     text += fmt::format("More error than expected was taken for noise at {}.\n\n", loudest);
   text += words_of_proposal(diagnosis);

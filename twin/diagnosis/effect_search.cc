@@ -233,7 +233,7 @@ std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& 
 
 /// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
 bool EffectSearch::add_effect(int round) {
-  say(fmt::format("{} effects at their sites, round {}", hypotheses_.size(), round));
+  say(fmt::format("{} shapes of effects at their sites, round {}", hypotheses_.size(), round));
   double const threshold = round == 1 ? options_.threshold : further_threshold();
   auto const scores = score(fit_, whitened_signatures(hypotheses_), hypotheses_);
   if (round == 1)

@@ -76,7 +76,7 @@ Plan plan(Value const& document, std::vector<Schedule> const& schedules, PlanOpt
   }
   auto const runs = binned(simulated);
   auto const all = hypotheses(document, machine, options.without);
-  say(fmt::format("what they would show of {} effects at their sites", all.size()));
+  say(fmt::format("what they would show of {} shapes of effects at their sites", all.size()));
   Estimation const estimation = expected_estimation(document, runs);
   Fit const fit = estimation.fit(estimation.prior_mean(), 0);
   Eigen::MatrixXd columns = signatures(estimation, fit, all);

@@ -42,7 +42,8 @@ std::string effects_text(Plan const& plan) {
   std::size_t clear = 0;
   while (clear < plan.effects.size() && plan.effects[clear].seen >= wanted_distance) ++clear;
   std::string text = fmt::format(
-      "{} of {} effects at their sites would be seen ({:.0f} σ or more at half of the largest plausible size).\n"
+      "{} of {} effects at their sites, each in its clearest shape, would be seen ({:.0f} σ or more at half of the "
+      "largest plausible size).\n"
       "Hardly or not, the clearest first; kept: what calibration leaves of the signature\n\n"
       "  {:<22} {:<44} {:>7} {:>7}\n",
       clear, plan.effects.size(), wanted_distance, "effect", "site", "seen", "kept");

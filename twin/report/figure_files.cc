@@ -11,8 +11,9 @@ namespace {
 
 std::string list_of(std::vector<FigurePanel> const& panels) {
   std::string text;
-  for (auto const& [name, figure] : panels) {
-    text += fmt::format("{:<34}", name);
+  for (auto const& panel : panels) {
+    auto const& figure = panel.figure;
+    text += fmt::format("{:<34}", panel.name);
     if (!figure.rows.empty()) text += fmt::format(" {} rows", figure.rows.size());
     for (auto const& line : figure.lines)
       if (!line.name.empty()) text += " " + line.name + (&line == &figure.lines.back() ? "" : ",");
@@ -35,14 +36,30 @@ bool is_of(std::string const& curve, std::string const& name) {
   return curve == name || curve.starts_with(name + ", ");
 }
 
-void keep(output::Figure& figure, std::vector<std::string> const& names) {
+void keep(FigurePanel& panel, std::vector<std::string> const& names) {
+  auto& lines = panel.figure.lines;
   for (auto const& name : names)
-    if (std::none_of(figure.lines.begin(), figure.lines.end(),
-                     [&](auto const& line) { return is_of(line.name, name); }))
+    if (std::none_of(lines.begin(), lines.end(), [&](auto const& line) { return is_of(line.name, name); }))
       throw thermal::InputError(fmt::format("the panel has no curve '{}'", name));
-  std::erase_if(figure.lines, [&](auto const& line) {
-    return std::none_of(names.begin(), names.end(), [&](auto const& name) { return is_of(line.name, name); });
-  });
+  for (std::size_t i = lines.size(); i-- > 0;) {
+    auto const& line = lines[i];
+    if (std::any_of(names.begin(), names.end(), [&](auto const& name) { return is_of(line.name, name); })) continue;
+    lines.erase(lines.begin() + std::ptrdiff_t(i));
+    if (!panel.runs.empty()) panel.runs.erase(panel.runs.begin() + std::ptrdiff_t(i));
+  }
+}
+
+/// Of one channel alone, each data set has its colour beside its dashes, as on the page.
+void colour_by_run(FigurePanel& panel) {
+  auto& lines = panel.figure.lines;
+  auto const channel = [](auto const& line) { return line.name.substr(0, line.name.find(", ")); };
+  for (auto const& line : lines)
+    if (panel.runs.empty() || channel(line) != channel(lines[0])) return;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    auto const dashes = lines[i].dashes;
+    output::set_style(lines[i], panel.runs[i]);
+    lines[i].dashes = dashes;
+  }
 }
 
 }  // namespace
@@ -51,8 +68,10 @@ std::string write_figure_files(FigureFiles const& files) {
   auto const panels = figure_panels(files.data);
   if (files.output.empty()) return list_of(panels);
   refuse_to_overwrite(files.output, {}, files.data);
-  auto figure = panel_of(panels, files.panel).figure;
-  if (!files.only.empty()) keep(figure, files.only);
+  auto panel = panel_of(panels, files.panel);
+  if (!files.only.empty()) keep(panel, files.only);
+  colour_by_run(panel);
+  auto& figure = panel.figure;
   figure.width = files.width;
   figure.height = files.height;
   static_cast<void>(output::write_figure(figure, files.output));

@@ -21,6 +21,7 @@ struct FigureFiles {
 struct FigurePanel {
   std::string name;
   output::Figure figure;
+  std::vector<std::size_t> runs{};  ///< of each curve, where several data sets are drawn by their dashes
 };
 
 /// All panels that these files have, in the page's order: `input_<unit>`, `sensor_temperatures_degC`,

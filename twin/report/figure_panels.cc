@@ -8,6 +8,7 @@
 
 #include "output/picture_scale.h"
 #include "output/report_page.h"
+#include "output/viridis.h"
 #include "thermal/error.h"
 #include "twin/diagnosis/run_files.h"
 #include "twin/report/figure_files.h"
@@ -37,8 +38,8 @@ std::string axis_text(std::string const& quantity, std::string const& unit) {
 
 std::string quantity_of(std::string const& unit) {
   static std::map<std::string, std::string> const quantities = {
-      {"rpm", "Speed"}, {"mm/min", "Feed"}, {"degC", "Temperature"}, {"K", "Temperature"}, {"W", "Heat"},
-      {"um", "Error"},  {"urad", "Tilt"},   {"mm", "Position"},      {"K/m", "Gradient"},  {"1", "Setting"},
+      {"rpm", "Speed"},       {"mm/min", "Feed"}, {"degC", "Temperature"}, {"K", "Temperature"}, {"W", "Heat"},
+      {"um", "Displacement"}, {"urad", "Tilt"},   {"mm", "Position"},      {"K/m", "Gradient"},  {"1", "Setting"},
   };
   auto const found = quantities.find(unit);
   return found == quantities.end() ? "Value" : found->second;
@@ -107,46 +108,67 @@ std::vector<std::string> units_of(std::vector<ShownRun> const& runs, Channels ch
   return units;
 }
 
-/// Every channel of a unit; a channel has one colour, a run one way of dashing.
-Figure courses(std::vector<ShownRun> const& runs, Channels channels, std::string const& unit) {
-  static std::vector<std::vector<double>> const dashes = {{}, {4.0, 2.0}, {1.0, 1.5}, {6.0, 2.0, 1.0, 2.0}};
+/// A channel has one colour, a data set one way of dashing; the reference is solid.
+class CoursesOfRuns {
+ public:
+  CoursesOfRuns(TimeFigure figure, bool several) : figure_(std::move(figure)), several_(several) {}
+
+  void add(std::string const& channel, ShownRun const& run, std::size_t r, Eigen::VectorXd const& time_s,
+           Eigen::VectorXd const& values) {
+    static std::vector<std::vector<double>> const dashes = {{}, {4.0, 2.0}, {1.0, 1.5}, {6.0, 2.0, 1.0, 2.0}};
+    auto const known = std::find(names_.begin(), names_.end(), channel);
+    auto const i = std::size_t(known - names_.begin());
+    if (known == names_.end()) names_.push_back(channel);
+    auto const name = several_ ? fmt::format("{}, {}", channel, run.path.stem().string()) : channel;
+    auto& line = figure_.add(name, time_s, values);
+    output::set_style(line, i);
+    if (!several_) return;
+    if (i >= 7)  // dashes tell runs apart here: later channels are pale
+      for (double& part : line.colour) part = 1.0 - 0.5 * (1.0 - part);
+    line.dashes = dashes[r % dashes.size()];
+    runs_.push_back(r);
+  }
+  [[nodiscard]] FigurePanel take(std::string const& name) { return {name, figure_.take(), std::move(runs_)}; }
+
+ private:
+  TimeFigure figure_;
+  bool several_;
+  std::vector<std::string> names_;
+  std::vector<std::size_t> runs_;
+};
+
+/// Every channel of a unit.
+FigurePanel courses(std::vector<ShownRun> const& runs, Channels channels, std::string const& unit,
+                    std::string const& name) {
   auto const [start, end] = range_of(runs);
-  TimeFigure figure(axis_text(quantity_of(unit), unit), start, end);
-  std::vector<std::string> names;
+  CoursesOfRuns panel(TimeFigure(axis_text(quantity_of(unit), unit), start, end), runs.size() > 1);
   for (std::size_t r = 0; r < runs.size(); ++r)
-    for (auto const& channel : channels(runs[r].data)) {
-      if (channel.unit != unit) continue;
-      auto const known = std::find(names.begin(), names.end(), channel.name);
-      auto const i = std::size_t(known - names.begin());
-      if (known == names.end()) names.push_back(channel.name);
-      auto const name =
-          runs.size() > 1 ? fmt::format("{}, {}", channel.name, runs[r].path.stem().string()) : channel.name;
-      auto& line = figure.add(name, runs[r].data.time_s, channel.values);
-      output::set_style(line, i);
-      if (runs.size() > 1 && i >= 7)  // dashes tell runs apart here: later channels are pale
-        for (double& part : line.colour) part = 1.0 - 0.5 * (1.0 - part);
-      if (runs.size() > 1) line.dashes = dashes[r % dashes.size()];
-    }
-  return figure.take();
+    for (auto const& channel : channels(runs[r].data))
+      if (channel.unit == unit) panel.add(channel.name, runs[r], r, runs[r].data.time_s, channel.values);
+  return panel.take(name);
 }
 
-/// The reference less each of the others that went through the same.
-Figure residuals(std::vector<ShownRun> const& runs, Channels channels, std::string const& unit) {
+/// The reference less each of the others that went through the same, dashed as these are beside it.
+FigurePanel residuals(std::vector<ShownRun> const& runs, Channels channels, std::string const& unit,
+                      std::string const& name) {
   auto const& reference = runs[0].data;
-  TimeFigure figure(axis_text("Residual", unit == "degC" ? "K" : unit), start_of(runs[0]), end_of(runs[0]));
+  CoursesOfRuns panel(
+      TimeFigure(axis_text("Residual", unit == "degC" ? "K" : unit), start_of(runs[0]), end_of(runs[0])),
+      runs.size() > 2);
   for (std::size_t r = 1; r < runs.size(); ++r) {
     if (!driven_alike(runs[0], runs[r])) continue;
     for (auto const& mine : channels(reference))
       for (auto const& other : channels(runs[r].data))
         if (mine.unit == unit && other.name == mine.name)
-          figure.add(runs.size() > 2 ? fmt::format("{}, {}", mine.name, runs[r].path.stem().string()) : mine.name,
-                     reference.time_s, mine.values - at_times(other, runs[r].data.time_s, reference.time_s));
+          panel.add(mine.name, runs[r], r, reference.time_s,
+                    mine.values - at_times(other, runs[r].data.time_s, reference.time_s));
   }
-  return figure.take();
+  return panel.take(name);
 }
 
-/// Forward solid, backward dashed, from light to dark with time.
+/// Forward solid, backward dashed, from dark to light with time, in the page's colours.
 Figure positioning(output::Positioning const& axis) {
+  constexpr double lightest = 0.86;  // of viridis, on white paper
   Figure figure;
   figure.x_label = "Position / mm";
   figure.y_label = "Error / µm";
@@ -154,9 +176,9 @@ Figure positioning(output::Positioning const& axis) {
   for (Eigen::Index p = 0; p < passes; ++p)
     for (bool const forward : {true, false}) {
       FigureLine line{"", axis.position_mm, (forward ? axis.forward_um : axis.backward_um).row(p).transpose()};
-      if (forward && (p == 0 || p + 1 == passes)) line.name = "after " + output::time_text(axis.time_s[p]);
-      double const share = passes > 1 ? double(p) / double(passes - 1) : 1.0;
-      line.colour = {0.75 * (1 - share), 0.85 - 0.55 * share, 0.95 - 0.35 * share};
+      if (p == 0 || p + 1 == passes)
+        line.name = (forward ? "forward, " : "backward, ") + output::time_text(axis.time_s[p]);
+      line.colour = output::viridis(passes > 1 ? lightest * double(p) / double(passes - 1) : 0.5);
       if (!forward) line.dashes = {3.0, 2.0};
       figure.lines.push_back(line);
     }
@@ -167,10 +189,30 @@ void add_group(std::vector<FigurePanel>& panels, std::vector<ShownRun> const& ru
                Channels channels) {
   for (auto const& unit : units_of(runs, channels)) {
     auto const name = fmt::format("{}_{}", unit == "urad" ? "tilt" : title, file_part(unit));
-    panels.push_back({name, courses(runs, channels, unit)});
-    if (auto difference = residuals(runs, channels, unit); !difference.lines.empty())
-      panels.push_back({"residual_" + name, std::move(difference)});
+    panels.push_back(courses(runs, channels, unit, name));
+    if (auto difference = residuals(runs, channels, unit, "residual_" + name); !difference.figure.lines.empty())
+      panels.push_back(std::move(difference));
   }
+}
+
+/// What is set and stays: speeds, feeds, switches, shares. Air and positions go from one value to the next.
+bool is_held(output::Channel const& input) {
+  static std::set<std::string> const units = {"rpm", "mm/min", "1", "W", "kg/s"};
+  return units.contains(input.unit);
+}
+
+/// Each value until the next sample.
+void add_held(TimeFigure& figure, output::Channel const& input, Eigen::VectorXd const& time_s) {
+  Eigen::Index const steps = time_s.size() - 1;
+  Eigen::VectorXd time(2 * steps + 1), values(2 * steps + 1);
+  for (Eigen::Index i = 0; i <= steps; ++i) {
+    time[2 * i] = time_s[i];
+    values[2 * i] = input.values[i];
+    if (i == steps) break;
+    time[2 * i + 1] = time_s[i + 1];
+    values[2 * i + 1] = input.values[i];
+  }
+  figure.add(input.name, time, values);
 }
 
 void add_inputs(std::vector<FigurePanel>& panels, ShownRun const& run) {
@@ -180,7 +222,10 @@ void add_inputs(std::vector<FigurePanel>& panels, ShownRun const& run) {
     bool any = false;
     for (auto const& input : run.data.inputs)
       if (input.unit == unit && varies(input.values)) {
-        figure.add(input.name, run.data.time_s, input.values);
+        if (is_held(input))
+          add_held(figure, input, run.data.time_s);
+        else
+          figure.add(input.name, run.data.time_s, input.values);
         any = true;
       }
     if (any) panels.push_back({"input_" + file_part(unit), figure.take()});

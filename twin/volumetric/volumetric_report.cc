@@ -122,7 +122,23 @@ Json field_json(VolumetricStudy const& study) {
           {"after_um", component_lists(study.after.errors, in_um)}};
 }
 
-Json functions_json(VolumetricStudy const& study, int axis) {
+/// w of the rotation w × q that brings the true functions nearest to the identified ones. Diagonals do not show it: how
+/// the workpiece lies is no error of the machine.
+Eigen::Vector3d rotation_of_identified(VolumetricStudy const& study) {
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis)
+    for (int j = 0; j <= study.measured.steps; ++j) {
+      double const q = study.truth.position(axis, j);
+      Eigen::Vector3d const lever = (q - study.truth.position(axis, 0)) * Eigen::Vector3d::Unit(axis);
+      squares += lever.squaredNorm() * Eigen::Matrix3d::Identity() - lever * lever.transpose();
+      sum += lever.cross(study.chosen.functions.at(axis, q) - study.truth.at(axis, q));
+    }
+  return squares.ldlt().solve(sum);
+}
+
+/// Both counted from the same workpiece: the true ones are turned to where the identified ones have it.
+Json functions_json(VolumetricStudy const& study, int axis, Eigen::Vector3d const& rotation) {
   int const steps = study.measured.steps;
   std::vector<double> positions;
   Eigen::Matrix3Xd predicted(3, steps + 1), truth(3, steps + 1);
@@ -130,7 +146,8 @@ Json functions_json(VolumetricStudy const& study, int axis) {
     double const q = study.truth.position(axis, j);
     positions.push_back(1e3 * q);
     predicted.col(j) = study.chosen.functions.at(axis, q);
-    truth.col(j) = study.truth.at(axis, q);
+    truth.col(j) =
+        study.truth.at(axis, q) + rotation.cross((q - study.truth.position(axis, 0)) * Eigen::Vector3d::Unit(axis));
   }
   return {{"axis", std::string(1, "XYZ"[axis])},
           {"position_mm", positions},
@@ -178,7 +195,8 @@ std::string volumetric_json(VolumetricStudy const& study) {
                              {"linear_totals_um", numbers(point.linear_totals, in_um)}});
   json["field"] = field_json(study);
   json["functions"] = Json::array();
-  for (int axis = 0; axis < 3; ++axis) json["functions"].push_back(functions_json(study, axis));
+  auto const rotation = rotation_of_identified(study);
+  for (int axis = 0; axis < 3; ++axis) json["functions"].push_back(functions_json(study, axis, rotation));
   json["remarks"] = study.remarks;
   return json.dump(2) + "\n";
 }

@@ -155,7 +155,7 @@ export class Chart {
         width: line?.width?.() ?? 1.5,
         dash: line?.dash,
         points: {show: line?.points ?? line?.scattered ?? false, size: 4, ...(line?.scattered ? {width: 0, size: 5, fill: () => line.colour()} : {})},
-        ...(line?.scattered ? {paths: () => null} : {}),
+        ...(line?.scattered ? {paths: () => null} : line?.held ? {paths: uPlot.paths.stepped!({align: 1})} : {}),
         spanGaps: false,
       }))],
       bands: bands?.map(({between, fill}) => ({series: [between[0] + 1, between[1] + 1], fill})),

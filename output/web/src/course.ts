@@ -3,6 +3,8 @@
 export interface Course {
   time: ArrayLike<number>;
   values: ArrayLike<number>;
+  /** Each value holds until the next: what the machine was told, not what follows from it. */
+  held?: boolean;
 }
 
 /** The last index whose time is at or before t; 0 before the first. */
@@ -16,12 +18,12 @@ export function rowAt(time: ArrayLike<number>, t: number): number {
   return low;
 }
 
-/** Along straight lines; NaN outside, and next to a missing sample. */
+/** Along straight lines, or held; NaN outside, and next to a missing sample. */
 export function valueAt(course: Course, t: number): number {
   const {time, values} = course, n = time.length;
   if (n === 0 || t < time[0]! - 1e-6 || t > time[n - 1]! + 1e-6) return NaN;
   const i = rowAt(time, t);
-  if (i === n - 1 || t <= time[i]!) return values[i]!;
+  if (course.held || i === n - 1 || t <= time[i]!) return values[i]!;
   const share = (t - time[i]!) / (time[i + 1]! - time[i]!);
   return values[i]! + share * (values[i + 1]! - values[i]!);
 }

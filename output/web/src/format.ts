@@ -12,6 +12,12 @@ export function axisText(quantity: string, unit: string): string {
   return text ? `${quantity} / ${text}` : quantity;
 }
 
+/** Of a channel whose numbers are states: "…: 0 waiting, 1 good" says which is which. */
+export function statesOf(title: string): Map<number, string> {
+  const list = /: (\d+ \w+(?:, \d+ \w+)+)$/.exec(title)?.[1]?.split(', ') ?? [];
+  return new Map(list.map((entry) => [parseInt(entry, 10), entry.replace(/^\d+ /, '')]));
+}
+
 /** Decimals that tell apart what differs by `step`. */
 export function decimalsFor(step: number): number {
   return Math.min(6, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));

@@ -4,7 +4,7 @@ import {extent, valueAt, type Course} from './course';
 import type {Machine, Numbers} from './data';
 import {colourBar, make} from './dom';
 import {SurfaceField} from './field';
-import {grouped, roundDown, roundTicks, timeText} from './format';
+import {grouped, roundDown, roundTicks} from './format';
 import {Scene} from './scene';
 import {SensorMarks} from './sensor_marks';
 import type {PageState} from './signal';
@@ -18,8 +18,6 @@ export interface Look {
   quantity: string;
   caption: (t: number) => string;
 }
-
-const temperatures: Look = {quantity: 'Temperature / °C', caption: (t) => `t = ${timeText(t)}`};
 
 /** The machine in space: coloured by temperature, deformed, turned with pointer or keys, its parts to be picked. */
 export class MachineView {
@@ -47,7 +45,7 @@ export class MachineView {
 
   constructor(private readonly machine: Machine, numbers: Numbers, time: Float32Array,
               private readonly readings: Map<string, Course>, private readonly state: PageState,
-              private readonly look: Look = temperatures) {
+              private readonly look: Look) {
     this.rest = numbers.single(machine.points);
     this.triangles = numbers.whole(machine.triangles);
     this.edges = numbers.whole(machine.edges);

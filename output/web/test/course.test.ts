@@ -16,6 +16,10 @@ test('values lie on straight lines, and are missing outside and beside a gap', (
   assert.ok(Number.isNaN(valueAt(course, -1)) && Number.isNaN(valueAt(course, 41)));
 });
 
+test('what is set holds until the next row', () => {
+  assert.deepEqual([0, 9, 10, 35].map((t) => valueAt({...course, held: true}, t)).map(String), ['1', '1', '3', 'NaN']);
+});
+
 test('the residual is reference minus other, on the times of the reference', () => {
   const line = {time: [0, 20], values: [0, 20]}, measured = {time: [0, 5, 10], values: [1, 7, 9]};
   assert.deepEqual([...residual(measured, line)], [1, 2, -1]);

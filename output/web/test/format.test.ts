@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {csv} from '../src/csv';
-import {axisText, roundDown, roundTicks, timeText, timeUnitFor, valueText} from '../src/format';
+import {axisText, roundDown, roundTicks, statesOf, timeText, timeUnitFor, valueText} from '../src/format';
 import {cividis, viridis} from '../src/colours';
 import {edgesAround} from '../src/edges';
 
@@ -23,6 +23,11 @@ test('values have the digits of their unit and a minus sign', () => {
   assert.equal(valueText(6000, 'rpm'), '6000');
   assert.equal(valueText(NaN, 'K'), '–');
   assert.equal(valueText(-0.001, 'K'), '0.00');
+});
+
+test('a title tells what the numbers of a state mean', () => {
+  assert.deepEqual([...statesOf('what the offset rests on: 0 waiting, 1 good')], [[0, 'waiting'], [1, 'good']]);
+  assert.equal(statesOf('cartridge, 30 mm').size, 0);
 });
 
 test('ticks are round, enclose the range and are few', () => {

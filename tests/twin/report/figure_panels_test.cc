@@ -86,6 +86,45 @@ TEST_F(FigurePanels, ResidualIsTheFirstLessTheOther) {
   EXPECT_LT(lines[1].y.cwiseAbs().maxCoeff(), 1e-9);
 }
 
+TEST_F(FigurePanels, RunsHaveTheirDashesAndOfOneChannelTheirColours) {
+  std::vector<std::filesystem::path> const files = {written("a.h5", 0.0), written("b.h5", 1.5), written("c.h5", 0.5)};
+  auto const panels = figure_panels(files);
+  auto const& lines = panel(panels, "residual_sensor_temperatures_degC").lines;
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0].name, "T1, b");
+  EXPECT_EQ(lines[2].name, "T1, c");
+  EXPECT_EQ(lines[0].colour, lines[2].colour);
+  EXPECT_NE(lines[0].dashes, lines[2].dashes);
+  EXPECT_EQ(lines[0].dashes, panel(panels, "sensor_temperatures_degC").lines[2].dashes);
+  EXPECT_THAT(write_figure_files({files, "residual_sensor_temperatures_degC", {"T1"}, folder / "gap.svg"}),
+              HasSubstr("gap.svg"));
+  EXPECT_THAT(
+      tests::contents(folder / "gap.svg"),
+      testing::AllOf(HasSubstr("rgb(0%,45%,70%)"), HasSubstr("rgb(84%,37%,0%)"), HasSubstr("stroke-dasharray")));
+}
+
+TEST_F(FigurePanels, WhatIsSetHoldsUntilTheNextRow) {
+  auto const panels = figure_panels({written("a.h5", 0.0)});
+  auto const& line = panel(panels, "input_rpm").lines[0];
+  ASSERT_EQ(line.x.size(), 361);
+  for (Eigen::Index i = 0; i + 1 < line.x.size(); ++i)
+    EXPECT_TRUE(line.x[i] == line.x[i + 1] || line.y[i] == line.y[i + 1]) << i;
+}
+
+TEST_F(FigurePanels, WaysOfAPassAreToldApartByDashes) {
+  auto data = warm_up(0.0);
+  data.positioning = {{"z", Eigen::Vector3d(0.0, 100.0, 200.0), Eigen::Vector2d(0.0, 3600.0),
+                       Eigen::MatrixXd::Zero(2, 3), Eigen::MatrixXd::Ones(2, 3)}};
+  output::write(data, folder / "feed.h5");
+  auto const panels = figure_panels({folder / "feed.h5"});
+  auto const& lines = panel(panels, "positioning_feed_z").lines;
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0].name, "forward, 0 s");
+  EXPECT_EQ(lines[3].name, "backward, 1 h 00 min");
+  EXPECT_TRUE(lines[0].dashes.empty());
+  EXPECT_FALSE(lines[3].dashes.empty());
+}
+
 TEST_F(FigurePanels, OfAnUnknownHeatTheBandHolds95Percent) {
   tests::put(folder / "d.json", R"({"verdict": "none_known", "heat": {"body": "motor", "watts": 10, "runs": [
     {"time_s": [0, 3600, 7200], "watts": [0, 10, 20], "standard_error": [1, 2, 3]}]}})");

@@ -80,7 +80,7 @@ class Shown {
         {name: 'median', time, values: course(2), colour: () => this.ink(), width: () => 2}],
       bands: [{between: [0, 1], fill: () => `${this.ink()}2a`}, {between: [2, 3], fill: () => `${this.ink()}50`}],
       dark: this.state.dark, height: 240, describe: `${name} over time: median, half and nine tenths of the runs`,
-    }).element, make('p', {class: 'words'}, 'Line: median. Dark: half of the runs. Light: nine in ten.'));
+    }).element, make('p', {class: 'words'}, 'Line: median. Inner band: half of the runs. Outer band: nine in ten.'));
   }
 
   /** How many runs end where. */

@@ -1,9 +1,13 @@
 import {make} from '../dom';
 
+/** Long names may break after an underscore. */
+const breakable = (text: string): (string | HTMLElement)[] =>
+  text.split(/(?<=_)/).flatMap((part, i) => (i > 0 ? [make('wbr'), part] : [part]));
+
 /** The first thing that is read of an answer: what kind it is, one sentence, and its figures in large. */
 export function card(kind: string, look: string, sentence: string, figures: [string, string][], ...below: HTMLElement[]): HTMLElement {
   return make('div', {class: `verdict ${look}`},
-    make('div', {}, make('p', {class: 'tag'}, kind), make('h2', {}, sentence)),
+    make('div', {}, make('p', {class: 'tag'}, kind), make('h2', {}, ...breakable(sentence))),
     make('dl', {class: 'figures'}, ...figures.map(([label, value]) => make('div', {}, make('dt', {}, label), make('dd', {}, value)))),
     ...below);
 }

@@ -10,6 +10,8 @@ export interface NamedCourse extends Course {
 /** A data set with its numbers at hand. */
 export interface Run {
   name: string;
+  /** Among the runs of the page, the reference 0: its colour and its dashes everywhere. */
+  index: number;
   set: RunSet;
   time: Float32Array;
   readings: NamedCourse[];
@@ -27,7 +29,7 @@ export function runsOf(section: RunsSection, numbers: Numbers): Run[] {
   const runs = section.sets.map((set) => {
     const time = numbers.single(set.time);
     return {
-      name: set.name, set, time,
+      name: set.name, index: 0, set, time,
       readings: courses(set.readings, time, numbers),
       displacements: courses(set.displacements, time, numbers),
       heat: courses(set.heat, time, numbers),
@@ -35,6 +37,9 @@ export function runsOf(section: RunsSection, numbers: Numbers): Run[] {
   });
   const reference = runs.findIndex((run) => !run.set.simulated);
   if (reference > 0) runs.unshift(...runs.splice(reference, 1));
+  runs.forEach((run, i) => {
+    run.index = i;
+  });
   return runs;
 }
 
@@ -45,6 +50,9 @@ export function timeRange(runs: Run[]): [number, number] {
 const derived = /\.(running|time_running|revolutions)$|^time_of_day$|^clock\.|\.stroke_|reference_height|^(?!spindle)\w+\.(speed|duty)$/;
 const always = /^spindle\.speed$|\.feed$|^ambient\.temperature$/;
 
+/** Speeds, feeds, switches and shares are set and stay; air and positions go from one value to the next. */
+const held = new Set(['rpm', 'mm/min', '1', 'W', 'kg/s']);
+
 /** What the machine was given that is worth a course; a constant one is drawn only if it is a speed or the air. */
 export function shownInputs(run: Run, numbers: Numbers): NamedCourse[] {
   const {time, set} = run, ends = [time[0] ?? 0, time[time.length - 1] ?? 1];
@@ -52,7 +60,7 @@ export function shownInputs(run: Run, numbers: Numbers): NamedCourse[] {
   for (const {name, unit, title, values, constant} of set.inputs) {
     if (values ? derived.test(name) : !(always.test(name) && constant)) continue;
     const course = values ? {time, values: numbers.single(values)} : {time: ends, values: [constant!, constant!]};
-    shown.push({name, unit, title, ...course});
+    shown.push({name, unit, title, ...course, held: held.has(unit)});
   }
   return shown;
 }

@@ -1,7 +1,7 @@
 import {make} from '../dom';
 import type {Numbers, RunsSection} from '../data';
 import {bodyCourses} from '../field';
-import {unitText, valueText} from '../format';
+import {timeText, unitText, valueText} from '../format';
 import {MachineView} from '../machine_view';
 import type {PageState} from '../signal';
 import {timeBar} from '../time_bar';
@@ -25,8 +25,14 @@ function byUnit(channels: NamedCourse[]): Map<string, NamedCourse[]> {
 /** Angles after lengths, whatever the file's order. */
 const order = (unit: string): number => Number(unit === 'urad');
 
-const inputTitles: Record<string, string> =
-  {rpm: 'Spindle speed', 'mm/min': 'Feed', degC: 'Ambient', '1': 'Switches and shares', mm: 'Position'};
+function inputTitle(unit: string, channels: NamedCourse[]): string {
+  if (unit === 'degC') return channels.every((c) => c.name.startsWith('ambient')) ? 'Ambient' : 'Given temperatures';
+  const titles: Record<string, string> = {rpm: 'Spindle speed', 'mm/min': 'Feed', '1': 'Switches and shares', mm: 'Position'};
+  return titles[unit] ?? channels[0]!.name;
+}
+
+/** Which data set a panel shows, where there are several. */
+export const ofRun = (run: Run, runs: Run[]): string => (runs.length > 1 ? `, ${run.name}` : '');
 
 /** One or several runs: the machine on one side, all courses on the other, one time for both. */
 export function runsSection(section: RunsSection, numbers: Numbers, state: PageState): HTMLElement {
@@ -34,13 +40,13 @@ export function runsSection(section: RunsSection, numbers: Numbers, state: PageS
   state.time.value = tellingTime(runs);
 
   const inputs = [...byUnit(shownInputs(reference, numbers))].map(([unit, channels]) => coursesPanel({
-    title: inputTitles[unit] ?? channels[0]!.name, file: `input_${unit.replace(/\W/g, '_')}`,
-    quantity: unit === 'degC' ? 'Air' : quantities[unit] ?? 'Value', runs: [{name: reference.name, channels}], kind: null, state, range,
+    title: `${inputTitle(unit, channels)}${ofRun(reference, runs)}`, file: `input_${unit.replace(/\W/g, '_')}`,
+    quantity: quantities[unit] ?? 'Value', runs: [{...reference, channels}], sets: runs.length, kind: null, state, range,
     height: 152,
   }));
   const machine = machineParts(section, numbers, runs, state);
   const courses = make('div', {class: 'courses'}, ...inputs,
-    ...channelPanels(runs, state, range), ...heatPanel(reference, state, range));
+    ...channelPanels(runs, state, range), ...heatPanel(reference, runs, state, range));
   const below = [...positioningPanels(runs, numbers, state, range), factsPanel(runs)];
   if (runs.length > 1) chooseWorst(runs, state);
   return make('section', {class: 'runs', 'data-kind': 'runs'},
@@ -55,7 +61,9 @@ function machineParts(section: RunsSection, numbers: Numbers, runs: Run[], state
   if (!machine) return runs.length ? remarks : [];
   const drawn = runs.find((run) => run.set === section.sets[machine.set])!;
   const readings = new Map(drawn.readings.map((course) => [course.name, course]));
-  const view = new MachineView(machine, numbers, drawn.time, readings, state);
+  const view = new MachineView(machine, numbers, drawn.time, readings, state, {
+    quantity: 'Temperature / °C', caption: (t) => `${runs.length > 1 ? `${drawn.name}, ` : ''}t = ${timeText(t)}`,
+  });
   const bodies = machine.field
     ? bodyPanel(machine, bodyCourses(machine.field, numbers, drawn.time, machine.bodies.length), state, timeRange(runs))
     : null;
@@ -68,14 +76,14 @@ function channelPanels(runs: Run[], state: PageState, range: [number, number]): 
     const units = [...new Set(runs.flatMap((run) => pick(run).map((c) => c.unit)))].sort((a, b) => order(a) - order(b));
     for (const unit of units) {
       const ofUnit = (run: Run): NamedCourse[] => pick(run).filter((c) => c.unit === unit);
-      const shown = runs.map((run) => ({name: run.name, channels: ofUnit(run)})).filter((run) => run.channels.length > 0);
+      const shown = runs.map((run) => ({...run, channels: ofUnit(run)})).filter((run) => run.channels.length > 0);
       const heading = unit === 'urad' ? 'Tilt' : title, file = `${heading.toLowerCase().replaceAll(' ', '_')}_${unit}`;
       const quantity = quantities[unit] ?? 'Value';
-      panels.push(coursesPanel({title: heading, file, quantity, runs: shown, kind, state, range, height: kind === 'sensor' ? 250 : 200}));
+      panels.push(coursesPanel({title: heading, file, quantity, runs: shown, sets: runs.length, kind, state, range, height: kind === 'sensor' ? 250 : 200}));
       const differences = residualRuns(runs, ofUnit);
       if (differences.length) panels.push(coursesPanel({
         title: `Residual of ${heading.toLowerCase()}`, file: `residual_${file}`, quantity: 'Residual',
-        runs: differences, kind, state, range, height: 160,
+        runs: differences, sets: runs.length, kind, state, range, height: 160,
       }), residualMap(`${heading}: residual by window`, `residual_map_${file}`, differences, state, range));
     }
   };
@@ -87,11 +95,11 @@ function channelPanels(runs: Run[], state: PageState, range: [number, number]): 
   return panels;
 }
 
-function heatPanel(run: Run, state: PageState, range: [number, number]): HTMLElement[] {
+function heatPanel(run: Run, runs: Run[], state: PageState, range: [number, number]): HTMLElement[] {
   const made = run.heat.filter((course) => Array.prototype.some.call(course.values, (v: number) => v !== 0));
   if (made.length === 0) return [];
-  return [coursesPanel({title: 'Heat given to the bodies', file: 'heat', quantity: 'Heat', runs: [{name: run.name, channels: made}],
-    kind: null, state, range, height: 220})];
+  return [coursesPanel({title: `Heat given to the bodies${ofRun(run, runs)}`, file: 'heat', quantity: 'Heat',
+    runs: [{...run, channels: made}], sets: runs.length, kind: null, state, range, height: 220})];
 }
 
 /** With several data sets, the channel that disagrees most is chosen to begin with. */

@@ -94,7 +94,8 @@ function functionsPanel(f: NonNullable<VolumetricSection['functions']>[number], 
   ], new Chart({
     x: {label: `${f.axis} / mm`, range: extent([f.position_mm])}, y: {label: 'Error / µm'},
     lines: [...pick(f.predicted_um), ...pick(f.true_um, [5, 4])], dark: state.dark, height: 190, describe: `Identified and true error along ${f.axis}`,
-  }).element, make('p', {class: 'key'}, ...swatches, make('span', {}, 'solid: identified; dashed: true')));
+  }).element, make('p', {class: 'key'}, ...swatches, make('span', {}, 'solid: identified; dashed: true')),
+  make('p', {class: 'words'}, 'The true errors are turned, as a whole, to where the identified ones have the workpiece: the diagonals do not show how it lies.'));
 }
 
 function driftPanel({drift}: VolumetricSection, state: PageState): HTMLElement {
