@@ -13,6 +13,7 @@
 #include "twin/study/judgement.h"
 #include "twin/study/study_page.h"
 #include "twin/study/study_runs.h"
+#include "twin/study/verdict.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -359,6 +360,31 @@ improvement = 75
   EXPECT_THAT(study_text(report), HasSubstr("\"nobody errs\" does not hold: cross.rmse of all + linear: "));
 }
 
+/// Half a micrometre less in each repetition, though repetitions differ by eight.
+TEST(StudyVerdict, ComparesCombinationsInTheSameRepetition) {
+  StudyReport report;
+  report.description.worlds.resize(1);
+  report.units = {"um"};
+  report.rows = {{"", "all", "linear", {{"cross.rmse", {1.0, 5.0, 9.0}}}, {}, {}, {}},
+                 {"", "all", "ridge", {{"cross.rmse", {1.5, 5.5, 9.5}}}, {}, {}, {}}};
+  StudyClaim claim;
+  claim.combination = "all + linear";
+  claim.than = "all + ridge";
+  report.description.claims.push_back(claim);
+  claim.improvement = 20.0;
+  report.description.claims.push_back(claim);
+  claim.improvement = {};
+  std::swap(claim.combination, claim.than);
+  claim.tolerance = 60.0;
+  report.description.claims.push_back(claim);
+  put_verdict(report);
+  EXPECT_EQ(report.claims.at(0).answer, ClaimVerdict::Answer::holds);
+  EXPECT_THAT(report.claims.at(0).words, HasSubstr("; 9.1 ± 0.0 % less"));
+  EXPECT_EQ(report.claims.at(1).answer, ClaimVerdict::Answer::undecided);
+  EXPECT_EQ(report.claims.at(2).answer, ClaimVerdict::Answer::undecided);
+  EXPECT_THAT(report.claims.at(2).words, HasSubstr("-10.0 ± 0.0 % less, against 60 % more at most"));
+}
+
 TEST(Study, RefusedCombinationsStandInTheTable) {
   auto text = head + world;
   text.replace(text.find("\"linear\", \"ridge\""), 17, "\"linear\", \"distributed_lag\"");
@@ -421,6 +447,9 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
   EXPECT_THAT(with(all, "E_Z", "E_W"), HasSubstr("world 'v450': fast.toml has no displacement 'E_W'; did you mean"));
   EXPECT_THAT(with(all, "\"T9\"", "\"T19\""), HasSubstr("the machine has no sensor 'T19'; did you mean"));
   EXPECT_THAT(with(all, "error =", "eror ="), HasSubstr("small.toml:10:1: unknown key 'eror'; did you mean 'error'"));
+  EXPECT_THAT(SmallStudy(all + "[[claim]]\nsays = \"x\"\ncombination = \"all + linear\"\nat_most = 1\ntolerance = 5\n")
+                  .complaint(),
+              HasSubstr("small.toml:18:13: a 'tolerance' says no worse than another combination; give 'than'"));
   EXPECT_THAT(with(all, "error =", "sampling = \"0 s\"\nerror ="),
               HasSubstr("small.toml:10:12: 'sampling' is 0 s; an interval of more than 0 is due"));
   EXPECT_THAT(with(all, "test =", "instant = [{ experiment = \"slow.toml\", time = \"60 min\" }]\ntest ="),
