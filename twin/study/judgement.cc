@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "models/batch_statistics.h"
 #include "models/feed_axis.h"
