@@ -8,6 +8,7 @@
 
 #include "models/mutual_information.h"
 #include "models/ranking.h"
+#include "models/shared_screen.h"
 
 namespace thermotwin::models {
 
@@ -105,7 +106,8 @@ Index memory_of(VectorXd const& record) {
 Selection select_by_mutual_information(std::span<Batch const> batches, SelectionOptions const& options) {
   auto const from = candidates(batches, options);
   require_error_that_moves(from);
-  auto const screen = screen_by_information(from, options.seed);
+  auto const shared = options.shared ? options.shared : std::make_shared<SharedScreen>();
+  auto const& screen = shared->screen(from, options.seed);
   auto chosen = ranked(screen.information, screen.kept);
   if (options.count) chosen = completed(chosen, *options.count, screen.information);
   return selection(from, chosen, screen.information, screen.remark);

@@ -8,10 +8,9 @@
 
 #include "models/candidates.h"
 #include "models/class_count.h"
-#include "models/information_screen.h"
 #include "models/linear_regression.h"
-#include "models/ordered_clustering.h"
 #include "models/ranking.h"
+#include "models/shared_screen.h"
 
 namespace thermotwin::models {
 
@@ -46,15 +45,12 @@ struct OrderedSensors {
 OrderedSensors ordered_sensors(std::span<Batch const> batches, SelectionOptions const& options) {
   auto from = candidates(batches, options);
   require_error_that_moves(from);
-  auto screen = screen_by_information(from, options.seed);
+  auto const shared = options.shared ? options.shared : std::make_shared<SharedScreen>();
+  auto const& screen = shared->screen(from, options.seed);
   bool const enough = options.count.value_or(0) <= std::ssize(screen.kept);
-  auto const clustered = enough ? screen.kept : first_numbers(from.count());
-  MatrixXd const rise = from.all.temperature_rise(Eigen::all, clustered);
-  std::vector<Index> order;
-  for (Index const place : ascending(rise)) order.push_back(clustered[static_cast<std::size_t>(place)]);
-  OrderedPartitions partitions(class_diameters(normalised(from.all.temperature_rise(Eigen::all, order))));
+  auto const& [order, partitions] = shared->ordered(from, options.seed, !enough);
   auto counts = options.count ? std::vector{*options.count} : bends(partitions.loss());
-  return {std::move(from), std::move(screen), std::move(order), std::move(partitions), std::move(counts)};
+  return {std::move(from), screen, order, partitions, std::move(counts)};
 }
 
 ClassCountTrial trial(OrderedSensors const& ordered, int k) {

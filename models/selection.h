@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,11 +13,14 @@
 
 namespace thermotwin::models {
 
+class SharedScreen;
+
 struct SelectionOptions {
   std::optional<int> count;       ///< how many sensors; without it the method's own rule decides
   std::uint64_t seed = 1;         ///< of permutations, random starts and shuffles
   double resolution = 0.0625;     ///< of the temperature readings [K], for the rank by time characteristic
   Eigen::MatrixXd mode_shapes{};  ///< p × modes: temperature of each sensor in each thermal mode, for "thermal_modes"
+  std::shared_ptr<SharedScreen> shared{};  ///< with other methods, on the same batches with the same seed; may be none
 };
 
 /// What a method chose.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "models/linear_regression.h"
+#include "models/shared_screen.h"
 #include "tests/models/planted_noise.h"
 #include "tests/models/simulated_batch.h"
 
@@ -84,6 +85,23 @@ TEST(OrderedSelection, ACountIsKeptByEachRuleUpToAllSensors) {
       EXPECT_TRUE(std::is_sorted(chosen.sensors.begin(), chosen.sensors.end(),
                                  [&](Index a, Index b) { return chosen.score(a) > chosen.score(b); }));
     }
+}
+
+TEST(OrderedSelection, MethodsThatShareAScreenChooseAsWithoutAndScreenOnce) {
+  Batch const run = four_components(3);
+  auto const shared = std::make_shared<SharedScreen>();
+  for (auto const select : {select_by_mutual_information, select_by_ordered_clustering_improved,
+                            select_by_ordered_clustering_ratio, select_by_ordered_clustering_slope})
+    for (std::optional<int> const count : {std::optional<int>(), std::optional(3), std::optional(10)}) {
+      auto const alone = select({&run, 1}, {.count = count}),
+                 together = select({&run, 1}, {.count = count, .shared = shared});
+      EXPECT_EQ(together.sensors, alone.sensors);
+      EXPECT_EQ(together.score, alone.score);
+      EXPECT_EQ(together.remark, alone.remark);
+    }
+  Batch const other = four_components(4);
+  auto const first = candidates({&run, 1}, {}), second = candidates({&other, 1}, {});
+  EXPECT_EQ(shared->screen(second, 1).information, screen_by_information(first, 1).information);
 }
 
 TEST(OrderedSelection, RemarkHasTheFiguresThatDecided) {

@@ -1,4 +1,8 @@
-"""Reads a table (inputs, then the response) from standard input and prints what scikit-learn makes of it."""
+"""Reads a table (inputs, then the response) from standard input and prints what scikit-learn makes of it.
+
+c_means: inputs are coordinates of points and then their memberships to start from; the response is not looked at. The
+iteration is that of methods.md 4.3, in numpy.
+"""
 
 import sys
 
@@ -28,5 +32,16 @@ elif kind == "ridge":
     (penalty,) = numbers
     z = (x - x.mean(0)) / x.std(0)
     result = Ridge(alpha=penalty * len(y), solver="svd").fit(z, y).predict(z)
+elif kind == "c_means":
+    clusters, exponent = int(numbers[0]), numbers[1]
+    points, u = x[:, :-clusters], x[:, -clusters:].T
+    change = 1.0
+    while change > 1e-12:
+        weights = u**exponent
+        v = weights @ points / weights.sum(1, keepdims=True)
+        d = numpy.linalg.norm(points[None, :, :] - v[:, None, :], axis=2)
+        new = 1 / ((d[:, None, :] / d[None, :, :]) ** (2 / (exponent - 1))).sum(1)
+        change, u = abs(new - u).max(), new
+    result = numpy.concatenate([u.ravel(), v.ravel()])
 
 print("\n".join(repr(float(value)) for value in result))

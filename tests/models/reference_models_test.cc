@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
+#include "models/fuzzy_c_means.h"
 #include "models/gaussian_kernel.h"
 #include "models/principal_component.h"
 #include "models/ridge.h"
@@ -10,7 +11,8 @@
 #include "tests/models/simulated_batch.h"
 #include "tests/output/temporary_directory.h"
 
-// ε-SVR, principal components and ridge against scikit-learn on the same numbers.
+// ε-SVR, principal components and ridge against scikit-learn on the same numbers; fuzzy c-means against the iteration
+// of methods.md §4.3 in numpy.
 
 namespace thermotwin::models {
 namespace {
@@ -19,7 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// What the script prints for this question.
-VectorXd scikit_learn(std::string const& question, Batch const& batch) {
+VectorXd reference(std::string const& question, Batch const& batch) {
   tests::TemporaryDirectory const directory;
   auto const table = directory / "table.txt";
   std::string text;
@@ -58,7 +60,7 @@ TEST(ReferenceModels, SupportVectorsPredictWhatScikitLearnPredicts) {
     auto const fit =
         SupportVectorSolver(kernel).solve(batch.error, rows, {.cost = cost, .epsilon = 0.05, .tolerance = 1e-9});
     VectorXd const ours = (kernel * fit.weights).array() + fit.intercept;
-    auto const theirs = scikit_learn(fmt::format("support_vector {} {} 0.05", cost, g), batch);
+    auto const theirs = reference(fmt::format("support_vector {} {} 0.05", cost, g), batch);
     ASSERT_EQ(theirs.size(), 90);
     EXPECT_LT((ours - theirs).cwiseAbs().maxCoeff(), 1e-6) << cost << ' ' << g;
   }
@@ -67,10 +69,10 @@ TEST(ReferenceModels, SupportVectorsPredictWhatScikitLearnPredicts) {
 TEST(ReferenceModels, PrincipalComponentsAreScikitLearns) {
   auto const batch = fixture(2);
   auto const ours = principal_components(batch.temperature_rise);
-  auto const variances = scikit_learn("principal_components", batch);
+  auto const variances = reference("principal_components", batch);
   ASSERT_EQ(variances.size(), 3);
   EXPECT_LT((ours.variances - variances).cwiseAbs().maxCoeff(), 1e-10);
-  auto const directions = scikit_learn("directions", batch);
+  auto const directions = reference("directions", batch);
   ASSERT_EQ(directions.size(), 9);
   EXPECT_LT((ours.directions.reshaped() - directions).cwiseAbs().maxCoeff(), 1e-8);
 }
@@ -79,9 +81,29 @@ TEST(ReferenceModels, RidgePredictsWhatScikitLearnPredicts) {
   auto const batch = fixture(3);
   auto const fit = ridge_regression(batch.temperature_rise, batch.error, 5);
   VectorXd const ours = (batch.temperature_rise * fit.coefficients).array() + fit.intercept;
-  auto const theirs = scikit_learn(fmt::format("ridge {}", fit.penalty), batch);
+  auto const theirs = reference(fmt::format("ridge {}", fit.penalty), batch);
   ASSERT_EQ(theirs.size(), 90);
   EXPECT_LT((ours - theirs).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+/// From the memberships after the first iteration on: memberships and centres where both stand.
+TEST(ReferenceModels, FuzzyCMeansEndWhereNumpyDoes) {
+  MatrixXd const points = fixture(4).temperature_rise;
+  for (auto const& [clusters, exponent] : {std::pair{3, 2.0}, {4, 1.6}, {2, 2.7}}) {
+    FuzzyOptions options{.exponent = exponent, .tolerance = 1e-12, .iterations = 1, .starts = 1};
+    auto const first = fuzzy_c_means(points, clusters, options);
+    options.iterations = 10'000;
+    auto const ours = fuzzy_c_means(points, clusters, options);
+    MatrixXd table(points.rows(), points.cols() + clusters);
+    table << points, first.membership.transpose();
+    auto const theirs =
+        reference(fmt::format("c_means {} {}", clusters, exponent), batch_of(table, VectorXd::Zero(points.rows())));
+    auto const shares = clusters * points.rows(), numbers = shares + clusters * points.cols();
+    ASSERT_EQ(theirs.size(), numbers);
+    EXPECT_LT((ours.membership.reshaped<Eigen::RowMajor>() - theirs.head(shares)).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT((ours.centres.reshaped<Eigen::RowMajor>() - theirs.tail(numbers - shares)).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_GT((ours.membership - first.membership).cwiseAbs().maxCoeff(), 1e-3);  // there was a way to go
+  }
 }
 
 }  // namespace

@@ -10,8 +10,10 @@
 #include "twin/experiment_file.h"
 #include "twin/run.h"
 #include "twin/study/choice.h"
+#include "twin/study/judgement.h"
 #include "twin/study/study_page.h"
 #include "twin/study/study_runs.h"
+#include "twin/study/verdict.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -205,6 +207,49 @@ TEST(Study, MeasuredRunsHaveATwinToo) {
   EXPECT_LT(twin.at("validation.rmse").front(), 2.0);
 }
 
+/// The small study's world on measured files.
+std::string measured_world(std::string const& sampling) {
+  auto text = head + world + "sampling = \"" + sampling + "\"\n";
+  for (auto const* name : {"fast", "slow"})
+    text.replace(text.find(std::string(name) + ".toml"), 9, std::string(name) + ".h5");
+  return text;
+}
+
+/// Writes these; fast has a sensor that stands still, one that the machine lacks, and misses readings.
+void measure_with_faults(SmallStudy const& study) {
+  for (std::string const name : {"fast", "slow"}) {
+    auto const programme = study.experiment_path(name + ".toml");
+    auto data = run(Machine::read(machine_file("v450")), read_experiment(read_toml(programme), programme), {}).dataset;
+    if (name == "fast") {
+      for (auto& channel : data.readings) {
+        if (channel.name == "T9") channel.values.setConstant(20.0);
+        if (channel.name == "T1") channel.values.segment(4, 2).setConstant(NAN);
+      }
+      for (auto& channel : data.displacements)
+        if (channel.name == "E_Z") channel.values[10] = NAN;
+      data.readings.push_back(data.readings.front());
+      data.readings.back().name = "T99";
+    }
+    output::write(data, study.experiment_path(name + ".h5"));
+  }
+}
+
+TEST(Study, SaysWhatMeasuredRunsLack) {
+  SmallStudy const study(measured_world("9 min"));
+  measure_with_faults(study);
+  auto const remarks = study.report().remarks;
+  for (auto const* remark :
+       {"v450: fast.h5: 'T9' is dead: it never moves", "v450: T9 is left out: it is dead in fast.h5",
+        "v450: fast.h5: in the data, but not used: T99",
+        "v450: fast.h5: of 31 rows, readings are missing, and the means are over the others: "
+        "T1 2, E_Z 1"})
+    EXPECT_THAT(remarks, testing::Contains(remark));
+  SmallStudy const finer(measured_world("1 min"));
+  measure_with_faults(finer);
+  EXPECT_THAT(finer.complaint(),
+              HasSubstr("world 'v450': 'sampling' is 60 s, finer than the 180 s between the rows of "));
+}
+
 TEST(Study, TreatsEachRunAsABatchOfItsOwn) {
   std::string const batches = R"(
 [[world]]
@@ -238,9 +283,36 @@ instant = [{ experiment = "feed_12000", time = "150 min" }]
 )";
   auto const report = SmallStudy(head + axis).report();
   EXPECT_EQ(report.units.at(0), "um/m");
+  EXPECT_THAT(study_text(report), HasSubstr("feed_12000 at 150 min"));
+  auto late = axis;
+  late.replace(late.find("150 min"), 7, "900 min");
+  EXPECT_THAT(SmallStudy(head + late).complaint(),
+              HasSubstr("world 'axis': no pass of the laser in feed_12000 at 900 min; they are from 0 min to "));
   auto const& figures = row(report, "all + linear").figures;
   for (double const rmse : figures.at("feed_12000 at 150 min.rmse")) EXPECT_LT(rmse, 5.0);
   EXPECT_LE(figures.at("feed_12000 at 150 min.mae")[0], figures.at("feed_12000 at 150 min.max")[0]);
+}
+
+/// What the laser showed pivots at 0.2 m, the true error at 0.3 m: the fit knows the first, the judgement the second.
+TEST(StudyJudgement, FitsTheZeroPositionToWhatTheLaserShowed) {
+  double const slope = 10.0;  // µm/m
+  auto const record = [&](double zero) {
+    models::AxisRecord axis{"run", Eigen::Vector2d(0, 900), {"T1"}, {"nut"}, Eigen::MatrixXd::Zero(2, 1), {}, {}};
+    axis.position = Eigen::Vector3d(0.0, 0.25, 0.5);
+    axis.error = slope * Eigen::Vector2d::Ones() * (axis.position.array() - zero).matrix().transpose();
+    return axis;
+  };
+  WorldData data;
+  data.train = {{{models::slope_batch(record(0.2)), models::slope_batch(record(0.3)), record(0.2), record(0.3)}}};
+  data.test.resize(1);
+  StudyWorld axis;
+  axis.instants = {{"run", 900.0}};
+  models::ErrorModel model;
+  model.inputs = {"T1"};
+  model.form = models::LinearForm{slope, {0}, Eigen::MatrixXd::Zero(1, 1), 0};
+  auto const figures = judged_instants(axis, data, 0, model);
+  for (auto const* name : {"rmse", "mae", "max"})
+    EXPECT_NEAR(figures.at(std::string("run at 15 min.") + name), 0.1 * slope, 1e-9) << name;
 }
 
 TEST(Study, ClaimsAreDecidedByIntervals) {
@@ -263,12 +335,54 @@ says = "there is such a figure"
 combination = "all + linear"
 figure = "verification.Mn"
 at_most = 1
+[[claim]]
+says = "it is better than itself"
+combination = "all + linear"
+than = "all + linear"
+[[claim]]
+says = "it is no worse than itself"
+combination = "all + linear"
+than = "all + linear"
+tolerance = 0
+[[claim]]
+says = "it is better than itself by three quarters"
+combination = "all + linear"
+than = "all + linear"
+improvement = 75
 )";
   auto const report = SmallStudy(head + world + claims).report();
   EXPECT_EQ(report.claims.at(1).answer, ClaimVerdict::Answer::holds);
   EXPECT_EQ(report.claims.at(2).answer, ClaimVerdict::Answer::fails);
   EXPECT_EQ(report.claims.at(3).answer, ClaimVerdict::Answer::refused);
+  EXPECT_EQ(report.claims.at(4).answer, ClaimVerdict::Answer::fails);
+  EXPECT_EQ(report.claims.at(5).answer, ClaimVerdict::Answer::holds);
+  EXPECT_EQ(report.claims.at(6).answer, ClaimVerdict::Answer::fails);
   EXPECT_THAT(study_text(report), HasSubstr("\"nobody errs\" does not hold: cross.rmse of all + linear: "));
+}
+
+/// Half a micrometre less in each repetition, though repetitions differ by eight.
+TEST(StudyVerdict, ComparesCombinationsInTheSameRepetition) {
+  StudyReport report;
+  report.description.worlds.resize(1);
+  report.units = {"um"};
+  report.rows = {{"", "all", "linear", {{"cross.rmse", {1.0, 5.0, 9.0}}}, {}, {}, {}},
+                 {"", "all", "ridge", {{"cross.rmse", {1.5, 5.5, 9.5}}}, {}, {}, {}}};
+  StudyClaim claim;
+  claim.combination = "all + linear";
+  claim.than = "all + ridge";
+  report.description.claims.push_back(claim);
+  claim.improvement = 20.0;
+  report.description.claims.push_back(claim);
+  claim.improvement = {};
+  std::swap(claim.combination, claim.than);
+  claim.tolerance = 60.0;
+  report.description.claims.push_back(claim);
+  put_verdict(report);
+  EXPECT_EQ(report.claims.at(0).answer, ClaimVerdict::Answer::holds);
+  EXPECT_THAT(report.claims.at(0).words, HasSubstr("; 9.1 ± 0.0 % less"));
+  EXPECT_EQ(report.claims.at(1).answer, ClaimVerdict::Answer::undecided);
+  EXPECT_EQ(report.claims.at(2).answer, ClaimVerdict::Answer::undecided);
+  EXPECT_THAT(report.claims.at(2).words, HasSubstr("-10.0 ± 0.0 % less, against 60 % more at most"));
 }
 
 TEST(Study, RefusedCombinationsStandInTheTable) {
@@ -282,6 +396,16 @@ TEST(Study, RefusedCombinationsStandInTheTable) {
   EXPECT_FALSE(row(report, "forward 2 + distributed_lag").figures.empty());
   EXPECT_THAT(study_text(report), HasSubstr("refused: "));
   EXPECT_THAT(study_csv(report), HasSubstr(",distributed_lag,"));
+}
+
+TEST(Study, RemarksOfFitsStandInTheTable) {
+  auto text = head + world;
+  text.replace(text.find("\"ridge\""), 7, "\"back_propagation\"");
+  auto const report = SmallStudy(text).report();  // 3 + 7 + 1 nodes
+  auto const remark = row(report, "all + back_propagation").remark;
+  EXPECT_THAT(remark, HasSubstr("36 parameters for 31 samples"));
+  EXPECT_THAT(study_text(report), HasSubstr("  " + remark + "\n"));
+  EXPECT_THAT(study_csv(report), HasSubstr(",T1 T8 T9,\"" + remark + "\","));
 }
 
 TEST(Study, SaysWhichSensorsItLeavesOut) {
@@ -325,6 +449,14 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
   EXPECT_THAT(with(all, "\"T9\"", "\"T19\""),
               HasSubstr("small.toml:11:24: world 'v450': the machine has no sensor 'T19'; did you mean"));
   EXPECT_THAT(with(all, "error =", "eror ="), HasSubstr("small.toml:10:1: unknown key 'eror'; did you mean 'error'"));
+  EXPECT_THAT(SmallStudy(all + "[[claim]]\nsays = \"x\"\ncombination = \"all + linear\"\nat_most = 1\ntolerance = 5\n")
+                  .complaint(),
+              HasSubstr("small.toml:18:13: a 'tolerance' says no worse than another combination; give 'than'"));
+  EXPECT_THAT(with(all, "error =", "sampling = \"0 s\"\nerror ="),
+              HasSubstr("small.toml:10:12: 'sampling' is 0 s; an interval of more than 0 is due"));
+  EXPECT_THAT(with(all, "test =", "instant = [{ experiment = \"slow.toml\", time = \"60 min\" }]\ntest ="),
+              HasSubstr("small.toml:13:12: an 'instant' judges the error over an axis, but 'error' is 'E_Z'; give a "
+                        "slope, for example \"slope z\""));
   EXPECT_THAT(with(all, "slow.toml", "missing.toml"),
               HasSubstr("small.toml:13:9: world 'v450': 'missing.toml' is not there: "));
   EXPECT_THAT(with(all, "slow.toml", "fast.toml"), HasSubstr("'fast.toml' is in 'train', too"));

@@ -16,10 +16,10 @@ models::Selection every_sensor(Index count) {
 }
 
 models::Selection selected(NamedSelection const& method, Question const& question, WorldData const& data,
-                           std::uint64_t seed) {
+                           std::uint64_t seed, std::shared_ptr<models::SharedScreen> shared) {
   auto const moving = Index(question.columns.size());
   if (method.name == "all") return every_sensor(moving);
-  models::SelectionOptions options{.count = method.count, .seed = seed};
+  models::SelectionOptions options{.count = method.count, .seed = seed, .shared = std::move(shared)};
   if (method.name == "thermal_modes") {
     if (data.mode_shapes.size() == 0) throw std::invalid_argument(data.no_modes);
     options.mode_shapes = data.mode_shapes(question.columns, Eigen::all);
@@ -29,10 +29,11 @@ models::Selection selected(NamedSelection const& method, Question const& questio
 
 }  // namespace
 
-Choice choose(NamedSelection const& method, Question const& question, WorldData const& data, std::uint64_t seed) {
+Choice choose(NamedSelection const& method, Question const& question, WorldData const& data, std::uint64_t seed,
+              std::shared_ptr<models::SharedScreen> shared) {
   Choice choice;
   try {
-    auto const found = selected(method, question, data, seed);
+    auto const found = selected(method, question, data, seed, std::move(shared));
     choice.selection.remark = found.remark;
     choice.selection.score = Eigen::VectorXd::Zero(Index(data.sensors.size()));
     for (std::size_t j = 0; j < question.columns.size(); ++j)

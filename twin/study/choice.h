@@ -11,6 +11,7 @@
 #include "models/exhaustive_selection.h"
 #include "models/selection.h"
 #include "models/selection_score.h"
+#include "models/shared_screen.h"
 #include "models/subset_validation.h"
 #include "twin/study/question.h"
 
@@ -23,8 +24,9 @@ struct Choice {
   std::string refused;                ///< empty if it chose
 };
 
+/// `shared`: by all methods that choose for this question with this seed.
 [[nodiscard]] Choice choose(NamedSelection const& method, Question const& question, WorldData const& data,
-                            std::uint64_t seed);
+                            std::uint64_t seed, std::shared_ptr<models::SharedScreen> shared = {});
 
 /// How good a choice is, by the truth of a world.
 struct ChoiceQuality {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "models/batch_statistics.h"
 #include "models/feed_axis.h"
@@ -151,14 +150,16 @@ Named judged_instants(StudyWorld const& world, WorldData const& data, int repeti
   std::vector<models::AxisRecord> records;
   for (auto const& run : train) records.push_back(*run.axis);
   models::FeedAxisModel const model{slope, models::zero_position(records)};
-  for (auto const& run : test) records.push_back(*run.axis);
+  records.clear();
+  for (auto const* list : {&train, &test})
+    for (auto const& run : *list) records.push_back(*run.judged_axis);
   for (auto const& instant : world.instants)
     for (auto const& record : records) {
       if (record.name != instant.experiment) continue;
       Index row = 0;
       (record.time.array() - instant.time).abs().minCoeff(&row);
       auto const m = model.at_instant(record, row, record.position.minCoeff(), record.position.maxCoeff());
-      auto const name = fmt::format("{} at {:g} min", record.name, instant.time / 60.0);
+      auto const name = instant.name();
       figures[name + ".rmse"] = m.rmse;
       figures[name + ".mae"] = m.mae;
       figures[name + ".max"] = m.max;

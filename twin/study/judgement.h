@@ -37,7 +37,8 @@ struct Answer {
 [[nodiscard]] std::map<std::string, double> judged(std::vector<Answer> const& fits,
                                                    std::vector<Answer> const& validations, std::size_t train_runs);
 
-/// rmse, mae, max over the judged positions of a laser at the world's instants: "feed_8000 at 60 min.rmse".
+/// rmse, mae, max over the judged positions of a laser at the world's instants: "feed_8000 at 60 min.rmse". The zero
+/// position is fitted to what the laser showed in the training runs; judged is against the true errors.
 [[nodiscard]] std::map<std::string, double> judged_instants(StudyWorld const& world, WorldData const& data,
                                                             int repetition, models::ErrorModel const& slope);
 

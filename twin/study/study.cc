@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <set>
 
@@ -23,6 +24,7 @@ struct Repetition {
   int number;  ///< within its world
   Questions questions;
   std::vector<Question const*> all;                               ///< fits, then validations
+  std::vector<std::shared_ptr<models::SharedScreen>> screens;     ///< per question, for all selections
   std::vector<std::vector<Choice>> choices;                       ///< per question, per selection
   std::vector<std::vector<std::map<Columns, FittedModel>>> fits;  ///< per question, per model
   std::vector<Question> less_twin;                                ///< what a model beside a twin is asked, if any is
@@ -52,6 +54,7 @@ class StudyRunner {
   void judge_combinations(StudyReport& report);
   void put_improvements(StudyReport& report) const;
   void put_means(StudyReport& report) const;
+  [[nodiscard]] std::vector<std::string> remarks() const;
   [[nodiscard]] std::string answers_of(Repetition const& repetition, std::size_t selection, std::size_t model,
                                        std::vector<Answer>& fits, std::vector<Answer>& validations) const;
   [[nodiscard]] Combination combination(std::size_t world, std::size_t selection, std::size_t model) const;
@@ -78,7 +81,8 @@ void StudyRunner::ask() {
   for (std::size_t w = 0; w < worlds_.size(); ++w)
     for (int r = 0; r < worlds_[w].repetitions(); ++r) {
       try {
-        repetitions_.push_back({w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}, {}, {}});
+        repetitions_.push_back(
+            {w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}, {}, {}, {}});
       } catch (thermal::InputError const& error) {
         throw thermal::InputError(fmt::format("world '{}': {}", study_.worlds[w].name, error.what()));
       }
@@ -86,6 +90,8 @@ void StudyRunner::ask() {
   for (auto& repetition : repetitions_) {
     for (auto const* list : {&repetition.questions.fits, &repetition.questions.validations})
       for (auto const& question : *list) repetition.all.push_back(&question);
+    for (std::size_t q = 0; q < repetition.all.size(); ++q)
+      repetition.screens.push_back(std::make_shared<models::SharedScreen>());
     repetition.choices.assign(repetition.all.size(), std::vector<Choice>(selections_.size()));
     repetition.fits.assign(repetition.all.size(), std::vector<std::map<Columns, FittedModel>>(models_.size()));
   }
@@ -102,8 +108,8 @@ void StudyRunner::choose_all() {
       for (std::size_t s = 0; s < selections_.size(); ++s) tasks.push_back({&repetition, q, s});
   in_parallel(tasks.size(), progress("selections"), options_.stop, [&](std::size_t i) {
     auto const& [repetition, q, s] = tasks[i];
-    repetition->choices[q][s] =
-        choose(selections_[s], *repetition->all[q], worlds_[repetition->world], seed_of(*repetition));
+    repetition->choices[q][s] = choose(selections_[s], *repetition->all[q], worlds_[repetition->world],
+                                       seed_of(*repetition), repetition->screens[q]);
   });
 }
 
@@ -291,6 +297,23 @@ void StudyRunner::put_means(StudyReport& report) const {
   }
 }
 
+/// Each once, with the worlds that it is about.
+std::vector<std::string> StudyRunner::remarks() const {
+  std::vector<std::pair<std::string, std::vector<std::string>>> told;
+  auto const tell = [&](std::string const& remark, std::string const& world) {
+    auto it = std::find_if(told.begin(), told.end(), [&](auto const& one) { return one.first == remark; });
+    if (it == told.end()) it = told.insert(it, {remark, {}});
+    if (it->second.empty() || it->second.back() != world) it->second.push_back(world);
+  };
+  for (std::size_t w = 0; w < worlds_.size(); ++w)
+    for (auto const& remark : worlds_[w].remarks) tell(remark, study_.worlds[w].name);
+  for (auto const& repetition : repetitions_)
+    for (auto const& remark : repetition.questions.remarks) tell(remark, study_.worlds[repetition.world].name);
+  std::vector<std::string> texts;
+  for (auto const& [remark, worlds] : told) texts.push_back(fmt::format("{}: {}", fmt::join(worlds, ", "), remark));
+  return texts;
+}
+
 StudyReport StudyRunner::run() {
   StudyReport report;
   report.description = study_;
@@ -305,13 +328,8 @@ StudyReport StudyRunner::run() {
   for (std::size_t w = 0; w < worlds_.size(); ++w) {
     report.units.push_back(worlds_[w].unit);
     report.repetitions.push_back(worlds_[w].repetitions());
-    for (auto const& remark : worlds_[w].remarks) report.remarks.push_back(study_.worlds[w].name + ": " + remark);
   }
-  std::set<std::string> told;
-  for (auto const& repetition : repetitions_)
-    for (auto const& remark : repetition.questions.remarks)
-      if (auto text = study_.worlds[repetition.world].name + ": " + remark; told.insert(text).second)
-        report.remarks.push_back(std::move(text));
+  report.remarks = remarks();
   put_verdict(report);
   return report;
 }

@@ -29,7 +29,7 @@ struct SelectionFigures {
   std::string remark;
 };
 
-/// A claim, and what the figures say of it: the ratio of the two figures, or the figure.
+/// A claim, and what the figures say of it: the two figures and their difference, or the figure.
 struct ClaimVerdict {
   StudyClaim claim;
   enum class Answer { holds, fails, undecided, refused } answer = Answer::refused;
@@ -46,7 +46,7 @@ struct StudyReport {
   std::vector<SelectionFigures> selections;
   std::vector<ClaimVerdict> claims;
   std::vector<std::string> verdict;  ///< sentences
-  std::vector<std::string> remarks;  ///< of each world: sensors left out
+  std::vector<std::string> remarks;  ///< with the worlds: sensors left out, what measured runs lack
 };
 
 struct StudyOptions {
@@ -54,8 +54,9 @@ struct StudyOptions {
   std::atomic<bool> const* stop = nullptr;
 };
 
-/// Every data set once, every selection once per training set, every model once per set of sensors and training set;
-/// all of it in parallel, the same bytes whatever the threads.
+/// Every data set once, every selection once per training set (screens and ordered clusters once for all selections
+/// that share them), every model once per set of sensors and training set; all of it in parallel, the same bytes
+/// whatever the threads.
 [[nodiscard]] StudyReport run_study(Study const& study, StudyOptions const& options = {});
 
 }  // namespace thermotwin::twin

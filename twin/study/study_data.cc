@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::string_view slope_prefix = "slope ";
-
 output::Channel const* channel_of(std::vector<output::Channel> const& group, std::string const& name) {
   auto const it = std::find_if(group.begin(), group.end(), [&](auto const& c) { return c.name == name; });
   return it == group.end() ? nullptr : &*it;
@@ -50,7 +48,10 @@ class WorldReader {
                                           std::string const& name) const;
   [[nodiscard]] Eigen::MatrixXd rises(View const& view) const;
   [[nodiscard]] std::vector<std::string> components() const;
-  [[nodiscard]] bool slope() const { return world_.error.starts_with(slope_prefix); }
+  void check_instants() const;
+  void remark_measured();
+  [[nodiscard]] std::string missing_readings(MeasuredRun const& run) const;
+  [[nodiscard]] std::vector<std::string> run_names() const;
 
   StudyWorld const& world_;
   WorldRuns const& runs_;
@@ -73,21 +74,69 @@ void WorldReader::leave_out(std::string const& sensor, std::string const& why) {
   data_.remarks.push_back(fmt::format("{} is left out: {}", sensor, why));
 }
 
-void WorldReader::check_sensors() {
+std::vector<std::string> WorldReader::run_names() const {
   std::vector<std::string> names = world_.train;
   names.insert(names.end(), world_.test.begin(), world_.test.end());
+  return names;
+}
+
+void WorldReader::check_sensors() {
+  auto const names = run_names();
   for (auto const& repetition : runs_.runs)
     for (std::size_t i = 0; i < repetition.size(); ++i)
       for (auto const& sensor : std::vector<std::string>(data_.sensors)) {
         auto const* channel = channel_of(repetition[i].readings, sensor);
         if (!channel)
           leave_out(sensor, fmt::format("{} does not have it", names[i]));
-        else if (auto const missing = (!channel->values.array().isFinite()).count(); missing > 0)
+        else if (auto const missing = (!channel->values.array().isFinite()).count(); missing == channel->values.size())
+          leave_out(sensor, fmt::format("it is dead in {}", names[i]));
+        else if (missing > 0)
           leave_out(sensor,
                     fmt::format("{} of {} readings are missing in {}", missing, channel->values.size(), names[i]));
       }
   if (data_.sensors.empty())
     throw thermal::InputError(fmt::format("no sensor is left: {}", fmt::join(data_.remarks, "; ")));
+}
+
+/// "T1 3, E_Z 12", of what models get to see.
+std::string WorldReader::missing_readings(MeasuredRun const& run) const {
+  std::vector<std::string> counts;
+  for (auto const& channel : run.channels) {
+    auto const missing = channel.values.tail(run.time.size() - first_reading(run)).array().isNaN().count();
+    bool const asked = channel.displacement
+                           ? channel.name == world_.error
+                           : std::find(data_.sensors.begin(), data_.sensors.end(), channel.name) != data_.sensors.end();
+    if (asked && missing > 0) counts.push_back(fmt::format("{} {}", channel.name, missing));
+  }
+  return fmt::format("{}", fmt::join(counts, ", "));
+}
+
+void WorldReader::remark_measured() {
+  auto const names = run_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!runs_.measured[i]) continue;
+    auto const& run = *runs_.measured[i];
+    for (auto const& remark : run.remarks) data_.remarks.push_back(names[i] + ": " + remark);
+    auto const missing = world_.sampling ? missing_readings(run) : std::string();
+    if (!missing.empty())
+      data_.remarks.push_back(fmt::format("{}: of {} rows, readings are missing, and the means are over the others: {}",
+                                          names[i], run.time.size() - first_reading(run), missing));
+  }
+}
+
+/// No pass of the laser is taken for one that was never made.
+void WorldReader::check_instants() const {
+  for (auto const& instant : world_.instants)
+    for (auto const* list : {&data_.train.front(), &data_.test.front()})
+      for (auto const& run : *list) {
+        if (run.seen.name != instant.experiment) continue;
+        auto const& time = run.axis->time;
+        double const apart = time.size() > 1 ? usual_interval({time.data(), std::size_t(time.size())}) : 0.0;
+        if ((time.array() - instant.time).abs().minCoeff() > 0.5 * apart + 1e-6)
+          throw thermal::InputError(fmt::format(
+              "no pass of the laser in {} at {:g} min; they are from {:g} min to {:g} min, {:g} min apart",
+              instant.experiment, instant.time / 60.0, time[0] / 60.0, time[time.size() - 1] / 60.0, apart / 60.0));
+      }
 }
 
 std::vector<std::string> WorldReader::components() const {
@@ -122,7 +171,7 @@ models::Batch WorldReader::batch(View const& view, Eigen::VectorXd const& time, 
 
 models::AxisRecord WorldReader::record(View const& readings, View const& errors, Eigen::VectorXd const& time,
                                        std::string const& name) const {
-  auto const axis = world_.error.substr(slope_prefix.size());
+  auto const axis = world_.error.substr(StudyWorld::slope_prefix.size());
   auto const it =
       std::find_if(errors.positioning.begin(), errors.positioning.end(), [&](auto const& p) { return p.axis == axis; });
   if (it == errors.positioning.end())
@@ -149,18 +198,22 @@ StudyRun WorldReader::run_of(output::Dataset const& data, std::string const& nam
   View const seen{data.readings, data.displacements, data.positioning};
   View const true_ones{data.truth_readings, data.truth_displacements, data.truth_positioning};
   bool const known = !data.truth_readings.empty();
-  if (!slope())
-    return {
-        batch(seen, data.time_s, name), known ? std::optional(batch(true_ones, data.time_s, name)) : std::nullopt, {}};
-  return {models::slope_batch(record(seen, seen, data.time_s, name)),
+  if (!world_.slope())
+    return {batch(seen, data.time_s, name),
+            known ? std::optional(batch(true_ones, data.time_s, name)) : std::nullopt,
+            {},
+            {}};
+  auto const axis = record(seen, seen, data.time_s, name);
+  return {models::slope_batch(axis),
           known ? std::optional(models::slope_batch(record(true_ones, true_ones, data.time_s, name))) : std::nullopt,
-          record(seen, known ? true_ones : seen, data.time_s, name)};
+          axis, record(seen, known ? true_ones : seen, data.time_s, name)};
 }
 
 WorldData WorldReader::read() {
   data_.sensors = candidates();
   check_sensors();
-  if (slope()) data_.unit = "um/m";
+  remark_measured();
+  if (world_.slope()) data_.unit = "um/m";
   for (auto const& repetition : runs_.runs) {
     auto& train = data_.train.emplace_back();
     auto& test = data_.test.emplace_back();
@@ -170,6 +223,7 @@ WorldData WorldReader::read() {
       else
         test.push_back(run_of(repetition[i], world_.test[i - world_.train.size()]));
   }
+  check_instants();
   data_.no_modes = runs_.no_modes;
   if (runs_.mode_shapes.size() == 0) return std::move(data_);
   std::vector<Index> rows;

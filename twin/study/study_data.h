@@ -17,15 +17,17 @@ namespace thermotwin::twin {
 
 /// One run of a world as models see it.
 struct StudyRun {
-  models::Batch seen;                      ///< as the instruments showed it
-  std::optional<models::Batch> truth;      ///< without noise, of a simulated run
-  std::optional<models::AxisRecord> axis;  ///< where the error is a slope: seen temperatures, true errors if known
+  models::Batch seen;                             ///< as the instruments showed it
+  std::optional<models::Batch> truth;             ///< without noise, of a simulated run
+  std::optional<models::AxisRecord> axis;         ///< where the error is a slope: as the instruments showed it
+  std::optional<models::AxisRecord> judged_axis;  ///< the same, with true errors where these are known
 };
 
 /// The runs of a world, once for each time that instruments are drawn: once in all where all runs were measured.
 ///
 /// Temperatures count from the first instant of each run. Errors are what their instrument shows. A sensor that a run
-/// lacks, or of which it lacks readings, is left out of the whole world, and `remarks` say so.
+/// lacks, or of which it lacks readings, is left out of the whole world, and `remarks` say so. They also say what the
+/// reader of measured data remarked, and which readings the means over `sampling` lack.
 struct WorldData {
   std::vector<std::vector<StudyRun>> train, test;  ///< per repetition, per run, as the file lists them
   std::vector<std::string> sensors;                ///< candidates
@@ -46,7 +48,7 @@ struct WorldData {
 /// of D different runs has the seed 1 + d + D r: independent noise everywhere, the same in every world.
 ///
 /// InputError that names the world and the run: an unknown machine, experiment, sensor or displacement; an error
-/// without a value at some instant; no sensor left.
+/// without a value at some instant; no sensor left; an instant more than half a pass from any pass of the laser.
 [[nodiscard]] std::vector<WorldData> study_data(Study const& study, std::function<void(double)> const& progress,
                                                 std::atomic<bool> const* stop);
 

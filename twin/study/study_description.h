@@ -1,8 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "thermal/units.h"
@@ -15,6 +17,9 @@ struct StudyInstant {
   std::string experiment;
   double time = std::numeric_limits<double>::quiet_NaN();  ///< [s]
 
+  /// As figures are called: "feed_8000 at 60 min".
+  [[nodiscard]] std::string name() const { return fmt::format("{} at {:g} min", experiment, time / 60.0); }
+
   template <class Fields>
   static void fields(Fields& f) {
     f.name("experiment", &StudyInstant::experiment, "one of the world's");
@@ -24,6 +29,8 @@ struct StudyInstant {
 
 /// `[[world]]`: a machine, what it was put through, and the error that is to be predicted.
 struct StudyWorld {
+  static constexpr std::string_view slope_prefix = "slope ";
+
   std::string name, machine, added;
   std::vector<std::string> changes, train, test;
   std::optional<double> split;
@@ -34,6 +41,9 @@ struct StudyWorld {
   double from = 0.0, to = std::numeric_limits<double>::infinity();
   std::vector<StudyInstant> instants;
   Value table;  ///< where all this stands, for messages
+
+  /// The error is the slope of an axis' position error, which a laser measures.
+  [[nodiscard]] bool slope() const { return error.starts_with(slope_prefix); }
 
   template <class Fields>
   static void fields(Fields& f) {
@@ -50,19 +60,21 @@ struct StudyWorld {
            "displacement channel, or \"slope x\" for the slope of axis x's position error in the laser's passes");
     f("sensors", &StudyWorld::sensors, "candidates; default: all of the machine");
     f("sampling", &StudyWorld::sampling, dimension::time,
-      "interval of the readings; measured ones are averaged over it; default: the experiment's, 1 min", Range{0.0});
+      "interval of the readings, more than 0; measured ones are averaged over it, which must not be finer than the "
+      "record's own; default: the experiment's, 1 min",
+      Range{0.0});
     f.choice("fit", &StudyWorld::fit, {"together", "each"},
              "one model on all of 'train', or one on each, which then predicts the others");
     f("from", &StudyWorld::from, dimension::length, "judged positions of a laser: first", Range{0.0});
     f("to", &StudyWorld::to, dimension::length, "last", Range{0.0});
-    f("instant", &StudyWorld::instants, "instants at which the error over the axis is judged");
+    f("instant", &StudyWorld::instants, "instants at which the error over the axis is judged; 'error' is a slope");
   }
 };
 
 /// `[[claim]]`: what a paper says, put so that figures decide.
 struct StudyClaim {
   std::string says, combination, than, figure = "cross.rmse", world;
-  std::optional<double> at_most, improvement;
+  std::optional<double> at_most, improvement, tolerance;
 
   template <class Fields>
   static void fields(Fields& f) {
@@ -75,6 +87,9 @@ struct StudyClaim {
     f("at_most", &StudyClaim::at_most, dimension::dimensionless, "in the figure's unit, in place of 'than'");
     f("improvement", &StudyClaim::improvement, dimension::dimensionless,
       "by how many percent less; default: less at all");
+    f("tolerance", &StudyClaim::tolerance, dimension::dimensionless,
+      "no worse than 'than': more of 'figure' by so many percent at most; 0: not more; in place of 'improvement'",
+      Range{0.0});
   }
 };
 

@@ -65,6 +65,13 @@ void check_world(Value const& table, StudyWorld const& world) {
   for (auto const& name : world.test)
     if (std::find(world.train.begin(), world.train.end(), name) != world.train.end())
       throw FileError(place_of_key(table, "test"), fmt::format("'{}' is in 'train', too", name));
+  if (world.sampling && !(*world.sampling > 0.0))
+    throw FileError(place_of_key(table, "sampling"), "'sampling' is 0 s; an interval of more than 0 is due");
+  if (!world.instants.empty() && !world.slope())
+    throw FileError(place_of_item(table, "instant", 0),
+                    fmt::format("an 'instant' judges the error over an axis, but 'error' is '{}'; give a slope, for "
+                                "example \"slope z\"",
+                                world.error));
   std::vector<std::string> runs = world.train;
   runs.insert(runs.end(), world.test.begin(), world.test.end());
   for (std::size_t i = 0; i < world.instants.size(); ++i)
@@ -89,6 +96,9 @@ void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::s
     throw FileError(table.where, "a claim is either less 'than' another combination or 'at_most' a number");
   if (claim.improvement && claim.than.empty())
     throw FileError(place_of_key(table, "improvement"), "an 'improvement' is over another combination; give 'than'");
+  if (claim.tolerance && (claim.than.empty() || claim.improvement))
+    throw FileError(place_of_key(table, "tolerance"),
+                    "a 'tolerance' says no worse than another combination; give 'than', and no 'improvement'");
   if (!claim.world.empty() && std::find(worlds.begin(), worlds.end(), claim.world) == worlds.end())
     throw FileError(place_of_key(table, "world"),
                     fmt::format("no world '{}'; {}", claim.world, thermal::did_you_mean(claim.world, worlds)));

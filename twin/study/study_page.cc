@@ -94,13 +94,19 @@ std::string selection_table(StudyReport const& report, std::string const& world)
   return text;
 }
 
-double rank_of(Combination const& row) {
-  double const mean = interval(values_of(row.figures, "cross.rmse")).mean;
+double rank_of(Combination const& row, std::string const& figure) {
+  double const mean = interval(values_of(row.figures, figure)).mean;
   return std::isfinite(mean) ? mean : INFINITY;
 }
 
+/// Best first.
+void sort_by(std::string const& figure, std::vector<Combination const*>& rows) {
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](auto const* a, auto const* b) { return rank_of(*a, figure) < rank_of(*b, figure); });
+}
+
 std::string combination_table(std::vector<Combination const*> rows) {
-  std::stable_sort(rows.begin(), rows.end(), [](auto const* a, auto const* b) { return rank_of(*a) < rank_of(*b); });
+  sort_by("cross.rmse", rows);
   auto const shown = used(columns, rows);
   std::size_t width = 9;
   for (auto const* row : rows) width = std::max(width, row->name().size());
@@ -111,6 +117,25 @@ std::string combination_table(std::vector<Combination const*> rows) {
       text += "  refused: " + row->refused + "\n";
       continue;
     }
+    for (auto const& column : shown) text += cell(row->figures, column);
+    text += (row->remark.empty() ? "" : "  " + row->remark) + "\n";
+  }
+  return text;
+}
+
+/// The error over the axis at one instant, of those combinations that say it.
+std::string instant_table(std::vector<Combination const*> rows, std::string const& name) {
+  auto const rmse = name + ".rmse", mae = name + ".mae", most = name + ".max";
+  std::vector<Column> const shown = {
+      {"RMSE", rmse, 15, 2, true}, {"MAE", mae, 15, 2, true}, {"max", most, 15, 2, true}};
+  std::erase_if(rows, [&](auto const* row) { return !row->figures.contains(rmse); });
+  if (rows.empty()) return {};
+  sort_by(rmse, rows);
+  std::size_t width = name.size();
+  for (auto const* row : rows) width = std::max(width, row->name().size());
+  std::string text = "\n" + head(name, width, shown);
+  for (auto const* row : rows) {
+    text += fmt::format("  {:<{}}", row->name(), width);
     for (auto const& column : shown) text += cell(row->figures, column);
     text += "\n";
   }
@@ -170,7 +195,9 @@ std::string study_text(StudyReport const& report) {
                         world.machine, report.units[w], world.train.size(), world.train.size() == 1 ? "" : "s",
                         world.fit == "each" ? ", one model each" : "", world.split ? 1 : world.test.size(),
                         report.repetitions[w] == 1 ? "measured once" : fmt::format("{} seeds", report.repetitions[w]));
-    text += selection_table(report, world.name) + "\n" + combination_table(of_world(report.rows, world.name));
+    auto const rows = of_world(report.rows, world.name);
+    text += selection_table(report, world.name) + "\n" + combination_table(rows);
+    for (auto const& instant : world.instants) text += instant_table(rows, instant.name());
   }
   if (!report.means.empty())
     text += "\nmean of worlds\n\n" + combination_table(of_world(report.means, "mean of worlds"));
@@ -194,12 +221,12 @@ std::string study_csv(StudyReport const& report) {
         for (auto const& [name, values] : selection.figures) row.figures["selection." + name] = values;
   for (auto const& row : rows)
     for (auto const& [name, values] : row.figures) names.insert(name);
-  std::string text = "world,selection,model,refused,sensors";
+  std::string text = "world,selection,model,refused,sensors,remark";
   for (auto const& name : names) text += fmt::format(",{0},{0} +-", name);
   text += "\n";
   for (auto const& row : rows) {
-    text += fmt::format("{},{},{},{},{}", in_quotes(row.world), in_quotes(row.selection), row.model,
-                        in_quotes(row.refused), fmt::join(row.sensors, " "));
+    text += fmt::format("{},{},{},{},{},{}", in_quotes(row.world), in_quotes(row.selection), row.model,
+                        in_quotes(row.refused), fmt::join(row.sensors, " "), in_quotes(row.remark));
     for (auto const& name : names) {
       auto const of = interval(values_of(row.figures, name));
       text += fmt::format(",{},{}", number(of.mean), of.values > 1 ? number(of.half) : "");

@@ -125,6 +125,16 @@ scenarios::Experiment experiment_of(Order const& order, Source const& source) {
   return experiment;
 }
 
+MeasuredRun measured(Job const& job) {
+  auto run = read_measured_run(job.source.file, job.order->machine);
+  auto const& sampling = job.order->world->sampling;
+  double const own = usual_interval({run.time.data(), std::size_t(run.time.size())});
+  if (sampling && *sampling < own * (1.0 - 1e-6))
+    throw thermal::InputError(fmt::format("'sampling' is {:g} s, finer than the {:g} s between the rows of {}",
+                                          *sampling, own, job.source.file.filename().string()));
+  return run;
+}
+
 output::Dataset simulated(Job const& job, std::atomic<bool> const* stop) {
   auto experiment = experiment_of(*job.order, job.source);
   experiment.seed = job.seed;
@@ -177,8 +187,7 @@ std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)
   in_parallel(jobs.size(), progress, stop, [&](std::size_t j) {
     in_world(*jobs[j].order->world, [&] {
       if (jobs[j].source.measured) {
-        jobs[j].run =
-            std::make_shared<MeasuredRun const>(read_measured_run(jobs[j].source.file, jobs[j].order->machine));
+        jobs[j].run = std::make_shared<MeasuredRun const>(measured(jobs[j]));
         jobs[j].data = dataset_of(*jobs[j].run, jobs[j].order->world->sampling);
       } else {
         jobs[j].data = simulated(jobs[j], stop);

@@ -39,8 +39,8 @@ struct WorldRuns {
 [[nodiscard]] output::Dataset dataset_of(MeasuredRun const& run, std::optional<double> sampling,
                                          Eigen::MatrixXd const* values = nullptr);
 
-/// Means over stretches of `period` [s]; each bears the time of its stretch's start. A stretch without any value is
-/// NaN.
+/// Means of what is not missing over stretches of `period` [s]; each bears the time of its stretch's start. A stretch
+/// without any value is NaN.
 [[nodiscard]] output::Dataset averaged(output::Dataset const& data, double period);
 
 }  // namespace thermotwin::twin

@@ -62,10 +62,13 @@ std::vector<std::string> sentences(Rows const& rows, std::string const& unit) {
   return words;
 }
 
-ClaimVerdict::Answer answer_of(Interval const& margin) {
+/// Whether the margin is above zero, or `equal_will_do` and it is zero in every repetition.
+ClaimVerdict::Answer answer_of(Interval const& margin, bool equal_will_do) {
   if (margin.values == 0) return ClaimVerdict::Answer::refused;
-  if (margin.mean - margin.half > 0.0) return ClaimVerdict::Answer::holds;
-  return margin.mean + margin.half < 0.0 ? ClaimVerdict::Answer::fails : ClaimVerdict::Answer::undecided;
+  double const least = margin.mean - margin.half, most = margin.mean + margin.half;
+  if (least > 0.0 || (equal_will_do && least == 0.0)) return ClaimVerdict::Answer::holds;
+  if (most < 0.0 || (!equal_will_do && most == 0.0)) return ClaimVerdict::Answer::fails;
+  return ClaimVerdict::Answer::undecided;
 }
 
 Combination const& row_of(StudyReport const& report, std::string const& world, std::string const& name) {
@@ -85,18 +88,21 @@ ClaimVerdict judged_claim(StudyReport const& report, StudyClaim const& claim) {
                         *claim.at_most);
   } else {
     auto const others = values_of(row_of(report, world, claim.than).figures, claim.figure);
+    double const share = 0.01 * (claim.improvement.value_or(0.0) - claim.tolerance.value_or(0.0));
+    double const whole = interval(others).mean;
     std::vector<double> less;
-    for (double const ratio : ratios(values, others)) {
-      less.push_back(100.0 * (1.0 - ratio));
-      margin.push_back(less.back() - claim.improvement.value_or(0.0));
+    for (std::size_t r = 0; r < std::min(values.size(), others.size()); ++r) {
+      less.push_back(100.0 * (others[r] - values[r]) / whole);
+      margin.push_back((1.0 - share) * others[r] - values[r]);
     }
     words =
         fmt::format("{} of {}: {}, of {}: {}; {} % less", claim.figure, claim.combination, text_of(interval(values), 3),
                     claim.than, text_of(interval(others), 3), text_of(interval(less), 1));
     if (claim.improvement) words += fmt::format(", against {:g} %", *claim.improvement);
+    if (claim.tolerance) words += fmt::format(", against {:g} % more at most", *claim.tolerance);
   }
   if (margin.empty()) words = fmt::format("there is no '{}' of these combinations in '{}'", claim.figure, world);
-  return {claim, answer_of(interval(margin)), words};
+  return {claim, answer_of(interval(margin), claim.at_most || claim.tolerance), words};
 }
 
 }  // namespace

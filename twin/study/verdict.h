@@ -9,7 +9,9 @@ namespace thermotwin::twin {
 /// is than that; the same over all worlds; and every claim.
 ///
 /// A claim holds when the 95 % interval over the repetitions lies wholly on its side, fails when wholly on the other,
-/// and is undecided between. Two combinations are compared repetition by repetition, by 100 (1 − figure/other) %.
+/// and is undecided between; equal figures in every repetition are not less, but no more and no worse. Two combinations
+/// are compared repetition by repetition, by the differences (1 − improvement) other − figure; words give other −
+/// figure in % of the other's mean.
 void put_verdict(StudyReport& report);
 
 }  // namespace thermotwin::twin

@@ -1,0 +1,27 @@
+#include "models/shared_screen.h"
+
+#include "models/ranking.h"
+
+namespace thermotwin::models {
+
+using Eigen::Index;
+
+InformationScreen const& SharedScreen::screen(Candidates const& from, std::uint64_t seed) {
+  std::call_once(screened_, [&] { screen_ = screen_by_information(from, seed); });
+  return screen_;
+}
+
+OrderedCandidates const& SharedScreen::ordered(Candidates const& from, std::uint64_t seed, bool all) {
+  std::size_t const which = all ? 1 : 0;
+  auto const clustered = all ? first_numbers(from.count()) : screen(from, seed).kept;
+  std::call_once(parted_[which], [&] {
+    std::vector<Index> order;
+    for (Index const place : ascending(from.all.temperature_rise(Eigen::all, clustered)))
+      order.push_back(clustered[static_cast<std::size_t>(place)]);
+    OrderedPartitions partitions(class_diameters(normalised(from.all.temperature_rise(Eigen::all, order))));
+    ordered_[which].emplace(OrderedCandidates{std::move(order), std::move(partitions)});
+  });
+  return *ordered_[which];
+}
+
+}  // namespace thermotwin::models

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "models/candidates.h"
+#include "models/information_screen.h"
+#include "models/ordered_clustering.h"
+
+namespace thermotwin::models {
+
+/// Candidates by rising temperature, and their partitions into contiguous classes.
+struct OrderedCandidates {
+  std::vector<Eigen::Index> order;
+  OrderedPartitions partitions;
+};
+
+/// What the methods of paper 000 share when they are asked about the same batches with the same seed. Each part is made
+/// when it is first asked for, by whichever thread asks, and only once.
+class SharedScreen {
+ public:
+  InformationScreen const& screen(Candidates const& from, std::uint64_t seed);
+
+  /// Of the candidates that the screen keeps, or of all.
+  OrderedCandidates const& ordered(Candidates const& from, std::uint64_t seed, bool all);
+
+ private:
+  std::once_flag screened_;
+  InformationScreen screen_;
+  std::array<std::once_flag, 2> parted_;
+  std::array<std::optional<OrderedCandidates>, 2> ordered_;
+};
+
+}  // namespace thermotwin::models
