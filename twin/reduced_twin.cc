@@ -212,7 +212,7 @@ void keep_inputs(scenarios::ExperimentCourse const& course, output::Dataset& dat
     course.evaluate(dataset.time_s[r], values);
     for (std::size_t k = 0; k < place.size(); ++k) {
       auto& channel = dataset.inputs[k];
-      channel.values[r] = channel.unit == "1" ? values[place[k]] : thermal::to_unit(values[place[k]], channel.unit);
+      channel.values[r] = edge_value(values[place[k]], channel.unit);
     }
   }
 }

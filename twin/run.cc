@@ -24,15 +24,6 @@ bool is_shown(thermal::InputChannel const& channel) {
   return channel.name != "ambient.floor_temperature" && !channel.name.starts_with("clock.");
 }
 
-/// Without the last bits that two conversions leave, where 15 digits give back the same double: 4000 rpm, not
-/// 3999.9999999999995.
-double to_edge(double si, std::string const& unit) {
-  if (unit == "1") return si;
-  double const number = thermal::to_unit(si, unit);
-  double const given = std::strtod(fmt::format("{:.15g}", number).c_str(), nullptr);
-  return thermal::from_unit(given, unit) == si ? given : number;
-}
-
 /// Of the sensors that have a place: none hangs in the air.
 std::vector<output::SensorPlace> sensor_places(Machine const& machine) {
   std::vector<output::SensorPlace> places;
@@ -197,7 +188,7 @@ output::Row Recorder::make_row(thermal::Sample const& sample) {
   out.time_s = sample.time;
   out.inputs.resize(Eigen::Index(shown_inputs_.size()));
   for (std::size_t k = 0; k < shown_inputs_.size(); ++k)
-    out.inputs[Eigen::Index(k)] = to_edge(inputs_[shown_inputs_[k]], dataset_.inputs[k].unit);
+    out.inputs[Eigen::Index(k)] = edge_value(inputs_[shown_inputs_[k]], dataset_.inputs[k].unit);
   auto const& body = history_.sensor_body[row];
   out.truth_readings = Eigen::Map<Eigen::VectorXd const>(body.data(), Eigen::Index(body.size())).array() - 273.15;
   out.truth_displacements = displacement_row(history_, row);
