@@ -34,16 +34,16 @@ std::optional<double> number_of(Value const& value, thermal::Dimension dimension
 }
 
 void find_implausible(Value const& table, std::vector<FieldRecord> const& fields, std::vector<std::string>& found) {
-  for (auto const& [key, where, value] : std::get<Value::Table>(table.content)) {
-    auto const field = std::find_if(fields.begin(), fields.end(), [&](auto const& f) { return f.key == key; });
+  for (auto const& entry : std::get<Value::Table>(table.content)) {
+    auto const field = std::find_if(fields.begin(), fields.end(), [&](auto const& f) { return f.key == entry.key; });
     if (field == fields.end()) continue;
-    for (auto const* item : items_of(value)) {
+    for (auto const* item : items_of(entry.value)) {
       if (item->is_table()) find_implausible(*item, field->nested, found);
       if (field->range.empty()) continue;
       auto const number = number_of(*item, field->dimension);
       auto const [low, high] = field->plausible;
       if (number && (*number < low - rounding * std::abs(low) || *number > high + rounding * std::abs(high)))
-        found.push_back(fmt::format("{}: '{}' is {}; outside what is plausible: {}", item->where.text(), key,
+        found.push_back(fmt::format("{}: '{}' is {}; outside what is plausible: {}", item->where.text(), entry.key,
                                     item->text(), field->range));
     }
   }
