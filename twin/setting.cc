@@ -12,34 +12,46 @@ namespace {
 
 constexpr std::string_view experiment_prefix = "experiment.";
 
-/// Puts the tables on a path that an experiment may have and this one lacks: [coolant] of "coolant.on".
-void add_lacking_tables(Value& experiment, std::string const& path) {
+/// What the table at a path of an experiment may hold; nothing where none can be.
+std::vector<FieldRecord> fields_at(std::vector<std::string> const& path) {
   auto fields = list_fields<scenarios::Experiment>();
+  for (auto const& part : path) {
+    auto const field = std::find_if(fields.begin(), fields.end(), [&](auto const& f) { return f.key == part; });
+    if (field == fields.end() || !field->kind.starts_with("table")) return {};
+    fields = std::vector<FieldRecord>(field->nested);
+  }
+  return fields;
+}
+
+/// Puts the tables on a path that an experiment may have and this one lacks: [coolant] of "coolant.on". A campaign
+/// comes here for every setting of every run, so that what may be is looked up only where a table is lacking.
+void add_lacking_tables(Value& experiment, std::string const& path) {
   Value* here = &experiment;
+  std::vector<std::string> parts;
   std::size_t begin = 0;
   for (auto dot = path.find('.'); dot != std::string::npos; dot = path.find('.', begin)) {
-    std::string const part = path.substr(begin, dot - begin);
-    auto const field = std::find_if(fields.begin(), fields.end(), [&](auto const& f) { return f.key == part; });
-    if (field == fields.end() || !field->kind.starts_with("table")) return;
-    if (!here->find(part))
-      std::get<Value::Table>(here->content).push_back({part, here->where, Value{here->where, Value::Table{}}});
-    here = here->find(part);
-    if (!here->is_table()) return;
-    fields = std::vector<FieldRecord>(field->nested);
+    parts.push_back(path.substr(begin, dot - begin));
     begin = dot + 1;
+    if (!here->find(parts.back())) {
+      if (fields_at(parts).empty()) return;
+      std::get<Value::Table>(here->content).push_back({parts.back(), here->where, Value{here->where, Value::Table{}}});
+    }
+    here = here->find(parts.back());
+    if (!here->is_table()) return;
   }
 }
 
 /// What an experiment has and a machine has not is meant for the experiment.
 void refuse_experiment_key(Value const& machine, std::string const& path) {
   std::string const first = path.substr(0, path.find('.'));
+  if (machine.find(first)) return;
   auto const experiment = list_fields<scenarios::Experiment>();
   auto const tables = describe_machine();
   bool const of_experiment =
       std::any_of(experiment.begin(), experiment.end(), [&](auto const& field) { return field.key == first; });
   bool const of_machine = first == "title" || std::any_of(tables.begin(), tables.end(),
                                                           [&](auto const& table) { return table.name == first; });
-  if (of_experiment && !of_machine && !machine.find(first))
+  if (of_experiment && !of_machine)
     throw thermal::InputError(
         fmt::format("parameter '{0}': a machine has no '{1}'; did you mean '{2}{0}'?", path, first, experiment_prefix));
 }
