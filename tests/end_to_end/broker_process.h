@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <netinet/in.h>
@@ -97,12 +98,26 @@ class BrokerProcess {
   }
   void kill() { process_->end(SIGKILL); }
 
+  /// Until it has written down twice what it knows: the second time begins after this call.
+  void wait_until_saved() const {
+    for (int saves = 0; saves < 2; ++saves) {
+      auto const before = last_save();
+      for (int i = 0; i < 6000 && last_save() == before; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+
   [[nodiscard]] int port() const { return port_; }
   [[nodiscard]] std::string url(std::string const& scheme = "mqtt") const {
     return scheme + "://127.0.0.1:" + std::to_string(port_);
   }
 
  private:
+  [[nodiscard]] std::filesystem::file_time_type last_save() const {
+    std::error_code none_yet;
+    return std::filesystem::last_write_time(directory_ + "/mosquitto.db", none_yet);
+  }
+
   std::string directory_;
   int port_;
   std::unique_ptr<Child> process_;

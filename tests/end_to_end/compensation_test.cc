@@ -268,7 +268,7 @@ TEST(BrokerConnection, LosesNothingWhenTheBrokerIsKilledAndComesBack) {
   BrokerProcess broker(directory.path().string());
   Broker receiver(named(broker.url(), "receiver"), {"count"});
   Broker sender(named(broker.url(), "sender"), {});
-  std::this_thread::sleep_for(1200ms);  // the broker has written down who listens
+  broker.wait_until_saved();  // who listens
   constexpr int messages = 2000;
   for (int i = 0; i < messages; ++i) {
     if (i == messages / 4) broker.kill();

@@ -1,8 +1,10 @@
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <sstream>
 #include <sys/wait.h>
@@ -109,8 +111,8 @@ TEST(Run, JsonSummaryForPrograms) {
   EXPECT_NE(text.find("\"imbalance\""), std::string::npos);
 }
 
-/// How the program ends (waitpid) that gets Ctrl-C after a while.
-int stopped_after(std::chrono::milliseconds while_running, std::vector<std::string> words) {
+/// How the program ends (waitpid) that gets Ctrl-C as soon as something holds, or after a minute.
+int stopped_when(std::function<bool()> const& holds, std::vector<std::string> words) {
   words.insert(words.begin(), program);
   pid_t const child = fork();
   if (child == 0) {
@@ -120,7 +122,7 @@ int stopped_after(std::chrono::milliseconds while_running, std::vector<std::stri
     execv(program.c_str(), arguments.data());
     _exit(127);
   }
-  std::this_thread::sleep_for(while_running);
+  for (int i = 0; i < 6000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(child, SIGINT);
   int status = 0;
   waitpid(child, &status, 0);
@@ -130,8 +132,8 @@ int stopped_after(std::chrono::milliseconds while_running, std::vector<std::stri
 TEST(Run, StoppedByTheUserKeepsThePartialFileAndTheOldOne) {
   TemporaryDirectory const directory;
   std::ofstream(directory / "run.h5") << "what the user had";
-  int const status = stopped_after(
-      std::chrono::milliseconds(700),
+  int const status = stopped_when(
+      [&] { return fs::exists(directory / "run.h5.partial"); },
       {"run", "etve", "-q", "-m", "v450", "--set", "experiment.sampling=0.1 s", "-o", (directory / "run.h5").string()});
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
@@ -144,7 +146,9 @@ TEST(Commands, DiagnosisIsStoppedAtOnce) {
   TemporaryDirectory const directory;
   auto const data = (directory / "run.h5").string(), amended = (directory / "amended.toml").string();
   answer(program + " run golden_b_4000 -q -o " + data);
-  int const status = stopped_after(std::chrono::milliseconds(200), {"diagnose", "v450", data, "-o", amended});
+  auto const soon = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
+  int const status =
+      stopped_when([&] { return std::chrono::steady_clock::now() > soon; }, {"diagnose", "v450", data, "-o", amended});
   ASSERT_TRUE(WIFSIGNALED(status));
   EXPECT_EQ(WTERMSIG(status), SIGINT);
   EXPECT_FALSE(fs::exists(amended));
