@@ -106,7 +106,7 @@ Index memory_of(VectorXd const& record) {
 Selection select_by_mutual_information(std::span<Batch const> batches, SelectionOptions const& options) {
   auto const from = candidates(batches, options);
   require_error_that_moves(from);
-  auto const shared = options.shared ? options.shared : std::make_shared<SharedScreen>();
+  auto const shared = shared_screen(options);
   auto const& screen = shared->screen(from, options.seed);
   auto chosen = ranked(screen.information, screen.kept);
   if (options.count) chosen = completed(chosen, *options.count, screen.information);

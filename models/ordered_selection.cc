@@ -45,7 +45,7 @@ struct OrderedSensors {
 OrderedSensors ordered_sensors(std::span<Batch const> batches, SelectionOptions const& options) {
   auto from = candidates(batches, options);
   require_error_that_moves(from);
-  auto const shared = options.shared ? options.shared : std::make_shared<SharedScreen>();
+  auto const shared = shared_screen(options);
   auto const& screen = shared->screen(from, options.seed);
   bool const enough = options.count.value_or(0) <= std::ssize(screen.kept);
   auto const& [order, partitions] = shared->ordered(from, options.seed, !enough);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "models/candidates.h"
 #include "models/information_screen.h"
 #include "models/ordered_clustering.h"
+#include "models/selection.h"
 
 namespace thermotwin::models {
 
@@ -33,5 +35,8 @@ class SharedScreen {
   std::array<std::once_flag, 2> parted_;
   std::array<std::optional<OrderedCandidates>, 2> ordered_;
 };
+
+/// That of the options, or one for this method alone.
+[[nodiscard]] std::shared_ptr<SharedScreen> shared_screen(SelectionOptions const& options);
 
 }  // namespace thermotwin::models
