@@ -4,7 +4,7 @@
 #include <string>
 
 #include "thermal/operating_point.h"
-#include "thermal/units.h"
+#include "thermal/unit.h"
 
 namespace thermotwin::twin {
 
@@ -16,11 +16,15 @@ inline std::string edge_unit(thermal::InputChannel const& channel) {
   return channel.unit == "m" ? "mm" : channel.unit;
 }
 
+/// The same as a factor; read it once, not for every sample.
+inline thermal::Unit read_edge_unit(std::string const& unit) {
+  return unit == "1" ? thermal::Unit{} : thermal::read_unit(unit, unit);
+}
+
 /// In that unit, without the last bits that two conversions leave: 4000 rpm, not 3999.9999999999995.
-inline double edge_value(double si, std::string const& unit) {
-  if (unit == "1") return si;
-  double const number = thermal::to_unit(si, unit), given = std::round(1e9 * number) / 1e9;
-  return thermal::from_unit(given, unit) == si ? given : number;
+inline double edge_value(double si, thermal::Unit const& unit) {
+  double const number = unit.number(si), given = std::round(1e9 * number) / 1e9;
+  return unit.si(given) == si ? given : number;
 }
 
 }  // namespace thermotwin::twin

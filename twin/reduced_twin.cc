@@ -204,16 +204,16 @@ ReducedError difference(History const& fine, History const& coarse) {
 
 void keep_inputs(scenarios::ExperimentCourse const& course, output::Dataset& dataset) {
   std::vector<std::size_t> place;
-  for (auto const& shown : dataset.inputs)
+  std::vector<thermal::Unit> units;
+  for (auto const& shown : dataset.inputs) {
+    units.push_back(read_edge_unit(shown.unit));
     for (std::size_t i = 0; i < course.channels().size(); ++i)
       if (course.channels()[i].name == shown.name) place.push_back(i);
+  }
   std::vector<double> values(course.channels().size());
   for (Eigen::Index r = 0; r < dataset.time_s.size(); ++r) {
     course.evaluate(dataset.time_s[r], values);
-    for (std::size_t k = 0; k < place.size(); ++k) {
-      auto& channel = dataset.inputs[k];
-      channel.values[r] = edge_value(values[place[k]], channel.unit);
-    }
+    for (std::size_t k = 0; k < place.size(); ++k) dataset.inputs[k].values[r] = edge_value(values[place[k]], units[k]);
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
 
 #include "output/dataset_file.h"
@@ -71,6 +70,7 @@ class Recorder {
   std::unique_ptr<output::FieldSeries> fields_;
   std::vector<double> first_temperatures_, first_inputs_, inputs_, watts_;
   std::vector<std::size_t> shown_inputs_, shown_parts_;
+  std::vector<thermal::Unit> edge_units_;  ///< of the inputs shown
   std::optional<output::Frame> last_frame_;
   double last_frame_time_ = 0.0;
 };
@@ -91,6 +91,7 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
     if (!machine.network().parts()[p].starts_with("joint.") && machine.network().parts()[p] != "conduction")
       shown_parts_.push_back(p);
   dataset_ = make_head();
+  for (auto const& input : dataset_.inputs) edge_units_.push_back(read_edge_unit(input.unit));
   if (options.dataset) writer_ = std::make_unique<output::DatasetWriter>(*options.dataset, dataset_);
   if (options.fields)
     fields_ = std::make_unique<output::FieldSeries>(
@@ -188,7 +189,7 @@ output::Row Recorder::make_row(thermal::Sample const& sample) {
   out.time_s = sample.time;
   out.inputs.resize(Eigen::Index(shown_inputs_.size()));
   for (std::size_t k = 0; k < shown_inputs_.size(); ++k)
-    out.inputs[Eigen::Index(k)] = edge_value(inputs_[shown_inputs_[k]], dataset_.inputs[k].unit);
+    out.inputs[Eigen::Index(k)] = edge_value(inputs_[shown_inputs_[k]], edge_units_[k]);
   auto const& body = history_.sensor_body[row];
   out.truth_readings = Eigen::Map<Eigen::VectorXd const>(body.data(), Eigen::Index(body.size())).array() - 273.15;
   out.truth_displacements = displacement_row(history_, row);
