@@ -70,13 +70,7 @@ TEST(ModalIntegration, AgreesWithBdfToItsTolerance) {
 }
 
 TEST(ModalIntegration, RefusesWhatHasNoConstantModes) {
-  NetworkBuilder small;
-  int const part = small.part("p");
-  Port const body = small.add_body("body", {100.0});
-  Port const air = small.add_boundary({"air", T0, {}});
-  small.connect(part, body, air, 1.0);
-  small.add_relay("thermostat", body, air, 1.0, 0.5);
-  EXPECT_THROW(check_modes(small.build()), InputError);
+  EXPECT_THROW(check_modes(with_thermostat()), InputError);
 
   NetworkBuilder large;
   large.add_body("body", std::vector<double>(401, 100.0));

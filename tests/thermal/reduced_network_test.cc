@@ -117,13 +117,7 @@ TEST(ReducedNetwork, LinearPartIsSymmetricAndNeverNegative) {
 }
 
 TEST(ReducedNetwork, RefusesWhatItCannotKnow) {
-  NetworkBuilder builder;
-  int const part = builder.part("p");
-  Port const body = builder.add_body("body", {100.0});
-  Port const air = builder.add_boundary({"air", T0, {}});
-  builder.connect(part, body, air, 1.0);
-  builder.add_relay("thermostat", body, air, 1.0, 0.5);
-  Network const network = builder.build();
+  Network const network = with_thermostat();
   EXPECT_THROW(with_all_shapes(network), InputError);
 }
 

@@ -34,6 +34,17 @@ inline std::vector<std::vector<double>> run(Network const& network, Course const
   return history;
 }
 
+/// A body in air with a thermostat between them: it switches by a temperature.
+inline Network with_thermostat() {
+  NetworkBuilder builder;
+  int const part = builder.part("p");
+  Port const body = builder.add_body("body", {100.0});
+  Port const air = builder.add_boundary({"air", T0, {}});
+  builder.connect(part, body, air, 1.0);
+  builder.add_relay("thermostat", body, air, 1.0, 0.5);
+  return builder.build();
+}
+
 /// What a site of the only body reads.
 inline double reading(Site const& site, std::vector<double> const& temperatures) {
   double sum = 0.0;
