@@ -28,9 +28,9 @@
 #include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnose_files.h"
 #include "twin/diagnosis/plan.h"
-#include "twin/diagnosis/run_files.h"
 #include "twin/effect_page.h"
 #include "twin/experiment_file.h"
+#include "twin/file/output_path.h"
 #include "twin/file_check.h"
 #include "twin/needed_solution.h"
 #include "twin/progress.h"
@@ -97,7 +97,7 @@ void RunCommand::check_outputs(std::filesystem::path const& machine_path, std::f
                                scenarios::Experiment const& programme) const {
   check_suffix(dataset, "a data set", {".h5"});
   check_suffix(picture, "a picture", {".png"});
-  RunFiles read = {experiment_path};
+  std::vector<std::filesystem::path> read = {experiment_path};
   for (auto const& recording : programme.recorded)
     read.push_back(scenarios::resolved_path(recording.file, programme.directory));
   for (auto const& output : {dataset, picture}) refuse_to_overwrite(output, machine_path, read);

@@ -14,8 +14,8 @@
 #include "twin/compensation/compensate.h"
 #include "twin/compensation/compensation_record.h"
 #include "twin/compensation/play.h"
-#include "twin/diagnosis/run_files.h"
 #include "twin/error_model_file.h"
+#include "twin/file/output_path.h"
 #include "twin/fit_error_model.h"
 #include "twin/progress.h"
 
@@ -38,11 +38,11 @@ struct ConnectionArguments {
 
   void add_to(CLI::App& command);
   void require_topics() const;
-  void check_output(std::string const& output, RunFiles read) const;
+  void check_output(std::string const& output, std::vector<std::filesystem::path> read) const;
 };
 
 /// None of `read`, nor of what the broker is met with.
-void ConnectionArguments::check_output(std::string const& output, RunFiles read) const {
+void ConnectionArguments::check_output(std::string const& output, std::vector<std::filesystem::path> read) const {
   for (auto const& file : {broker.password_file, broker.ca_file, broker.certificate_file, broker.key_file})
     read.push_back(file);
   refuse_to_overwrite(output, {}, read);

@@ -8,8 +8,8 @@
 #include "output/node_fields.h"
 #include "output/picture.h"
 #include "thermal/units.h"
-#include "twin/diagnosis/run_files.h"
 #include "twin/experiment_file.h"
+#include "twin/file/output_path.h"
 #include "twin/machine.h"
 #include "twin/placement/sensor_placement.h"
 #include "twin/progress.h"
@@ -92,7 +92,7 @@ std::vector<scenarios::Experiment> read_all(std::vector<std::string> const& name
 void PlaceCommand::check_outputs() const {
   check_suffix(output, "a list of sensors", {".toml"});
   check_suffix(picture, "a picture", {".png"});
-  RunFiles read = {candidates};
+  std::vector<std::filesystem::path> read = {candidates};
   for (auto const* names : {&experiments, &unseen})
     for (auto const& name : *names) read.push_back(experiment_file(name));
   for (auto const& file : {output, picture}) refuse_to_overwrite(file, machine_file(machine), read);

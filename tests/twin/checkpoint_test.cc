@@ -6,8 +6,8 @@
 #include "output/dataset_file.h"
 #include "tests/output/temporary_directory.h"
 #include "thermal/error.h"
-#include "twin/diagnosis/run_files.h"
 #include "twin/experiment_file.h"
+#include "twin/file/text_file.h"
 #include "twin/instruments/random_stream.h"
 #include "twin/run.h"
 

@@ -7,9 +7,9 @@
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
 #include "twin/campaign/campaign.h"
-#include "twin/diagnosis/run_files.h"
 #include "twin/experiment_file.h"
 #include "twin/file/shipped_file.h"
+#include "twin/file/text_file.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {

@@ -18,7 +18,7 @@
 #include "thermal/modal_integration.h"
 #include "twin/campaign/campaign_form.h"
 #include "twin/campaign/campaign_parts.h"
-#include "twin/diagnosis/run_files.h"
+#include "twin/file/text_file.h"
 #include "twin/reduced_twin.h"
 #include "twin/reduction_store.h"
 #include "twin/replay.h"

@@ -6,7 +6,7 @@
 
 #include "output/atomic_file.h"
 #include "thermal/error.h"
-#include "twin/diagnosis/run_files.h"
+#include "twin/file/output_path.h"
 #include "twin/file/value.h"
 #include "twin/influence_file.h"
 

@@ -6,6 +6,8 @@
 
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/run_files.h"
+#include "twin/file/output_path.h"
+#include "twin/file/text_file.h"
 
 namespace thermotwin::twin {
 namespace {

@@ -1,6 +1,5 @@
 #include "twin/diagnosis/run_files.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -29,24 +28,6 @@ std::string names_of(RunFiles const& files) {
   std::vector<std::string> names;
   for (auto const& file : files) names.push_back(file.filename().string());
   return fmt::format("{}", fmt::join(names, ", "));
-}
-
-void refuse_to_overwrite(fs::path const& output, fs::path const& machine, RunFiles const& data) {
-  if (output.empty() || !fs::exists(output)) return;
-  RunFiles inputs = data;
-  inputs.push_back(machine);
-  for (auto const& input : inputs)
-    if (fs::exists(input) && fs::equivalent(input, output))
-      throw thermal::InputError(
-          fmt::format("{}: that is one of the files to be read, which are never overwritten; "
-                      "name another one",
-                      output.string()));
-}
-
-void check_suffix(fs::path const& output, std::string_view what, std::vector<std::string> const& suffixes) {
-  auto const suffix = output.extension().string();
-  if (suffix.empty() || std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end()) return;
-  throw thermal::InputError(fmt::format("{}: {} is written as {}", output.string(), what, fmt::join(suffixes, " or ")));
 }
 
 }  // namespace thermotwin::twin

@@ -2,12 +2,10 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "twin/diagnosis/binned_run.h"
 #include "twin/diagnosis/measured_run.h"
-#include "twin/file/text_file.h"
 
 namespace thermotwin::twin {
 
@@ -23,13 +21,5 @@ using RunFiles = std::vector<std::filesystem::path>;
 
 /// "run1.h5, run2.h5"
 [[nodiscard]] std::string names_of(RunFiles const& files);
-
-/// InputError when `output` is the machine's file or one of the data, by whatever path or link: before any work, not
-/// after it. Every command that writes a file asks this first.
-void refuse_to_overwrite(std::filesystem::path const& output, std::filesystem::path const& machine,
-                         RunFiles const& data);
-
-/// InputError when a file's suffix says another format than `what` ("a data set") is written in; none says nothing.
-void check_suffix(std::filesystem::path const& output, std::string_view what, std::vector<std::string> const& suffixes);
 
 }  // namespace thermotwin::twin

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "thermal/error.h"
-#include "twin/diagnosis/run_files.h"
+#include "twin/file/text_file.h"
 #include "twin/report/campaign_progress.h"
 #include "twin/report/campaign_section.h"
 #include "twin/report/diagnosis_section.h"

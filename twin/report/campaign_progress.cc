@@ -8,7 +8,7 @@
 #include "output/journal.h"
 #include "thermal/error.h"
 #include "twin/campaign/run_campaign.h"
-#include "twin/diagnosis/run_files.h"
+#include "twin/file/text_file.h"
 
 namespace thermotwin::twin {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "models/quantile.h"
 #include "output/campaign_file.h"
-#include "twin/diagnosis/run_files.h"
+#include "twin/file/text_file.h"
 #include "twin/file/value.h"
 #include "twin/report/campaign_progress.h"
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "thermal/error.h"
-#include "twin/diagnosis/run_files.h"
+#include "twin/file/output_path.h"
 
 namespace thermotwin::twin {
 namespace {

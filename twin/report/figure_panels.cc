@@ -10,7 +10,7 @@
 #include "output/report_page.h"
 #include "output/viridis.h"
 #include "thermal/error.h"
-#include "twin/diagnosis/run_files.h"
+#include "twin/file/text_file.h"
 #include "twin/report/figure_files.h"
 #include "twin/report/shown_run.h"
 

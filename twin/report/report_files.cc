@@ -9,6 +9,7 @@
 #include "output/report_page.h"
 #include "thermal/error.h"
 #include "twin/diagnosis/run_files.h"
+#include "twin/file/output_path.h"
 #include "twin/report/answer_section.h"
 #include "twin/report/machine_section.h"
 #include "twin/report/shown_run.h"

@@ -5,7 +5,7 @@
 #include "output/arrow_field.h"
 #include "output/atomic_file.h"
 #include "output/dataset_file.h"
-#include "twin/diagnosis/run_files.h"
+#include "twin/file/output_path.h"
 #include "twin/volumetric/volumetric_report.h"
 
 namespace thermotwin::twin {

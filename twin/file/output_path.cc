@@ -1,0 +1,31 @@
+#include "twin/file/output_path.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "thermal/error.h"
+
+namespace thermotwin::twin {
+
+namespace fs = std::filesystem;
+
+void refuse_to_overwrite(fs::path const& output, fs::path const& machine, std::vector<fs::path> const& others) {
+  if (output.empty() || !fs::exists(output)) return;
+  auto inputs = others;
+  inputs.push_back(machine);
+  for (auto const& input : inputs)
+    if (fs::exists(input) && fs::equivalent(input, output))
+      throw thermal::InputError(
+          fmt::format("{}: that is one of the files to be read, which are never overwritten; "
+                      "name another one",
+                      output.string()));
+}
+
+void check_suffix(fs::path const& output, std::string_view what, std::vector<std::string> const& suffixes) {
+  auto const suffix = output.extension().string();
+  if (suffix.empty() || std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end()) return;
+  throw thermal::InputError(fmt::format("{}: {} is written as {}", output.string(), what, fmt::join(suffixes, " or ")));
+}
+
+}  // namespace thermotwin::twin
