@@ -1,0 +1,142 @@
+#include "twin/command_line_diagnose.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+#include "output/atomic_file.h"
+#include "thermal/error.h"
+#include "twin/challenge/challenge.h"
+#include "twin/diagnosis/calibration.h"
+#include "twin/diagnosis/comparison.h"
+#include "twin/diagnosis/diagnose_files.h"
+#include "twin/diagnosis/plan.h"
+#include "twin/experiment_file.h"
+#include "twin/file/output_path.h"
+#include "twin/machine.h"
+#include "twin/progress_file.h"
+#include "twin/report/report_files.h"
+
+namespace thermotwin::twin {
+namespace {
+
+void print_plan(DiagnoseFiles const& files, std::vector<std::string> const& experiments, bool json) {
+  std::vector<Schedule> schedules;
+  for (auto const& name : experiments) schedules.push_back(read_schedule(experiment_file(name)));
+  auto const made = plan(read_toml(files.machine), schedules, {.without = files.without, .progress = files.progress});
+  fmt::print("{}", json ? plan_json(made) : plan_text(made));
+}
+
+void write_folder(std::filesystem::path const& folder, DiagnoseFiles const& files, DiagnosisReport const& report) {
+  output::make_directory(folder);
+  output::write_atomically(folder / "diagnosis.json", report_json(report));
+  ReportFiles page{files.data, files.machine, folder / "report.html"};
+  page.data.insert(page.data.end(), files.held_out.begin(), files.held_out.end());
+  page.data.push_back(folder / "diagnosis.json");
+  static_cast<void>(write_report(page));
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& app) {
+  auto* command = app.add_subcommand("calibrate", "fit the uncertain numbers of a machine to measurements");
+  auto files = std::make_shared<CalibrateFiles>();
+  auto json = std::make_shared<bool>(false);
+  auto machine = std::make_shared<std::string>();
+  command->add_option("machine", *machine, "machine file or name")->required();
+  command->add_option("data", files->data, "measured runs: .h5, .csv, or a measurement file .toml")->required();
+  command->add_option("--output,-o", files->output, "machine file to write: the same with the numbers identified");
+  command->add_flag("--json", *json, "print everything as JSON");
+  command->callback([files, json, machine] {
+    files->machine = machine_file(*machine);
+    check_suffix(files->output, "a machine", {".toml"});
+    auto const calibration = calibrate_files(*files);
+    fmt::print("{}", *json ? calibration_json(calibration) : calibration_table(calibration));
+  });
+}
+
+void add_diagnose_command(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("diagnose", "find where machine and measurement disagree, and name what is missing");
+  auto files = std::make_shared<DiagnoseFiles>();
+  auto json = std::make_shared<bool>(false);
+  auto machine = std::make_shared<std::string>();
+  command->add_option("machine", *machine, "machine file or name")->required();
+  auto* data = command->add_option("data", files->data, "measured runs: .h5, .csv, or a measurement file .toml");
+  auto* unseen = command->add_option("--hold-out", files->held_out, "runs that take no part in the fit");
+  auto* amended =
+      command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
+  command->add_option("--without", files->without, "effects that are not to be tried")->delimiter(',');
+  auto folder = std::make_shared<std::string>();
+  auto* page =
+      command->add_option("--report", *folder, "folder for a page to look at (report.html) and diagnosis.json");
+  command->add_flag("--json", *json, "print everything as JSON");
+  auto planned = std::make_shared<std::vector<std::string>>();
+  auto* plans =
+      command->add_option("--plan", *planned,
+                          "before any data: what these experiments (files or names) would show of each effect, "
+                          "which could be taken for each other, and what would tell them apart");
+  for (auto* other : {data, unseen, amended, page}) plans->excludes(other);
+  command->callback([files, json, machine, planned, data, folder] {
+    files->machine = machine_file(*machine);
+    check_suffix(files->output, "a machine", {".toml"});
+    for (auto const& name : files->without) static_cast<void>(effect(name));
+    if (!*json) files->progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
+    if (!planned->empty()) return print_plan(*files, *planned, *json);
+    if (data->empty()) throw thermal::InputError("diagnose needs measured runs, or --plan with experiments");
+    std::optional<ProgressFile> onlookers;
+    if (!folder->empty()) {
+      output::require_empty(*folder);
+      onlookers.emplace(*folder, fmt::format("Diagnosis of {}", files->machine.stem().string()));
+      files->progress = [&onlookers, told = files->progress](std::string const& what) {
+        onlookers->show(what);
+        if (told) told(what);
+      };
+    }
+    auto const report = diagnose_files(*files);
+    onlookers.reset();
+    if (!folder->empty()) write_folder(*folder, *files, report);
+    fmt::print("{}", *json ? report_json(report) : report_text(report));
+  });
+}
+
+void add_compare_command(CLI::App& app) {
+  auto* command = app.add_subcommand("compare", "two machines against the same measurements, side by side");
+  auto before = std::make_shared<std::string>(), after = std::make_shared<std::string>();
+  auto data = std::make_shared<std::vector<std::filesystem::path>>();
+  auto json = std::make_shared<bool>(false);
+  command->add_option("machine", *before, "machine file or name")->required();
+  command->add_option("amended", *after, "the other one")->required();
+  command->add_option("data", *data, "measured runs: .h5, .csv, or a measurement file .toml")->required();
+  command->add_flag("--json", *json, "print everything as JSON");
+  command->callback([before, after, data, json] {
+    auto const comparison = compare_files(machine_file(*before), machine_file(*after), *data);
+    fmt::print("{}", *json ? comparison_json(comparison) : comparison_table(comparison));
+  });
+}
+
+void add_challenge_command(CLI::App& app) {
+  auto* command = app.add_subcommand("challenge",
+                                     "write measurements in which an effect is hidden, and the truth in a sealed file");
+  auto options = std::make_shared<ChallengeOptions>();
+  auto folder = std::make_shared<std::string>(), kind = std::make_shared<std::string>();
+  auto further = std::make_shared<std::string>();
+  command->add_option("--machine,-m", options->machine, "the nominal machine, file or name")->capture_default_str();
+  command->add_option("--seed", options->seed, "the same seed draws the same challenge")->capture_default_str();
+  command->add_option("--kind", *kind, "one, none, outside, two or sensor; default: what the seed stands for");
+  auto* to = command->add_option_group("to");
+  to->add_option("--output,-o", *folder, "folder to write; it must be empty or absent");
+  auto key = std::make_shared<bool>(false);
+  to->add_flag("--key", *key, "write nothing, and print what would be hidden");
+  to->require_option(1);
+  command->add_option("--run", *further, "experiment file: one more run of the challenge that is in the folder");
+  command->callback([options, folder, kind, further, key] {
+    options->folder = *folder;
+    if (!further->empty()) options->further_run = *further;
+    if (!kind->empty()) options->kind = case_kind(*kind);
+    fmt::print("{}", *key ? challenge_key(*options) : write_challenge(*options));
+  });
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,173 @@
+#include "twin/command_line_run.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+#include "output/dataset_file.h"
+#include "thermal/error.h"
+#include "twin/checkpoint.h"
+#include "twin/experiment_file.h"
+#include "twin/file/output_path.h"
+#include "twin/progress.h"
+#include "twin/reduced_summary.h"
+#include "twin/reduction_store.h"
+#include "twin/replay.h"
+#include "twin/run.h"
+#include "twin/setting.h"
+#include "twin/summary.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double finest_tolerance = 1e-12, coarsest_tolerance = 0.01;
+
+struct RunCommand {
+  std::string experiment, machine, dataset, fields, picture, field_interval = "15 min", checkpoint;
+  std::vector<std::string> settings;
+  double tolerance = 1e-6;
+  bool nodes = false, json = false, quiet = false, resume = false, reduced = false;
+
+  void add_to(CLI::App& command);
+  void operator()(std::atomic<bool> const& stop) const;
+
+ private:
+  void check_outputs(std::filesystem::path const& machine_path, std::filesystem::path const& experiment_path,
+                     scenarios::Experiment const& programme) const;
+  void set_checkpoint(RunOptions& options) const;
+  void run_reduced(Machine const& machine, scenarios::Experiment const& programme, RunOptions const& options) const;
+};
+
+void RunCommand::add_to(CLI::App& command) {
+  command.add_option("experiment", experiment, "experiment file, or the name of one of the catalogue")->required();
+  command.add_option("--machine,-m", machine, "machine file or name; default: the one that the experiment names");
+  command.add_option("--output,-o", dataset, "data set to write (HDF5)");
+  command.add_option("--fields", fields, "folder for the fields (VTK), one frame per --field-interval");
+  command.add_option("--field-interval", field_interval, "time between two frames")->capture_default_str();
+  command.add_option("--picture", picture, "PNG of the last frame; needs a display, or xvfb-run");
+  command.add_option("--set", settings,
+                     "change a parameter: bearing.front.grease_factor=0.8, experiment.duration=\"2 h\"");
+  command.add_option("--tolerance", tolerance, "relative tolerance of the integration")->capture_default_str();
+  command.add_option("--checkpoint", checkpoint,
+                     "simulated time after which a killed run can be taken up: \"2 h\"; needs --output");
+  command.add_flag("--resume", resume, "go on from the checkpoint beside the output");
+  command.add_flag("--nodes", nodes, "keep every node's temperature in the data set");
+  command.add_flag("--reduced", reduced, "through a reduced model of the machine, with a bound of what it errs by");
+  command.add_flag("--json", json, "print the summary as JSON");
+  command.add_flag("--quiet,-q", quiet, "print nothing but errors");
+}
+
+void RunCommand::check_outputs(std::filesystem::path const& machine_path, std::filesystem::path const& experiment_path,
+                               scenarios::Experiment const& programme) const {
+  check_suffix(dataset, "a data set", {".h5"});
+  check_suffix(picture, "a picture", {".png"});
+  std::vector<std::filesystem::path> read = {experiment_path};
+  for (auto const& recording : programme.recorded)
+    read.push_back(scenarios::resolved_path(recording.file, programme.directory));
+  for (auto const& output : {dataset, picture}) refuse_to_overwrite(output, machine_path, read);
+}
+
+void RunCommand::set_checkpoint(RunOptions& options) const {
+  if (checkpoint.empty() && !resume) return;
+  if (dataset.empty()) throw thermal::InputError("--checkpoint and --resume stand beside the output; give --output");
+  options.checkpoint = dataset + ".checkpoint";
+  options.resume = resume;
+  options.checkpoint_interval = checkpoint.empty() ? checkpoint_interval(*options.checkpoint)
+                                                   : thermal::parse_value(checkpoint, thermal::dimension::time);
+  if (options.checkpoint_interval <= 0.0) throw thermal::InputError("--checkpoint is a time above 0");
+}
+
+void RunCommand::run_reduced(Machine const& machine, scenarios::Experiment const& programme,
+                             RunOptions const& options) const {
+  if (options.fields || options.picture || options.node_temperatures || options.checkpoint)
+    throw thermal::InputError("--reduced gives readings and displacements: no fields, picture, nodes or checkpoint");
+  ReducedTwin const twin(machine, {}, cache_folder());
+  auto result = twin.run(programme);
+  for (auto const& [key, text] : options.provenance) result.dataset.provenance[key] = text;
+  if (options.dataset) output::write(result.dataset, *options.dataset);
+  if (!quiet) fmt::print("{}", reduced_table(twin, result));
+}
+
+void RunCommand::operator()(std::atomic<bool> const& stop) const {
+  if (!(tolerance >= finest_tolerance && tolerance <= coarsest_tolerance))
+    throw thermal::InputError(
+        fmt::format("--tolerance {}: allowed is {} to {}", tolerance, finest_tolerance, coarsest_tolerance));
+  auto const experiment_path = experiment_file(experiment);
+  Value experiment_document = read_toml(experiment_path);
+  Value machine_document{{}, Value::Table{}};
+  auto const preliminary = read_experiment(experiment_document, experiment_path);
+  auto const path = machine.empty() ? machine_of(preliminary, experiment_path) : machine_file(machine);
+  machine_document = read_toml(path);
+  for (auto const& text : settings) apply(setting(text), machine_document, experiment_document);
+  auto const programme = read_experiment(experiment_document, experiment_path);
+  check_outputs(path, experiment_path, programme);
+  Machine const built = Machine::build(machine_document);
+
+  RunOptions options;
+  options.integration.relative_tolerance = tolerance;
+  options.integration.absolute_tolerance = tolerance;
+  if (!dataset.empty()) options.dataset = dataset;
+  if (!fields.empty()) options.fields = fields;
+  if (!picture.empty()) options.picture = picture;
+  options.field_interval = thermal::parse_value(field_interval, thermal::dimension::time);
+  options.node_temperatures = nodes;
+  options.provenance = origin(path, experiment_path, fmt::format("{}", fmt::join(settings, "\n")), programme);
+  set_checkpoint(options);
+  if (reduced) {
+    try {
+      return run_reduced(built, programme, options);
+    } catch (FileError const&) {
+      throw;
+    } catch (thermal::InputError const& error) {
+      throw located_in(experiment_document, error);
+    }
+  }
+  options.stop = &stop;
+  std::optional<Progress> progress;
+  if (!quiet) {
+    progress.emplace(fmt::format("{} on {}", experiment_path.stem().string(), built.name));
+    options.progress = [&](double share) { progress->show(share); };
+  }
+  auto const result = [&] {
+    try {
+      return run(built, programme, options);
+    } catch (FileError const&) {
+      throw;
+    } catch (thermal::InputError const& error) {
+      throw located_in(experiment_document, error);
+    }
+  }();
+  progress.reset();
+  if (json)
+    fmt::print("{}", summary_json(built, result));
+  else if (!quiet)
+    fmt::print("{}", summary_table(built, result));
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, std::atomic<bool> const& stop) {
+  auto command = std::make_shared<RunCommand>();
+  auto* added = app.add_subcommand("run", "run an experiment on a machine");
+  command->add_to(*added);
+  added->callback([command, &stop] { (*command)(stop); });
+}
+
+void add_replay_command(CLI::App& app, std::atomic<bool> const& stop) {
+  auto* command = app.add_subcommand("replay", "make a run anew from its own output, and compare byte for byte");
+  auto file = std::make_shared<std::string>(), kept = std::make_shared<std::string>();
+  command->add_option("dataset", *file, "data set of a run (HDF5)")->required();
+  command->add_option("--output,-o", *kept, "keep the new data set");
+  command->callback([file, kept, &stop] {
+    check_suffix(*kept, "a data set", {".h5"});
+    refuse_to_overwrite(*kept, {}, {*file});
+    std::optional<Progress> progress(*file);
+    auto const made = replay(
+        *file, *kept, [&](double share) { progress->show(share); }, &stop);
+    progress.reset();
+    if (!made.same_bytes) throw std::runtime_error(made.text);
+    fmt::print("{}", made.text);
+  });
+}
+
+}  // namespace thermotwin::twin
