@@ -79,4 +79,17 @@ void resize_rows(Dataset& dataset, Eigen::Index rows) {
   if (dataset.node_temperatures) dataset.node_temperatures->conservativeResize(rows, Eigen::NoChange);
 }
 
+Eigen::VectorXd at_times(Eigen::VectorXd const& course, Eigen::VectorXd const& own, Eigen::VectorXd const& times) {
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(times.size(), std::nan(""));
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    auto const next = std::lower_bound(own.begin(), own.end(), times[i]) - own.begin();
+    if (next == own.size() || times[i] < own[0]) continue;
+    values[i] = course[next];
+    if (next == 0 || own[next] == times[i]) continue;
+    double const share = (times[i] - own[next - 1]) / (own[next] - own[next - 1]);
+    values[i] = course[next - 1] + share * (course[next] - course[next - 1]);
+  }
+  return values;
+}
+
 }  // namespace thermotwin::output

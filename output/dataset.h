@@ -56,4 +56,8 @@ void check(Dataset const& dataset);
 /// Cuts or lengthens the time axis and every course along it; what is added is not set.
 void resize_rows(Dataset& dataset, Eigen::Index rows);
 
+/// A course known at `own` times, at others: along straight lines; NaN outside.
+[[nodiscard]] Eigen::VectorXd at_times(Eigen::VectorXd const& course, Eigen::VectorXd const& own,
+                                       Eigen::VectorXd const& times);
+
 }  // namespace thermotwin::output

@@ -17,33 +17,14 @@ constexpr double sixty_minutes = 3600.0;
 struct Course {
   std::string name, unit;
   VectorXd time, values;
-
-  /// By a straight line between neighbours; NaN outside.
-  [[nodiscard]] double at(double t) const;
-  [[nodiscard]] double range() const;
 };
-
-double Course::at(double t) const {
-  if (time.size() == 0 || t < time[0] || t > time[time.size() - 1]) return NAN;
-  Index const next = std::lower_bound(time.begin(), time.end(), t) - time.begin();
-  if (next == 0) return values[0];
-  double const share = (t - time[next - 1]) / (time[next] - time[next - 1]);
-  return share == 1.0 ? values[next] : values[next - 1] + share * (values[next] - values[next - 1]);
-}
-
-double Course::range() const {
-  double low = INFINITY, high = -INFINITY;
-  for (double const value : values)
-    if (!std::isnan(value)) low = std::min(low, value), high = std::max(high, value);
-  return high - low;
-}
 
 std::vector<Course> courses_of(output::Dataset const& dataset) {
   std::vector<Course> courses;
   for (auto const& channel : dataset.displacements)
     courses.push_back({channel.name, channel.unit, dataset.time_s, channel.values});
   for (auto const& axis : dataset.positioning) {
-    if (axis.position_mm.size() < 2) continue;
+    if (axis.position_mm.size() < 2 || axis.time_s.size() == 0) continue;
     Eigen::MatrixXd const mean = 0.5 * (axis.forward_um + axis.backward_um);
     Index const last = axis.position_mm.size() - 1;
     auto const at = [&](Index p) { return fmt::format("{} at {:g} mm", axis.axis, axis.position_mm[p]); };
@@ -75,17 +56,20 @@ Motion motion_of(output::Dataset const& dataset, std::string const& ending) {
 }
 
 ChannelDrift drift_of(Course const& course, double from, double to) {
-  double const start = course.at(std::max(from, course.time.size() > 0 ? course.time[0] : from));
-  double const end = course.time.size() > 0 ? course.time[course.time.size() - 1] : to;
-  double const stop = std::min(to, end);
+  double const first = course.time[0], end = course.time[course.time.size() - 1], stop = std::min(to, end);
+  VectorXd const instants =
+      (VectorXd(5) << std::max(from, first), from + sixty_minutes, stop - sixty_minutes, stop, end).finished();
+  auto const at = output::at_times(course.values, course.time, instants);
   bool const long_enough = stop - from >= sixty_minutes;
-  return {course.name,
-          course.unit,
-          course.range(),
-          long_enough ? course.at(from + sixty_minutes) - start : NAN,
-          long_enough ? course.at(stop) - course.at(stop - sixty_minutes) : NAN,
-          course.at(stop) - start,
-          end > to ? course.at(end) - start : NAN};
+  ChannelDrift drift;
+  drift.name = course.name;
+  drift.unit = course.unit;
+  drift.range = course.values.maxCoeff<Eigen::PropagateNumbers>() - course.values.minCoeff<Eigen::PropagateNumbers>();
+  drift.first_hour = long_enough ? at[1] - at[0] : NAN;
+  drift.last_hour = long_enough ? at[3] - at[2] : NAN;
+  drift.at_stop = at[3] - at[0];
+  drift.at_end = end > to ? at[4] - at[0] : NAN;
+  return drift;
 }
 
 std::string shown(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2f}", value); }

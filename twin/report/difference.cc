@@ -112,7 +112,7 @@ Eigen::MatrixXd residuals(ShownRun const& first, ShownRun const& second, Machine
     for (auto const& mine : first.data.readings)
       for (auto const& theirs : second.data.readings)
         if (mine.name == machine.sensors[s].description.name && theirs.name == mine.name)
-          values.col(Eigen::Index(s)) = mine.values - at_times(theirs, second.data.time_s, times);
+          values.col(Eigen::Index(s)) = mine.values - output::at_times(theirs.values, second.data.time_s, times);
   return values;
 }
 

@@ -161,7 +161,7 @@ FigurePanel residuals(std::vector<ShownRun> const& runs, Channels channels, std:
       for (auto const& other : channels(runs[r].data))
         if (mine.unit == unit && other.name == mine.name)
           panel.add(mine.name, runs[r], r, reference.time_s,
-                    mine.values - at_times(other, runs[r].data.time_s, reference.time_s));
+                    mine.values - output::at_times(other.values, runs[r].data.time_s, reference.time_s));
   }
   return panel.take(name);
 }

@@ -122,25 +122,12 @@ ShownRun read_shown_run(std::filesystem::path const& path) {
   return run;
 }
 
-Eigen::VectorXd at_times(Channel const& channel, Eigen::VectorXd const& own, Eigen::VectorXd const& times) {
-  Eigen::VectorXd values = Eigen::VectorXd::Constant(times.size(), std::nan(""));
-  for (Eigen::Index i = 0; i < times.size(); ++i) {
-    auto const next = std::lower_bound(own.begin(), own.end(), times[i]) - own.begin();
-    if (next == own.size() || times[i] < own[0]) continue;
-    values[i] = channel.values[next];
-    if (next == 0 || own[next] == times[i]) continue;
-    double const share = (times[i] - own[next - 1]) / (own[next] - own[next - 1]);
-    values[i] = channel.values[next - 1] + share * (channel.values[next] - channel.values[next - 1]);
-  }
-  return values;
-}
-
 bool driven_alike(ShownRun const& reference, ShownRun const& other) {
   if (reference.data.time_s.size() == 0) return true;
   for (auto const& mine : reference.data.inputs)
     for (auto const& theirs : other.data.inputs) {
       if (mine.name != theirs.name || (mine.unit != "rpm" && mine.unit != "mm/min")) continue;
-      Eigen::ArrayXd const there = at_times(theirs, other.data.time_s, reference.data.time_s);
+      Eigen::ArrayXd const there = output::at_times(theirs.values, other.data.time_s, reference.data.time_s);
       Eigen::ArrayXd const difference = mine.values.array() - there;
       auto const known = difference.isFinite();
       double const highest = known.select(mine.values.array().abs().max(there.abs()), 0.0).maxCoeff();

@@ -21,10 +21,6 @@ struct ShownRun {
 /// (`.csv`), or a measurement file (`.toml`). InputError names the file.
 [[nodiscard]] ShownRun read_shown_run(std::filesystem::path const& path);
 
-/// A channel with samples at `own` times, at others: along straight lines; NaN outside.
-[[nodiscard]] Eigen::VectorXd at_times(output::Channel const& channel, Eigen::VectorXd const& own,
-                                       Eigen::VectorXd const& times);
-
 /// Whether two data sets went through the same, so that their difference tells something: no speed or feed that both
 /// know differs by more than a tenth of its highest value (RMS over the times that both have).
 [[nodiscard]] bool driven_alike(ShownRun const& reference, ShownRun const& other);
