@@ -1,43 +1,32 @@
 #include "thermal/exponential_step.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace thermotwin::thermal {
 namespace {
 
-/// φ_k by its series: Σ zⁿ/(n + k)!, for small z.
-double series(double z, double first) {
-  double term = first, sum = 0.0;
-  double const k = first == 1.0 ? 1.0 : first == 0.5 ? 2.0 : 3.0;
-  for (int n = 1; n <= 9; ++n) {
-    sum += term;
-    term *= z / (double(n) + k);
-  }
-  return sum;
-}
+constexpr double slow = 0.05;  // −z up to which the series of φ₃ ends after seven terms
 
 }  // namespace
 
 void ExponentialFactors::set(Eigen::VectorXd const& rate, double h) {
   auto const n = rate.size();
-  decay.resize(n);
-  phi1.resize(n);
-  phi2.resize(n);
-  phi3.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    double const x = rate[i] * h;
-    if (x < 0.05) {
-      phi1[i] = series(-x, 1.0);
-      phi2[i] = series(-x, 0.5);
-      phi3[i] = series(-x, 1.0 / 6.0);
-      decay[i] = 1.0 - x * phi1[i];
-    } else {
-      decay[i] = std::exp(-x);
-      phi1[i] = (1.0 - decay[i]) / x;
-      phi2[i] = (1.0 - phi1[i]) / x;
-      phi3[i] = (0.5 - phi2[i]) / x;
-    }
-  }
+  for (auto* factor : {&decay, &phi1, &phi2, &phi3}) factor->resize(n);
+  auto const first_fast = std::lower_bound(rate.begin(), rate.end(), slow / h) - rate.begin();
+
+  auto const z = -h * rate.head(first_fast).array();
+  phi3.head(first_fast) =
+      1.0 / 6 + z * (1.0 / 24 + z * (1.0 / 120 + z * (1.0 / 720 + z * (1.0 / 5040 + z * (1.0 / 40320 + z / 362880)))));
+  phi2.head(first_fast) = 0.5 + z * phi3.head(first_fast);
+  phi1.head(first_fast) = 1.0 + z * phi2.head(first_fast);
+  decay.head(first_fast) = 1.0 + z * phi1.head(first_fast);
+
+  auto const fast = n - first_fast;
+  auto const x = h * rate.tail(fast).array();
+  decay.tail(fast) = (-x).exp();
+  phi1.tail(fast) = (1.0 - decay.tail(fast)) / x;
+  phi2.tail(fast) = (1.0 - phi1.tail(fast)) / x;
+  phi3.tail(fast) = (0.5 - phi2.tail(fast)) / x;
 }
 
 ExponentialStep::ExponentialStep(Eigen::VectorXd const& rate, Rest rest) : rate_(&rate), rest_(std::move(rest)) {}

@@ -9,6 +9,7 @@ namespace thermotwin::thermal {
 struct ExponentialFactors {
   Eigen::ArrayXd decay, phi1, phi2, phi3;
 
+  /// `rate`: Λ ≥ 0, ascending.
   void set(Eigen::VectorXd const& rate, double h);
 };
 

@@ -9,10 +9,10 @@ namespace thermotwin::thermal {
 /// threads there are.
 template <class Left, class Right>
 [[nodiscard]] Eigen::MatrixXd threaded_product(Left const& a, Right const& b) {
-  constexpr Eigen::Index block = 32;
+  constexpr Eigen::Index block = 32, worth_threads = 1 << 20;  // products of two numbers: a fifth of a millisecond
   Eigen::MatrixXd result(a.rows(), b.cols());
   Eigen::Index const blocks = (b.cols() + block - 1) / block;
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (a.rows() * a.cols() * b.cols() > worth_threads)
   for (Eigen::Index k = 0; k < blocks; ++k) {
     Eigen::Index const first = k * block, count = std::min(block, b.cols() - first);
     result.middleCols(first, count).noalias() = a * b.middleCols(first, count);

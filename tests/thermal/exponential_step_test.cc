@@ -9,9 +9,11 @@ namespace {
 using Eigen::VectorXd;
 
 TEST(ExponentialStep, FactorsMeetTheirDefinitionAcrossTheSeries) {
-  for (double x : {0.0, 1e-6, 0.049999, 0.050001, 0.3, 4.0, 1e3}) {
-    ExponentialFactors factors;
-    factors.set(VectorXd::Constant(1, x), 1.0);
+  VectorXd const rate = (VectorXd(7) << 0.0, 1e-6, 0.049999, 0.050001, 0.3, 4.0, 1e3).finished();
+  ExponentialFactors factors;
+  factors.set(rate, 1.0);
+  for (Eigen::Index r = 0; r < rate.size(); ++r) {
+    double const x = rate[r];
     // φ_k(−x) = ∫₀¹ e^{−x(1−s)} s^{k−1}/(k−1)! ds, by the midpoint rule.
     double phi[3] = {0.0, 0.0, 0.0};
     int const n = 200000;
@@ -21,10 +23,10 @@ TEST(ExponentialStep, FactorsMeetTheirDefinitionAcrossTheSeries) {
       phi[1] += e * s;
       phi[2] += e * s * s / 2.0;
     }
-    EXPECT_NEAR(factors.decay[0], std::exp(-x), 1e-14);
-    EXPECT_NEAR(factors.phi1[0], phi[0], 1e-8);
-    EXPECT_NEAR(factors.phi2[0], phi[1], 1e-8);
-    EXPECT_NEAR(factors.phi3[0], phi[2], 1e-8);
+    EXPECT_NEAR(factors.decay[r], std::exp(-x), 1e-14);
+    EXPECT_NEAR(factors.phi1[r], phi[0], 1e-8);
+    EXPECT_NEAR(factors.phi2[r], phi[1], 1e-8);
+    EXPECT_NEAR(factors.phi3[r], phi[2], 1e-8);
   }
 }
 
