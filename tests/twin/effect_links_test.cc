@@ -249,6 +249,22 @@ TEST(CoolantInAWallOfSeveralCells, CoolsNoneBelowItsInlet) {
   check(snippet("coolant_flow"), {{"through", "sleeve"}, {"inlet_offset", "-0.85 K"}});
 }
 
+/// Each cell by its own temperature: vapour pressure is not linear in it.
+TEST(Evaporation, OfAWallOfSeveralCellsFollowsEachCell) {
+  auto const& evaporation = snippet("evaporation");
+  Changes const wet = {{"from", "sleeve"}};
+  Machine const machine = Machine::build(bench(evaporation, wet));
+  auto temperatures = uniform_temperatures(machine, 293.15);
+  auto const sleeve = std::size_t(machine.network().range("sleeve").first);
+  temperatures[sleeve + 2] = 313.15;
+  auto const heat = heat_of(evaporation, machine, temperatures, still_air);
+  double const cold = total_at(evaporation, 293.15, still_air, wet),
+               warm = total_at(evaporation, 313.15, still_air, wet);
+  EXPECT_NEAR(heat[sleeve], cold / 3.0, 1e-9 * std::abs(cold));
+  EXPECT_NEAR(heat[sleeve + 2], warm / 3.0, 1e-9 * std::abs(warm));
+  EXPECT_LT(warm, 2.0 * cold);
+}
+
 TEST(ChannelFilm, HeatsTheStreamCellByCell) {
   auto const& film = snippet("channel_film");
   Machine const machine = Machine::build(bench(film));

@@ -38,9 +38,12 @@ struct Evaporation {
   }
 
   void add_to(Assembly& assembly) const {
-    Place const wet = assembly.place(from);
-    assembly.network().add<EvaporationHeat>(assembly.part(), {assembly.port(wet), assembly.air(wet.centre())},
-                                            {area, coefficient, lewis, humidity}, {assembly.channel(while_on)});
+    Place wet = assembly.place(from);
+    wet.site = thermal::with_area(wet.site, area);
+    for (auto const& contact : wet.site.contacts)
+      assembly.network().add<EvaporationHeat>(
+          assembly.part(), {assembly.node(wet, contact.node), assembly.air(contact.centre)},
+          {contact.area, coefficient, lewis, humidity}, {assembly.channel(while_on)});
   }
 };
 
