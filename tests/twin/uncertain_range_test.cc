@@ -53,6 +53,8 @@ TEST(UncertainRange, SaysWhereItIsWrong) {
     return HasSubstr(fmt::format("mine.toml:{}:{}: ", lines + line, column));
   };
   EXPECT_THAT(refusal(range("joint.haed.conductance", "5 W/K", "12 W/K")), AllOf(at(3, 8), HasSubstr("'head'")));
+  EXPECT_THAT(refusal(range("joint.head.conductence", "5 W/K", "12 W/K")),
+              AllOf(at(3, 8), HasSubstr("did you mean 'conductance'?")));
   EXPECT_THAT(refusal(range("joint.head.conductance", "5 W", "12 W/K")), AllOf(at(4, 8), HasSubstr("'5 W'")));
   EXPECT_THAT(refusal(range("joint.head.conductance", "12 W/K", "5 W/K")),
               AllOf(at(4, 8), HasSubstr("the range from '12 W/K' to '5 W/K' is empty")));
