@@ -47,6 +47,13 @@ TEST(UncertainRange, IsOfANumberOfTheFile) {
   EXPECT_TRUE(ranged_numbers(v450_with("")).empty());
 }
 
+/// A challenge hides its effect in a machine of another form, whose motor is a block without a mass of its own.
+TEST(UncertainRange, IsNotOfAnotherFormOfTheMachine) {
+  auto const document = v450_with(range("lump.motor.mass", "20 kg", "30 kg"));
+  EXPECT_EQ(ranged_numbers(document).size(), 1U);
+  EXPECT_NO_THROW((void)draw_hidden_world(document, 1, CaseKind::none));
+}
+
 TEST(UncertainRange, SaysWhereItIsWrong) {
   auto const lines = std::count(v450_text().begin(), v450_text().end(), '\n');
   auto const at = [&](int line, int column) {
