@@ -8,6 +8,7 @@
 #include <set>
 
 #include "models/candidates.h"
+#include "models/ranking.h"
 
 namespace thermotwin::models {
 
@@ -18,12 +19,13 @@ using Eigen::MatrixXd;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double joined_above = 0.9;
+constexpr double alike_within = 1e-12;  // of 1: correlations that differ by rounding
 
 /// The sensors, in the order of their score, that are the first of their group.
 std::vector<Index> best_of_groups(std::vector<Index> const& groups, Eigen::VectorXd const& score) {
   std::vector<Index> best;
   std::set<Index> seen;
-  for (auto sensor : by_falling_score(score))
+  for (auto sensor : ranked(score, first_numbers(score.size())))
     if (seen.insert(groups[static_cast<std::size_t>(sensor)]).second) best.push_back(sensor);
   return best;
 }
@@ -68,7 +70,8 @@ Selection select_by_correlation(std::span<Batch const> batches, SelectionOptions
   MatrixXd const readings = centred(from.all.temperature_rise).colwise().normalized();
   Eigen::VectorXd const error = (from.all.error.array() - from.all.error.mean()).matrix().normalized();
   Eigen::VectorXd const score = (readings.transpose() * error).cwiseAbs();
-  MatrixXd const distance = 1.0 - (readings.transpose() * readings).array().abs();
+  MatrixXd distance = 1.0 - (readings.transpose() * readings).array().abs();
+  distance = (distance.array() < alike_within).select(0.0, distance);
   auto const merges = average_linkage(distance);
   auto const far = std::count_if(merges.begin(), merges.end(),
                                  [](Merge const& merge) { return merge.distance > 1.0 - joined_above; });

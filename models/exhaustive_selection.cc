@@ -63,7 +63,7 @@ BestSubset best_subset(SubsetValidation const& validation, int count) {
     member(set) = true;
     with = member.select(with.cwiseMin(rmse), with);
     without = member.select(without, without.cwiseMin(rmse));
-    if (rmse < best.rmse) {
+    if (validation.less(rmse, best.rmse)) {
       best.rmse = rmse;
       best.sensors = set;
     }

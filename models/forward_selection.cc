@@ -24,7 +24,7 @@ Selection select_forward(std::span<Batch const> batches, SelectionOptions const&
       auto trial = chosen;
       trial.push_back(j);
       gain(j) = rmse - validation.rmse(trial);
-      if (best < 0 || gain(j) > gain(best)) best = j;
+      if (best < 0 || validation.less(rmse - gain(j), rmse - gain(best))) best = j;
     }
     if (!options.count && !chosen.empty() && !validation.worthwhile(rmse, rmse - gain(best))) break;
     chosen.push_back(best);

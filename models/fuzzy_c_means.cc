@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "models/uniform_draw.h"
 
@@ -37,8 +38,11 @@ MatrixXd distances_from_centres(MatrixXd const& centres, MatrixXd const& points)
   return result;
 }
 
-MatrixXd memberships(MatrixXd const& squared, double exponent) {
-  double const zero = 1e-20 * squared.maxCoeff();
+double largest_square(MatrixXd const& points) { return points.rowwise().squaredNorm().maxCoeff(); }
+
+/// Of squared distances; what is left of a distance where points of this size coincide is none.
+MatrixXd memberships(MatrixXd const& squared, double size, double exponent) {
+  double const zero = 1e-20 * std::max(size, squared.maxCoeff());
   MatrixXd result(squared.rows(), squared.cols());
   for (Index k = 0; k < squared.cols(); ++k) {
     double const nearest = squared.col(k).minCoeff();
@@ -54,14 +58,15 @@ MatrixXd memberships(MatrixXd const& squared, double exponent) {
 FuzzyClusters descend(MatrixXd const& points, MatrixXd const& first_centres, FuzzyOptions const& options) {
   FuzzyClusters clusters{{}, first_centres, {}};
   MatrixXd squared = distances_from_centres(clusters.centres, points);
-  clusters.membership = memberships(squared, options.exponent);
+  double const size = largest_square(points);
+  clusters.membership = memberships(squared, size, options.exponent);
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     MatrixXd const weights = clusters.membership.array().pow(options.exponent);
     // A centre that no point belongs to (more centres than different points) stays where it is.
     for (Index i = 0; i < weights.rows(); ++i)
       if (double const sum = weights.row(i).sum(); sum > 0) clusters.centres.row(i) = weights.row(i) * points / sum;
     squared = distances_from_centres(clusters.centres, points);
-    MatrixXd membership = memberships(squared, options.exponent);
+    MatrixXd membership = memberships(squared, size, options.exponent);
     clusters.descent.push_back((membership.array().pow(options.exponent) * squared.array()).sum());
     double const change = (membership - clusters.membership).cwiseAbs().maxCoeff();
     clusters.membership = std::move(membership);
@@ -107,16 +112,26 @@ double xie_beni(FuzzyClusters const& clusters, MatrixXd const& points) {
   MatrixXd between = distances_from_centres(clusters.centres, clusters.centres);
   between.diagonal().setConstant(std::numeric_limits<double>::infinity());
   double const nearest = between.minCoeff();
-  double const size = points.rowwise().squaredNorm().maxCoeff();
-  if (!(nearest > 1e-20 * size) || clusters.centres.rows() < 2) return std::numeric_limits<double>::infinity();
+  if (!(nearest > 1e-20 * largest_square(points)) || clusters.centres.rows() < 2)
+    return std::numeric_limits<double>::infinity();
   return scatter / (static_cast<double>(points.rows()) * nearest);
 }
 
-int number_of_clusters(MatrixXd const& points, FuzzyOptions const& options) {
+FuzzyPartitions::FuzzyPartitions(MatrixXd points, FuzzyOptions const& options)
+    : points_(std::move(points)), options_(options) {}
+
+FuzzyClusters const& FuzzyPartitions::clusters(int count) {
+  std::lock_guard const alone(finding_);
+  auto found = found_.find(count);
+  if (found == found_.end()) found = found_.emplace(count, fuzzy_c_means(points_, count, options_)).first;
+  return found->second;
+}
+
+int FuzzyPartitions::number() {
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
-  for (int c = 2; c <= std::min<Index>(points.rows() / 2, most_clusters); ++c) {
-    double const index = xie_beni(fuzzy_c_means(points, c, options), points);
+  for (int c = 2; c <= std::min<Index>(points_.rows() / 2, most_clusters); ++c) {
+    double const index = xie_beni(clusters(c), points_);
     if (index < least) {
       least = index;
       best = c;

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
+#include <mutex>
 #include <vector>
 
 namespace thermotwin::models {
@@ -20,8 +22,8 @@ struct FuzzyOptions {
 ///   J = Σ_i Σ_k u_ik^m d_ik²,   Σ_i u_ik = 1,
 ///   v_i = Σ_k u_ik^m x_k / Σ_k u_ik^m,   u_ik = 1 / Σ_j (d_ik/d_jk)^(2/(m−1)),
 ///
-/// the last two in turn until the memberships stand. A point on a centre (to 1e-10 of the largest distance)
-/// belongs to it alone, to several that coincide in equal parts.
+/// the last two in turn until the memberships stand. A point on a centre (to 1e-10 of the largest distance or
+/// coordinates) belongs to it alone, to several that coincide in equal parts.
 struct FuzzyClusters {
   Eigen::MatrixXd membership;   ///< c × n
   Eigen::MatrixXd centres;      ///< c × dimensions
@@ -39,7 +41,22 @@ FuzzyClusters fuzzy_c_means(Eigen::MatrixXd const& points, int clusters, FuzzyOp
 /// IEEE TPAMI 13 (1991) 841). Infinite for one cluster and where centres coincide.
 double xie_beni(FuzzyClusters const& clusters, Eigen::MatrixXd const& points);
 
-/// The c from 2 to n/2, 10 at most, with the least Xie-Beni index; 1 for fewer than four points.
-int number_of_clusters(Eigen::MatrixXd const& points, FuzzyOptions const& options = {});
+/// The fuzzy clusters of the same points for any number of them, each found when it is first asked for, by whichever
+/// thread asks, and only once.
+class FuzzyPartitions {
+ public:
+  explicit FuzzyPartitions(Eigen::MatrixXd points, FuzzyOptions const& options = {});
+
+  /// As `fuzzy_c_means` finds them, and refuses.
+  [[nodiscard]] FuzzyClusters const& clusters(int count);
+  /// The c from 2 to n/2, 10 at most, with the least Xie-Beni index; 1 for fewer than four points.
+  [[nodiscard]] int number();
+
+ private:
+  Eigen::MatrixXd points_;
+  FuzzyOptions options_;
+  std::mutex finding_;
+  std::map<int, FuzzyClusters> found_;
+};
 
 }  // namespace thermotwin::models

@@ -28,4 +28,14 @@ OrderedCandidates const& SharedScreen::ordered(Candidates const& from, std::uint
   return *ordered_[which];
 }
 
+FuzzyPartitions& SharedScreen::fuzzy(Candidates const& from, std::uint64_t seed, ClusterScale scale) {
+  auto const which = static_cast<std::size_t>(scale);
+  std::call_once(scaled_[which], [&] {
+    FuzzyOptions options;
+    options.seed = seed;
+    fuzzy_[which].emplace(course_points(from, scale), options);
+  });
+  return *fuzzy_[which];
+}
+
 }  // namespace thermotwin::models

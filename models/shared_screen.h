@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "models/candidates.h"
+#include "models/fuzzy_c_means.h"
 #include "models/information_screen.h"
 #include "models/ordered_clustering.h"
 #include "models/selection.h"
+#include "models/time_ranked_clusters.h"
 
 namespace thermotwin::models {
 
@@ -20,8 +22,8 @@ struct OrderedCandidates {
   OrderedPartitions partitions;
 };
 
-/// What the methods of paper 000 share when they are asked about the same batches with the same seed. Each part is made
-/// when it is first asked for, by whichever thread asks, and only once.
+/// What the methods of papers 000 and 001 share when they are asked about the same batches with the same seed. Each
+/// part is made when it is first asked for, by whichever thread asks, and only once.
 class SharedScreen {
  public:
   InformationScreen const& screen(Candidates const& from, std::uint64_t seed);
@@ -29,11 +31,16 @@ class SharedScreen {
   /// Of the candidates that the screen keeps, or of all.
   OrderedCandidates const& ordered(Candidates const& from, std::uint64_t seed, bool all);
 
+  /// Of the candidates' courses.
+  FuzzyPartitions& fuzzy(Candidates const& from, std::uint64_t seed, ClusterScale scale);
+
  private:
   std::once_flag screened_;
   InformationScreen screen_;
   std::array<std::once_flag, 2> parted_;
   std::array<std::optional<OrderedCandidates>, 2> ordered_;
+  std::array<std::once_flag, 2> scaled_;
+  std::array<std::optional<FuzzyPartitions>, 2> fuzzy_;
 };
 
 /// That of the options, or one for this method alone.

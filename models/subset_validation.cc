@@ -14,6 +14,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+constexpr double round_off = 1e-9;  // of the error's own size
 
 MatrixXd triangle(MatrixXd const& rows) {
   if (rows.rows() <= rows.cols()) return rows;
@@ -73,8 +74,10 @@ double SubsetValidation::rmse(std::span<Index const> sensors) const {
   return std::sqrt(sum / static_cast<double>(instants_));
 }
 
+bool SubsetValidation::less(double rmse, double other) const { return rmse < other - round_off * size_of_error_; }
+
 bool SubsetValidation::worthwhile(double before, double after) const {
-  return after < 0.99 * before && before > 1e-9 * size_of_error_;
+  return after < 0.99 * before && before > round_off * size_of_error_;
 }
 
 }  // namespace thermotwin::models

@@ -29,8 +29,11 @@ class SubsetValidation {
   [[nodiscard]] int largest_set() const { return static_cast<int>(shortest_training_) - 2; }
   [[nodiscard]] Eigen::Index sensors() const { return sensors_; }
 
+  /// Less by more than round-off (1e-9 of the error's own size).
+  [[nodiscard]] bool less(double rmse, double other) const;
+
   /// The rule by which sets grow when no size is given: one more sensor must lower the RMSE by 1 %, and not from what
-  /// is round-off already (1e-9 of the error's own size).
+  /// is round-off already.
   [[nodiscard]] bool worthwhile(double before, double after) const;
 
  private:

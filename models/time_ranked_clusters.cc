@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <set>
 
-#include "models/fuzzy_c_means.h"
+#include "models/shared_screen.h"
 #include "models/time_characteristic.h"
 
 namespace thermotwin::models {
@@ -12,12 +12,6 @@ namespace thermotwin::models {
 namespace {
 
 using Eigen::Index;
-
-FuzzyOptions fuzzy(SelectionOptions const& options) {
-  FuzzyOptions result;
-  result.seed = options.seed;
-  return result;
-}
 
 /// In the order of rank: the first of each cluster, and then, if these are not enough, the first of the others.
 std::vector<Index> best_of_clusters(std::vector<Index> const& order, std::vector<Index> const& labels,
@@ -30,10 +24,11 @@ std::vector<Index> best_of_clusters(std::vector<Index> const& order, std::vector
   return best;
 }
 
-Selection select(std::span<Batch const> batches, SelectionOptions const& options, ClusterScale scale) {
+Selection select(std::span<Batch const> batches, SelectionOptions options, ClusterScale scale) {
   auto const from = candidates(batches, options);
+  options.shared = shared_screen(options);
   auto [count, remark] = count_or_clusters(from, options, scale);
-  auto const labels = fuzzy_c_means(course_points(from, scale), count, fuzzy(options)).labels();
+  auto const labels = options.shared->fuzzy(from, options.seed, scale).clusters(count).labels();
   auto const characteristic = time_characteristic(from.batches, options.resolution, TimeRank::at_maximum);
   auto const filled = std::set<Index>(labels.begin(), labels.end()).size();
   if (filled < static_cast<std::size_t>(count))
@@ -60,7 +55,7 @@ Eigen::MatrixXd course_points(Candidates const& from, ClusterScale scale) {
 std::pair<int, std::string> count_or_clusters(Candidates const& from, SelectionOptions const& options,
                                               ClusterScale scale) {
   if (options.count) return {*options.count, ""};
-  int const count = number_of_clusters(course_points(from, scale), fuzzy(options));
+  int const count = shared_screen(options)->fuzzy(from, options.seed, scale).number();
   return {count, fmt::format("{} clusters by Xie and Beni's index", count)};
 }
 

@@ -13,6 +13,7 @@
 #include "twin/file/tables.h"
 #include "twin/machine.h"
 #include "twin/setting.h"
+#include "twin/uncertain_range.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -116,6 +117,7 @@ void FileChecker::read(std::filesystem::path const& file, std::size_t i) {
   }
   auto const machine = Machine::build(document);
   check_counts(document);
+  static_cast<void>(ranged_numbers(document));
   find_implausible(document, machine_fields(), check.warnings);
   check.text = fmt::format("the machine {}: {} nodes, {} parts, {} sensors, {} displacement channels", machine.name,
                            machine.network().nodes(), machine.network().parts().size(), machine.sensors.size(),

@@ -12,6 +12,7 @@
 #include "twin/file/document.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/tables.h"
+#include "twin/uncertain_range.h"
 #include "twin/volumetric/volumetric_machine.h"
 
 namespace thermotwin::twin {
@@ -54,7 +55,8 @@ std::vector<std::string> const& own_tables() {
                                                  "displacement_probe",
                                                  "five_probe_nest",
                                                  "laser",
-                                                 "volumetric"};
+                                                 "volumetric",
+                                                 "uncertain"};
   return names;
 }
 
@@ -340,6 +342,7 @@ Machine MachineBuilder::operator()() {
   read_screws();
   read_displacement_instruments();
   check_volumetric();
+  static_cast<void>(tables_.read<UncertainRange>("uncertain"));  // the keys; what they say is for ranged_numbers()
   machine_.reading_terms = assembly_.reading_terms();
   assembly_.add_air_terms();
   build_network();
@@ -378,7 +381,9 @@ std::vector<TableRecord> describe_machine() {
       {"five_probe_nest", "X1, Y1, X2, Y2 and Z about a test bar; one table", list_fields<FiveProbeNest>()},
       {"laser", "laser interferometer along an axis; one table", list_fields<LaserInterferometer>()},
       {"volumetric", "21 error elements of a machine with three linear axes; one table",
-       list_fields<VolumetricDescription>()}};
+       list_fields<VolumetricDescription>()},
+      {"uncertain", "a number of this file that is known within a range only: placement draws machines from it",
+       list_fields<UncertainRange>()}};
   for (auto const& entry : effect_catalogue()) tables.push_back({entry.name, entry.meaning, entry.parameters});
   return tables;
 }

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "thermal/error.h"
+#include "thermal/nearest_name.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -26,7 +27,8 @@ Parameter find_number(Value const& document, std::string_view path) {
   Value const* value = table->find(key);
   if (!value)
     throw thermal::InputError(
-        fmt::format("parameter '{}': '{}' is not given in the file; give it there or with --set", path, key));
+        fmt::format("parameter '{}': '{}' is not given in the file; give it there or with --set; {}", path, key,
+                    thermal::did_you_mean(key, table->keys())));
   if (double const* number = std::get_if<double>(&value->content)) return {std::string(path), *number, {}, false};
   if (!value->is_text())
     throw thermal::InputError(fmt::format(

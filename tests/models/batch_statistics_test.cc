@@ -35,6 +35,33 @@ TEST(BatchStatistics, AreWhatAHandComputes) {
   EXPECT_LT((statistics.verification_Sd - Eigen::Vector3d(std::sqrt(2.0), 0, std::sqrt(4.5))).norm(), 1e-14);
 }
 
+/// Twelve models on the twelve batches of their own and six to verify: the error of model l on batch k is l + 2k in
+/// size, of alternating sign, and it claims all but the first two instants.
+TEST(BatchStatistics, OfTwelveBatchesAndSixToVerifyStandInAMatrixOfTwelveByEighteen) {
+  constexpr int samples = 42, lags = 2;
+  constexpr double parameters = 7;
+  std::vector<VectorXd> errors;
+  std::vector<std::vector<VectorXd>> predictions(12);
+  for (int k = 0; k < 18; ++k) {
+    errors.push_back(VectorXd::LinSpaced(samples, 0, k + 1));
+    for (int l = 0; l < 12; ++l) {
+      auto& prediction = predictions[std::size_t(l)].emplace_back(errors.back().tail(samples - lags));
+      for (int t = 0; t < samples - lags; ++t) prediction(t) += (t % 2 == 0 ? 1 : -1) * (l + 2 * k);
+    }
+  }
+  auto const matrix = deviation_matrix(errors, predictions, std::vector<double>(12, parameters));
+  ASSERT_EQ(matrix.rows(), 12);
+  ASSERT_EQ(matrix.cols(), 18);
+  for (int l = 0; l < 12; ++l)
+    for (int k = 0; k < 18; ++k)
+      EXPECT_NEAR(matrix(l, k), (l + 2 * k) * (k == l ? std::sqrt(40.0 / (40.0 - parameters)) : 1.0), 1e-12);
+  auto const statistics = batch_statistics(matrix);
+  // Of model 3 on the others: 3 + 2k for k = 0 to 11 without 3, whose mean is 3 + 2 (66 − 3)/11.
+  EXPECT_NEAR(statistics.Mn(3), 3.0 + 126.0 / 11.0, 1e-12);
+  EXPECT_NEAR(statistics.verification_Mn(3), 3.0 + 2.0 * 14.5, 1e-12);
+  EXPECT_NEAR(statistics.verification_Sd(3), 2.0 * std::sqrt(3.5), 1e-12);
+}
+
 TEST(BatchStatistics, NeedABatchForEachModel) {
   EXPECT_THROW(batch_statistics(MatrixXd::Ones(2, 2)), std::invalid_argument);
   EXPECT_THROW(batch_statistics(MatrixXd::Ones(4, 3)), std::invalid_argument);

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <map>
 
+#include "models/shared_screen.h"
+#include "models/time_characteristic.h"
 #include "models/time_ranked_clusters.h"
 #include "tests/models/simulated_batch.h"
 
@@ -86,7 +88,7 @@ TEST(FuzzyCMeans, CountsPlantedClustersByXieAndBeni) {
   options.starts = 5;
   int right = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed)
-    right += number_of_clusters(heaps(seed, 2 + int(seed % 3)), options) == 2 + int(seed % 3);
+    right += FuzzyPartitions(heaps(seed, 2 + int(seed % 3)), options).number() == 2 + int(seed % 3);
   EXPECT_GE(right, 57);
 }
 
@@ -100,6 +102,16 @@ TEST(FuzzyCMeans, IsStableOverItsStarts) {
     for (options.seed = 2; options.seed <= 50; ++options.seed)
       EXPECT_NEAR(fuzzy_c_means(points, planted, options).objective(), reference, 1e-4 * reference);
   }
+}
+
+TEST(FuzzyPartitions, FindEachNumberOfClustersOnce) {
+  auto const points = heaps(2, 3);
+  FuzzyPartitions partitions(points);
+  auto const& three = partitions.clusters(3);
+  EXPECT_EQ(three.membership, fuzzy_c_means(points, 3).membership);
+  EXPECT_EQ(partitions.number(), 3);
+  EXPECT_EQ(&partitions.clusters(3), &three);
+  EXPECT_THROW((void)partitions.clusters(16), std::invalid_argument);
 }
 
 TEST(FuzzyCMeans, WithAsManyClustersAsPointsPutsEachInItsOwn) {
@@ -170,6 +182,25 @@ TEST(TimeRankedClusters, NeverLookAtTheError) {
     for (auto& e : batch.error) e = 50 * normal(generator);
     EXPECT_EQ(select({{batch}}, {}).sensors, before.sensors);
     EXPECT_THAT(before.remark, testing::HasSubstr("Xie"));
+  }
+}
+
+TEST(TimeRankedClusters, ChooseAsWithoutWhereClustersAreSharedAndClusterOnce) {
+  auto const run = three_kinds(5), other = three_kinds(6);
+  auto const shared = std::make_shared<SharedScreen>();
+  for (auto const select :
+       {select_by_time_at_maximum, select_by_first_maximum, select_by_fuzzy_amplitude, select_by_fuzzy_shape})
+    for (std::optional<int> const count : {std::optional<int>(), std::optional(3)}) {
+      auto const alone = select({&run, 1}, {.count = count}),
+                 together = select({&run, 1}, {.count = count, .shared = shared});
+      EXPECT_EQ(together.sensors, alone.sensors);
+      EXPECT_EQ(together.remark, alone.remark);
+    }
+  // Asked about another run, it still has the clusters of the first.
+  for (auto const scale : {ClusterScale::raw, ClusterScale::shape}) {
+    auto const points = course_points(candidates({&run, 1}, {}), scale);
+    EXPECT_EQ(shared->fuzzy(candidates({&other, 1}, {}), 1, scale).clusters(3).membership,
+              fuzzy_c_means(points, 3).membership);
   }
 }
 

@@ -154,9 +154,12 @@ TEST(Study, ImprovementIsOverTheReferenceInTheNamedMetric) {
   auto const report = study.report();
   auto const& figures = row(report, "all + linear").figures;
   auto const& reference = row(report, "forward 2 + ridge").figures;
+  double const before = interval(reference.at("cross.mae")).mean, after = interval(figures.at("cross.mae")).mean;
   for (std::size_t r = 0; r < 5; ++r)
-    EXPECT_NEAR(figures.at("improvement")[r], 100.0 * (1.0 - figures.at("cross.mae")[r] / reference.at("cross.mae")[r]),
-                1e-9);
+    EXPECT_NEAR(figures.at("improvement")[r],
+                100.0 * (reference.at("cross.mae")[r] - figures.at("cross.mae")[r]) / before, 1e-9);
+  EXPECT_NEAR(interval(figures.at("improvement")).mean, 100.0 * (1.0 - after / before), 1e-9);
+  EXPECT_THAT(study_text(report), HasSubstr("better: mae of cross-prediction against forward 2 + ridge"));
   EXPECT_EQ(row(report, "forward 2 + ridge").sensors.size(), 2U);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 #include <set>
 
 #include "thermal/error.h"
@@ -14,6 +15,7 @@
 #include "twin/file/document.h"
 #include "twin/instruments/correlated_noise.h"
 #include "twin/run.h"
+#include "twin/uncertain_range.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -28,18 +30,23 @@ constexpr int attempts = 60;
 
 std::array<std::string, 5> const kind_names = {"one", "none", "outside", "two", "sensor"};
 
-/// Draws one factor for a key of a table, if the table has it as a number.
+/// Draws one factor for a key of a table, if the table has it as a number: lognormal, or evenly within the range that
+/// the file states.
 class Variation {
  public:
-  Variation(RandomStream& stream, double spread, std::map<std::string, double>& drawn)
-      : stream_(stream), spread_(spread), drawn_(drawn) {}
+  Variation(Value const& document, RandomStream& stream, double spread, std::map<std::string, double>& drawn)
+      : ranges_(ranged_numbers(document)), stream_(stream), spread_(spread), drawn_(drawn) {}
 
   bool operator()(Value& table, std::string const& path, std::string const& key, thermal::Dimension dimension,
                   double spread, double highest = INFINITY) {
     auto const nominal = number_in(table, key, dimension);
     if (!nominal || *nominal == 0.0) return false;
-    double const value = std::min(*nominal * std::exp(spread_ * spread * stream_.normal()), highest);
-    drawn_[path + "." + key] = value / *nominal;
+    auto const name = path + "." + key;
+    auto const range = std::find_if(ranges_.begin(), ranges_.end(), [&](auto& r) { return r.number.path == name; });
+    double const normal = stream_.normal();
+    double const value = range != ranges_.end() ? within(*range, normal)
+                                                : std::min(*nominal * std::exp(spread_ * spread * normal), highest);
+    drawn_[name] = value / *nominal;
     if (dimension == thermal::dimension::dimensionless)
       set_key(table, key, value);
     else
@@ -47,7 +54,24 @@ class Variation {
     return true;
   }
 
+  /// What the file states a range of and nothing else draws.
+  void rest(Value& document) {
+    for (auto const& range : ranges_) {
+      if (drawn_.contains(range.number.path)) continue;
+      double const value = within(range, stream_.normal());
+      drawn_[range.number.path] = value / range.number.value;
+      set_number(document, range.number, value);
+    }
+  }
+
  private:
+  /// Even over the range, as the normal number is over its quantiles; without spread the file's own.
+  [[nodiscard]] double within(RangedNumber const& range, double normal) const {
+    double const share = 0.5 * std::erfc(-normal / std::numbers::sqrt2);
+    return std::lerp(range.number.value, std::lerp(range.low, range.high, share), spread_);
+  }
+
+  std::vector<RangedNumber> ranges_;
   RandomStream& stream_;
   double spread_;
   std::map<std::string, double>& drawn_;
@@ -323,10 +347,12 @@ CaseKind case_kind(std::uint64_t seed) {
 
 Value vary_parameters(Value document, std::uint64_t seed, double spread, std::map<std::string, double>& drawn) {
   RandomStream stream(seed, "parameters");
-  Variation vary(stream, spread, drawn);
+  Variation vary(document, stream, spread, drawn);
   vary_capacities(document, vary);
   vary_parts(document, vary);
   vary_loops(document, vary);
+  vary.rest(document);
+  erase_key(document, "uncertain");  // what was drawn is known
   return document;
 }
 

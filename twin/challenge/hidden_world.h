@@ -54,7 +54,8 @@ struct HiddenWorld {
 /// largest plausible amplitude, such that the nominal machine shows them on the held-out run: 1 µm or 0.4 K.
 [[nodiscard]] HiddenWorld draw_hidden_world(Value const& nominal, std::uint64_t seed, CaseKind kind);
 
-/// The draw without anything hidden, for tests: spread 1 is that of a challenge, 0 leaves all coefficients.
+/// The draw without anything hidden: spread 1 is that of a challenge, 0 leaves all coefficients. Numbers of which the
+/// file states a range ([[uncertain]]) are drawn evenly within it, whatever they are.
 [[nodiscard]] Value vary_parameters(Value document, std::uint64_t seed, double spread,
                                     std::map<std::string, double>& drawn);
 

@@ -180,6 +180,7 @@ double resistance_to_mean(thermal::Body const& body, thermal::Site const& site) 
 }
 
 RefinedForm::RefinedForm(Value const& machine_document) : document_(machine_document) {
+  erase_key(document_, "uncertain");
   read_solids();
   make_blocks();
   make_cells();

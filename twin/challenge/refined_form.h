@@ -23,6 +23,7 @@ namespace thermotwin::twin {
 ///   one another are joined by a plate without weight. A conductance from middle to middle is corrected for what the
 ///   blocks themselves resist now, so that the whole stays within 15 % of the file where that is possible.
 /// - Segments of the structural loop keep their lengths; the mean temperature of the block drives them.
+/// - Ranges of uncertain numbers are left out: this form has other numbers.
 class RefinedForm {
  public:
   explicit RefinedForm(Value const& machine_document);

@@ -7,7 +7,7 @@
 
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
-#include "twin/bodies.h"
+#include "twin/assembly.h"
 #include "twin/file/document.h"
 
 namespace thermotwin::twin {
@@ -81,8 +81,8 @@ std::vector<SurfacePoint> thinned(std::vector<SurfacePoint> const& points, std::
   return result;
 }
 
-void require_known(std::string const& body, Bodies const& bodies) {
-  if (bodies.all().contains(body)) return;
+Body const& known_body(std::string const& body, Bodies const& bodies) {
+  if (auto const found = bodies.all().find(body); found != bodies.all().end()) return found->second;
   throw InputError(fmt::format("unknown body '{}'; {}", body, thermal::did_you_mean(body, bodies.order())));
 }
 
@@ -98,17 +98,67 @@ std::vector<CandidateSite> mesh_of_sites(Bodies const& bodies, std::set<std::str
   return sites;
 }
 
-void check(CandidateRules const& rules, Bodies const& bodies) {
-  for (auto const& body : rules.forbidden) require_known(body, bodies);
-  for (auto const& body : rules.bodies) require_known(body.name, bodies);
-  if (rules.most < 1) throw InputError(fmt::format("most is {}; a mesh has at least one site", rules.most));
-  auto const positive = [](std::string const& what, double value) {
-    if (!(value > 0.0)) throw InputError(fmt::format("{} is {}; it must be positive", what, value));
-  };
-  for (auto const& body : rules.bodies) positive("the cost on '" + body.name + "'", body.cost);
-  for (auto const& site : rules.sites) positive("the cost of site '" + site.name + "'", site.cost);
-  positive("the budget", rules.budget);
-}
+/// Checks rules against a machine; a complaint gets the place in the rules' file in front.
+class RulesCheck {
+ public:
+  RulesCheck(CandidateRules const& rules, Bodies const& bodies) : rules_(rules), bodies_(bodies) {}
+
+  void operator()() const {
+    for (std::size_t i = 0; i < rules_.forbidden.size(); ++i)
+      at(item("forbidden", i), [&] { known_body(rules_.forbidden[i], bodies_); });
+    for (std::size_t i = 0; i < rules_.bodies.size(); ++i) {
+      auto const& body = rules_.bodies[i];
+      at(key("name", item("body", i)), [&] { known_body(body.name, bodies_); });
+      at(key("cost", item("body", i)), [&] { require_positive("cost", body.cost); });
+    }
+    for (std::size_t i = 0; i < rules_.sites.size(); ++i) {
+      auto const& site = rules_.sites[i];
+      for (auto const& place : site.at) at(key("at", item("site", i)), [&] { check_place(place, bodies_); });
+      at(key("cost", item("site", i)), [&] { require_positive("cost", site.cost); });
+    }
+    at(key("most", whole()), [&] {
+      if (rules_.most < 1) throw InputError(fmt::format("'most' is {}; a mesh has at least one site", rules_.most));
+    });
+    at(key("budget", whole()), [&] { require_positive("budget", rules_.budget); });
+  }
+
+  /// That the budget buys a sensor at all.
+  void affordable(std::vector<CandidateSite> const& sites) const {
+    auto const cheapest = std::min_element(sites.begin(), sites.end(),
+                                           [](auto const& one, auto const& other) { return one.cost < other.cost; });
+    at(key("budget", whole()), [&] {
+      if (cheapest->cost > rules_.budget)
+        throw InputError(fmt::format("a 'budget' of {:g} buys no sensor: the cheapest, at '{}', costs {:g}",
+                                     rules_.budget, cheapest->name, cheapest->cost));
+    });
+  }
+
+ private:
+  [[nodiscard]] Value const* whole() const { return rules_.document ? &*rules_.document : nullptr; }
+  [[nodiscard]] static Value const* key(char const* name, Value const* table) {
+    Value const* value = table ? table->find(name) : nullptr;
+    return value ? value : table;
+  }
+  [[nodiscard]] Value const* item(char const* name, std::size_t i) const {
+    Value const* list = key(name, whole());
+    return list && list->is_list() ? &std::get<Value::List>(list->content).at(i) : list;
+  }
+  template <class Action>
+  static void at(Value const* where, Action action) {
+    try {
+      action();
+    } catch (InputError const& error) {
+      if (!where) throw;
+      throw FileError(where->where, error.what());
+    }
+  }
+  static void require_positive(char const* key, double value) {
+    if (!(value > 0.0)) throw InputError(fmt::format("'{}' is {:g}; it must be positive", key, value));
+  }
+
+  CandidateRules const& rules_;
+  Bodies const& bodies_;
+};
 
 }  // namespace
 
@@ -116,6 +166,7 @@ CandidateRules read_candidate_rules(std::filesystem::path const& path) {
   Value const document = read_toml(path);
   CandidateRules rules;
   read_fields(document, rules);
+  rules.document = document;
   if (Value const* list = document.find("site"))
     for (auto const& table : std::get<Value::List>(list->content))
       if (texts_of(table, "at").empty()) throw FileError(table.where, "a site needs a place: at = \"head\"");
@@ -151,7 +202,8 @@ std::vector<std::string> turning_bodies(Value const& document) {
 std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules const& rules) {
   Tables tables(document);
   Bodies const bodies(tables);
-  check(rules, bodies);
+  RulesCheck const check(rules, bodies);
+  check();
   auto const turning = turning_bodies(document);
   std::set<std::string> without(rules.forbidden.begin(), rules.forbidden.end());
   auto sites = rules.sites;
@@ -169,7 +221,12 @@ std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules
   for (auto& site : sites)
     if (site.name.empty()) site.name = fmt::format("{}", fmt::join(site.at, " and "));
   if (sites.empty()) throw InputError("no site is left on which a sensor could sit");
+  check.affordable(sites);
   return sites;
+}
+
+void check_place(std::string const& place, Bodies const& bodies) {
+  if (place != "ambient") static_cast<void>(site_of(known_body(body_of(place), bodies), place));
 }
 
 std::vector<CandidateSite> with_spares(std::vector<CandidateSite> sites, int spares) {

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "twin/bodies.h"
 #include "twin/file/value.h"
 
 namespace thermotwin::twin {
@@ -42,6 +44,7 @@ struct CandidateRules {
   std::vector<BodyCost> bodies;
   int most = 200;                                           ///< sites of the mesh
   double budget = std::numeric_limits<double>::infinity();  ///< that the costs of the chosen sites must not exceed
+  std::optional<Value> document;                            ///< where all this stands, for messages; none: in no file
 
   template <class Fields>
   static void fields(Fields& f) {
@@ -53,7 +56,7 @@ struct CandidateRules {
   }
 };
 
-/// FileError with the place of what is wrong.
+/// FileError with the place of what is wrong in the file itself; what the machine lacks, candidate_sites finds.
 [[nodiscard]] CandidateRules read_candidate_rules(std::filesystem::path const& path);
 
 /// Bodies that turn, and so carry no sensor: inner rings of bearings, screws, what a film of a rotating surface is on,
@@ -63,8 +66,12 @@ struct CandidateRules {
 /// The candidates on a machine. Without sites in the rules: the room air, and a mesh on the outer surfaces of the
 /// solids that neither turn nor are forbidden, one site per facet of their cells; if that is more than `most`, those
 /// that farthest-point sampling takes first (Gonzalez 1985), each body having at least one and distances counted in its
-/// own diagonal. InputError for an unknown body, or a machine without any site.
+/// own diagonal. Where the rules name a body that is not there or a place beyond it, or a budget that buys no sensor:
+/// FileError with the place in their file. InputError for a machine without any site.
 [[nodiscard]] std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules const& rules);
+
+/// InputError unless a sensor could be there: a place on a body, or "ambient".
+void check_place(std::string const& place, Bodies const& bodies);
 
 /// Room for `spares` more sensors beside each: the sites, then as many copies "… (spare)", one after another.
 [[nodiscard]] std::vector<CandidateSite> with_spares(std::vector<CandidateSite> sites, int spares);

@@ -8,6 +8,7 @@
 #include "twin/history.h"
 #include "twin/parallel.h"
 #include "twin/run.h"
+#include "twin/uncertain_range.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -109,6 +110,10 @@ Ensemble Draw::operator()() const {
   in_parallel(members.size(), options_.progress, nullptr, [&](std::size_t m) { members[m] = member(int(m)); });
   Ensemble ensemble;
   ensemble.channels = names_;
+  std::map<std::string, double> drawn;
+  static_cast<void>(vary_parameters(document_, options_.seed, 1.0, drawn));
+  ensemble.numbers = drawn.size();
+  ensemble.ranged = ranged_numbers(document_).size();
   for (std::size_t m = 0; m < members.size(); ++m) append(ensemble, int(m), members[m]);
   return ensemble;
 }

@@ -37,16 +37,17 @@ struct Ensemble {
   };
 
   std::vector<Run> runs;
-  std::vector<std::string> channels;  ///< of displacement
-  Eigen::MatrixXd rise;               ///< rows × sites: since the start of the run [K]
-  Eigen::MatrixXd displacement;       ///< rows × channels: since the start of the run [µm]
-  Eigen::MatrixXf node_rise;          ///< rows × nodes [K], or empty
+  std::vector<std::string> channels;    ///< of displacement
+  std::size_t numbers = 0, ranged = 0;  ///< of the file: drawn, and within a range that it states
+  Eigen::MatrixXd rise;                 ///< rows × sites: since the start of the run [K]
+  Eigen::MatrixXd displacement;         ///< rows × channels: since the start of the run [µm]
+  Eigen::MatrixXf node_rise;            ///< rows × nodes [K], or empty
 };
 
-/// Draws members of the family that a machine file stands for (vary_parameters: coefficients 20 %, capacities and
-/// weights of the structural loop 10 %, lognormal) and runs them; all displacements in µm are kept, rotations are not.
-/// The same seed draws the same ensemble, whatever the number of threads. InputError for a machine without any
-/// displacement.
+/// Draws members of the family that a machine file stands for (vary_parameters: within the ranges that the file states;
+/// other coefficients 20 %, capacities and weights of the structural loop 10 %, lognormal) and runs them; all
+/// displacements in µm are kept, rotations are not. The same seed draws the same ensemble, whatever the number of
+/// threads. InputError for a machine without any displacement.
 [[nodiscard]] Ensemble draw_ensemble(Value const& document, std::vector<CandidateSite> const& sites,
                                      EnsembleOptions const& options);
 

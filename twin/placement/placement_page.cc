@@ -37,6 +37,14 @@ std::string teacher_text(Teacher teacher) {
              : "each has an estimate of its own, trained on itself: the other of its spectra judges";
 }
 
+std::string numbers_text(PlacementReport const& report) {
+  std::string const by_kind =
+      "by 20 % (coefficients, films, powers, friction) or 10 % (capacities, weights of the loop)";
+  if (report.ranged == 0) return fmt::format("{} numbers drawn {}", report.numbers, by_kind);
+  return fmt::format("{} numbers drawn within the file's own ranges, {} {}", report.ranged,
+                     report.numbers - report.ranged, by_kind);
+}
+
 double degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
 
 std::string distinction_text(Distinction const& d) {
@@ -105,9 +113,9 @@ std::string placement_text(PlacementReport const& report) {
   std::string text = fmt::format(
       "{} of {} sites on {}; sensors with an error of {:g} K of their own\n"
       "{} machines that the file could stand for, {} spectra each; judged on {} others with other spectra\n"
-      "{}\n\nrecommended\n\n{}\n",
+      "{}\n{}\n\nrecommended\n\n{}\n",
       count, report.candidates, report.machine, report.noise, report.members, report.experiments.size(),
-      report.unseen_members, teacher_text(report.teacher), set_table(best, report.dead));
+      report.unseen_members, numbers_text(report), teacher_text(report.teacher), set_table(best, report.dead));
   if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(*report.proposed, 0));
   text += fmt::format("  {:<26} {:>8} {:>13} {:>12}  {:>16}\n", "all displacements [um]", "model", "predicted 1s",
                       "unseen rms", "80 % of machines");
@@ -137,6 +145,7 @@ std::string placement_json(PlacementReport const& report) {
                {"candidates", report.candidates},
                {"noise_K", report.noise},
                {"members", report.members},
+               {"numbers_drawn", {{"within_stated_ranges", report.ranged}, {"all", report.numbers}}},
                {"experiments", report.experiments},
                {"unseen_members", report.unseen_members},
                {"unseen_experiments", report.unseen_experiments},

@@ -42,29 +42,39 @@ void check(PlacementOptions const& options, std::size_t candidates) {
 /// Sites that a user proposes, by name: a candidate's, a sensor's of the machine, or a place.
 class Proposal {
  public:
-  Proposal(Value const& document, std::vector<CandidateSite>& sites) : sites_(sites) {
+  Proposal(Value const& document, std::vector<CandidateSite>& sites) : sites_(sites), tables_(document) {
     Value copy = document;
     for (auto const* table : tables_of(copy, "temperature_sensor"))
       sensors_.push_back({name_in(*table), texts_of(*table, "at")});
-    for (auto const* kind : {"lump", "bar", "hollow_cylinder", "block", "channel"})
-      for (auto const* table : tables_of(copy, kind)) bodies_.push_back(name_in(*table));
   }
 
-  /// Appends it to the sites if it is not among them.
+  /// The sites of these names; those that are not among the sites are appended.
+  [[nodiscard]] Sites operator()(std::vector<std::string> const& names) {
+    Sites proposed;
+    for (auto const& name : names) {
+      auto const site = index_of(name);
+      if (std::find(proposed.begin(), proposed.end(), site) != proposed.end())
+        throw InputError(fmt::format("'{}' is proposed twice", name));
+      proposed.push_back(site);
+    }
+    return proposed;
+  }
+
+ private:
   [[nodiscard]] Index index_of(std::string const& name) {
     for (std::size_t i = 0; i < sites_.size(); ++i)
       if (sites_[i].name == name) return Index(i);
     sites_.push_back(site_of(name));
     return Index(sites_.size()) - 1;
   }
-
- private:
   [[nodiscard]] CandidateSite site_of(std::string const& name) const {
     for (auto const& sensor : sensors_)
       if (sensor.name == name) return sensor;
-    auto const body = name.substr(0, name.find_first_of("[."));
-    if (std::find(bodies_.begin(), bodies_.end(), body) != bodies_.end()) return {name, {name}};
-    auto known = bodies_;
+    if (bodies_.all().contains(name.substr(0, name.find_first_of("[.")))) {
+      check_place(name, bodies_);
+      return {name, {name}};
+    }
+    auto known = bodies_.order();
     for (auto const& sensor : sensors_) known.push_back(sensor.name);
     for (auto const& site : sites_)
       if (std::find(known.begin(), known.end(), site.name) == known.end()) known.push_back(site.name);
@@ -74,7 +84,8 @@ class Proposal {
 
   std::vector<CandidateSite>& sites_;
   std::vector<CandidateSite> sensors_;
-  std::vector<std::string> bodies_;
+  Tables tables_;
+  Bodies bodies_{tables_};
 };
 
 double quantile(Eigen::VectorXd values, double share) {
@@ -139,8 +150,7 @@ Judge::Judge(Value const& document, PlacementOptions const& options)
   check(options, sites_.size());
   sites_ = with_spares(sites_, options.dead);
   candidates_ = Index(sites_.size());
-  Proposal proposal(document, sites_);
-  for (auto const& name : options.proposed) proposed_.push_back(proposal.index_of(name));
+  proposed_ = Proposal(document, sites_)(options.proposed);
   Machine const machine = Machine::build(with_sensors_at(document, sites_));
   machine_ = machine.name;
   for (std::size_t s = machine.sensors.size() - sites_.size(); s < machine.sensors.size(); ++s)
@@ -289,6 +299,8 @@ PlacementReport Judge::operator()() {
   report.candidates = std::size_t(places_);
   report.members = options_.design.members;
   report.unseen_members = options_.unseen_members;
+  report.numbers = design_.numbers;
+  report.ranged = design_.ranged;
   report.dead = options_.dead;
   report.teacher = options_.teacher;
   report.noise = options_.noise;

@@ -72,6 +72,7 @@ struct PlacementReport {
   std::string machine;
   std::size_t candidates = 0;
   int members = 0, unseen_members = 0, dead = 0;
+  std::size_t numbers = 0, ranged = 0;  ///< of the file: drawn for each member, and within a range that it states
   Teacher teacher = Teacher::family;
   std::vector<std::string> experiments, unseen_experiments;
   double noise = 0.0;

@@ -267,8 +267,9 @@ void StudyRunner::put_improvements(StudyReport& report) const {
       return other.world == row.world && other.name() == study_.reference;
     });
     auto const before = values_of(reference->figures, figure), after = values_of(row.figures, figure);
+    double const whole = interval(before).mean;
     for (std::size_t r = 0; r < std::min(before.size(), after.size()); ++r)
-      row.figures["improvement"].push_back(100.0 * (1.0 - after[r] / before[r]));
+      row.figures["improvement"].push_back(100.0 * (before[r] - after[r]) / whole);
   }
 }
 

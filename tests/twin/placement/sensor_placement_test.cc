@@ -99,11 +99,53 @@ TEST(CandidateSites, RefuseWhatIsNotThere) {
   EXPECT_THROW((void)rules_from("fobidden = [\"head\"]\n"), FileError);
 }
 
+TEST(CandidateSites, SayWhereTheirFileIsWrong) {
+  auto const complaint = [](std::string const& text) {
+    auto options = quick(2);
+    options.rules = rules_from(text);
+    return refusal(v450(), options);
+  };
+  EXPECT_THAT(complaint("forbidden = [\"column_front\", \"colum_front\"]\n"),
+              HasSubstr("candidates.toml:1:30: unknown body 'colum_front'; did you mean 'column_front'?"));
+  EXPECT_THAT(complaint("[[body]]\ncost = 2\nname = \"mottor\"\n"),
+              HasSubstr("candidates.toml:3:8: unknown body 'mottor'; did you mean 'motor'?"));
+  EXPECT_THAT(complaint("[[body]]\nname = \"motor\"\ncost = 0\n"),
+              HasSubstr("candidates.toml:3:8: 'cost' is 0; it must be positive"));
+  std::string const motor = "[[site]]\nat = \"motor\"\n";
+  EXPECT_THAT(complaint(motor + "[[site]]\nname = \"nose\"\nat = \"cartridge[900 mm]\"\n"),
+              HasSubstr("candidates.toml:5:6: 900 mm is outside 'cartridge', which is 320 mm long"));
+  EXPECT_THAT(complaint(motor + "[[site]]\nat = \"cartrige[20 mm]\"\n"),
+              HasSubstr("candidates.toml:4:6: unknown body 'cartrige'; did you mean 'cartridge'?"));
+  EXPECT_THAT(complaint("most = 0\n"), HasSubstr("candidates.toml:1:8: 'most' is 0; a mesh has at least one site"));
+  EXPECT_THAT(complaint("budget = 0.5\n"),
+              HasSubstr("candidates.toml:1:10: a 'budget' of 0.5 buys no sensor: the cheapest, at 'ambient', costs 1"));
+}
+
 TEST(CandidateSites, HaveRoomForSpares) {
   auto const sites = with_spares({{"a", {"motor"}, 2.0}, {"b", {"bed"}, 1.0}}, 2);
   EXPECT_THAT(names_of(sites), testing::ElementsAre("a", "b", "a (spare)", "b (spare)", "a (spare 2)", "b (spare 2)"));
   EXPECT_EQ(sites[4].cost, 2.0);
   EXPECT_EQ(sites[4].at, sites[0].at);
+}
+
+/// Of a machine whose file states what is uncertain, no more is: of a bearing that may have any friction, much more.
+TEST(Ensemble, IsDrawnFromTheRangesOfTheFile) {
+  std::string const text = tests::contents(machine_file("v450"));
+  auto const told = [&](std::string const& from, std::string const& to) {
+    auto options = quick(2);
+    options.rules = rules_from("most = 30\n");
+    return place_sensors(parse_toml(text + fmt::format("\n[[uncertain]]\nname = \"bearing.front.grease_factor\"\n"
+                                                       "from = \"{}\"\nto = \"{}\"\n",
+                                                       from, to),
+                                    "mine.toml"),
+                         options);
+  };
+  auto const known = told("0.549", "0.551"), unknown = told("0.1", "2");
+  EXPECT_EQ(known.ranged, 1U);
+  EXPECT_GT(known.numbers, 30U);
+  EXPECT_LT(known.floor_um, unknown.floor_um);
+  EXPECT_THAT(placement_text(known), HasSubstr("1 numbers drawn within the file's own ranges, "));
+  EXPECT_EQ(nlohmann::json::parse(placement_json(known))["numbers_drawn"]["within_stated_ranges"], 1);
 }
 
 /// Readings are the temperatures at the sites: every site's own column, and the same whatever stands beside it.
@@ -266,6 +308,8 @@ TEST(PlaceSensors, RefusesWhatCannotBe) {
   options = quick(3);
   options.proposed = {"T1", "haed_front"};
   EXPECT_THAT(refusal(v450(), options), HasSubstr("did you mean 'head_front'?"));
+  options.proposed = {"T1", "motor", "T1"};
+  EXPECT_THAT(refusal(v450(), options), HasSubstr("'T1' is proposed twice"));
   options.proposed = {"cartridge[900 mm]"};
   EXPECT_THAT(refusal(v450(), options), HasSubstr("900 mm is outside 'cartridge'"));
   EXPECT_THAT(refusal(read_toml(machine_file("water_pipe")), quick(1)), HasSubstr("no displacement"));
