@@ -49,6 +49,7 @@ class VirtualMachine {
   void take(std::string_view payload);
 
   [[nodiscard]] PlayedRun const& played() const { return played_; }
+  [[nodiscard]] VirtualMachineSettings const& settings() const { return settings_; }
 
  private:
   void move_on(double time);
