@@ -384,7 +384,12 @@ ErrorModel model_of(ModelTable const& read, Value const& table) {
     throw FileError(table.where, "exactly one of [model.linear], [model.kernel] and [model.network] is due");
   auto const place = [&](char const* key) { return TablePlace{table.find(key)->where, Index(read.inputs.size())}; };
   ErrorModel model{read.method, read.inputs, read.sample_period, read.parameters, {}, read.remark};
-  if (read.linear) model.form = form_of(*read.linear, place("linear"));
+  if (read.linear) {
+    auto const form = form_of(*read.linear, place("linear"));
+    place("linear").check(form.lags.back() == 0 || read.sample_period > 0.0,
+                          "lags count samples, and 'sample_period' of [model] is missing or 0");
+    model.form = form;
+  }
   if (read.kernel) model.form = form_of(*read.kernel, place("kernel"));
   if (read.network) model.form = form_of(*read.network, place("network"));
   return model;
@@ -405,6 +410,7 @@ void check_predicts(FileTables const& read, Value const& document) {
   if (slope != predicts.zero_position.has_value())
     throw FileError(where, slope ? "'zero_position' of the slope is missing; write for example \"0.018 m\""
                                  : "'zero_position' is of a slope only");
+  if (slope && read.twin) throw FileError(document.find("twin")->where, "a slope stands beside no twin");
 }
 
 void take_fit(FitTable const& read, Value const& table, SavedErrorModel& saved) {

@@ -126,6 +126,8 @@ TEST_F(ErrorModelFile, CountsTheNumbersOfEachLag) {
   EXPECT_THAT(complaint(linear("intercept = 1\nlag = [{ samples = 2, coefficients = [1, 2] }, "
                                "{ samples = 1, coefficients = [1, 2] }]\n")),
               HasSubstr("lags ascend"));
+  EXPECT_THAT(complaint(linear("intercept = 1\nlag = [{ samples = 2, coefficients = [1, 2] }]\n")),
+              HasSubstr("model.toml:5:1: lags count samples, and 'sample_period' of [model] is missing"));
   EXPECT_THAT(complaint(linear("intercept = 1\n")), HasSubstr("'lag' is missing"));
   EXPECT_THAT(complaint(linear("lag = [{ samples = 0, coefficients = [1, 2] }]\n")),
               HasSubstr("'intercept' is missing"));
@@ -146,6 +148,9 @@ TEST_F(ErrorModelFile, SaysWhatItPredicts) {
               HasSubstr("'zero_position' is of a slope only"));
   EXPECT_THAT(complaint(whole("predicts = { error = \"slope z\", unit = \"um/m\" }\n")),
               HasSubstr("'zero_position' of the slope is missing"));
+  EXPECT_THAT(complaint(whole("predicts = { error = \"slope z\", unit = \"um/m\", zero_position = \"3 mm\" }\n"
+                              "twin = { machine = \"a.toml\", fingerprint = \"8c\" }\n")),
+              HasSubstr("model.toml:2:8: a slope stands beside no twin"));
   EXPECT_THAT(complaint(whole(predicts + "fit = { run = [{ file = \"a.h5\", rmse = 1, largest = 2 }] }\n")),
               HasSubstr("model.toml:2:16: 'zero_degC' has 0 temperatures; the model has 1 inputs"));
 }

@@ -26,6 +26,9 @@ constexpr double um_per_m = 1e6;
 Displacement displacement_of(Machine const& machine, std::string const& name) {
   std::vector<std::string> known;
   for (auto const& displacement : machine.displacements) {
+    if (displacement.name == name && displacement.rotation)
+      throw thermal::InputError(
+          fmt::format("'{}' of the machine is an angle; an offset needs a displacement in um", name));
     if (displacement.name == name) return displacement;
     known.push_back(displacement.name);
   }
