@@ -116,15 +116,12 @@ LiveModel CompensateCommand::live_model() const {
   auto const saved = read_error_model(model);
   check_error(saved);
   fmt::print(stderr, "{}", error_model_text(saved));
+  if (saved.twin) return ModelBesideTwin(twin_of(*saved.twin), saved.error, saved.model);
   return SavedModel(saved.model);
 }
 
 /// An axis follows the error that it was told to follow.
 void CompensateCommand::check_error(SavedErrorModel const& saved) const {
-  if (saved.twin)
-    throw thermal::InputError(
-        fmt::format("{} stands beside a twin, which compensate does not run; --observer {} is the twin itself", model,
-                    saved.twin->machine.string()));
   if (saved.unit != "um")
     throw thermal::InputError(fmt::format("{} predicts {} in {}; the offset of an axis needs a displacement in um",
                                           model, saved.error, saved.unit));

@@ -1,5 +1,6 @@
 #include "twin/fit_error_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -109,6 +110,15 @@ TEST_F(FitErrorModel, PredictsTheSameBytesReadBack) {
       EXPECT_EQ(before.predicted, after.predicted) << error << " by " << method;
       EXPECT_EQ(prediction_csv(before), prediction_csv(after));
     }
+}
+
+TEST_F(FitErrorModel, FindsItsInputsByNameInWhateverOrder) {
+  auto const saved = read_back(fitted({{put_run(warming(1.5), "monday.h5")}, "E_Z", {"T2", "T1"}}));
+  EXPECT_THAT(saved.model.inputs, ElementsAre("T2", "T1"));
+  auto data = warming(0.7);
+  auto const in_order = predict_error(saved, put_run(data, "tuesday.h5"));
+  std::reverse(data.readings.begin(), data.readings.end());
+  EXPECT_EQ(predict_error(saved, put_run(data, "reversed.h5")).predicted, in_order.predicted);
 }
 
 TEST_F(FitErrorModel, SlopeIsTheFeedAxisModel) {

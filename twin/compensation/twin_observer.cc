@@ -197,6 +197,13 @@ double TwinObserver::error(double time, std::span<double const> values) {
   return displaced() - zero_displaced_;
 }
 
+double TwinObserver::change(std::string const& sensor) const {
+  for (std::size_t j = 0; j < sensors_.size(); ++j)
+    if (auto const& known = machine_.sensors[sensors_[j]]; known.description.name == sensor)
+      return seen(known.weights) - zero_seen_[j];
+  throw thermal::InputError(fmt::format("the machine has no sensor '{}' on a body", sensor));
+}
+
 VectorXd TwinObserver::temperatures() const {
   VectorXd result(state_.size());
   for (Index i = 0; i < result.size(); ++i) result[i] = machine_.network().temperature_of_state(int(i), state_[i]);
