@@ -15,6 +15,7 @@
 #include "twin/command_line_compensate.h"
 #include "twin/command_line_diagnose.h"
 #include "twin/command_line_difference.h"
+#include "twin/command_line_error_model.h"
 #include "twin/command_line_figure.h"
 #include "twin/command_line_mistake.h"
 #include "twin/command_line_place.h"
@@ -181,6 +182,7 @@ int command_line(int argc, char** argv) {
   add_volumetric_command(app);
   add_place_command(app, stop_requested);
   add_study_command(app, stop_requested);
+  add_error_model_commands(app);
   add_compensation_commands(app, stop_requested);
   add_report_command(app);
   add_difference_command(app);

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <memory>
 #include <optional>
 #include <unistd.h>
@@ -16,7 +15,6 @@
 #include "twin/compensation/play.h"
 #include "twin/error_model_file.h"
 #include "twin/file/output_path.h"
-#include "twin/fit_error_model.h"
 #include "twin/progress.h"
 
 namespace thermotwin::twin {
@@ -33,11 +31,13 @@ double um(std::string const& text) { return um_per_m * parse_value(text, dimensi
 struct ConnectionArguments {
   BrokerOptions broker;
   Topics topics;
-  std::string axis = "X", channel = "E_X";
+  std::string axis = "X", channel;
   double speed = 1.0;
 
   void add_to(CLI::App& command);
   void require_topics() const;
+  /// What the offset works against.
+  [[nodiscard]] std::string displacement() const { return channel.empty() ? "E_" + axis : channel; }
   void check_output(std::string const& output, std::vector<std::filesystem::path> read) const;
 };
 
@@ -66,7 +66,7 @@ void ConnectionArguments::add_to(CLI::App& command) {
   command.add_option("--key", broker.key_file, "of our certificate (PEM)");
   command.add_option("--prefix", topics.prefix, "of all topics")->capture_default_str();
   command.add_option("--axis", axis, "that the offset moves")->capture_default_str();
-  command.add_option("--channel", channel, "displacement that the offset works against")->capture_default_str();
+  command.add_option("--channel", channel, "displacement that the offset works against; default: E_ and the axis");
   command.add_option("--speed", speed, "seconds of the run per second; the same on both sides")->capture_default_str();
 }
 
@@ -79,6 +79,7 @@ struct CompensateCommand : ConnectionArguments {
   void add_to(CLI::App& command);
   void operator()(std::atomic<bool> const& stop) const;
   [[nodiscard]] LiveModel live_model() const;
+  void check_error(SavedErrorModel const& saved) const;
   [[nodiscard]] CompensationSettings settings() const;
 };
 
@@ -111,8 +112,24 @@ void CompensateCommand::add_to(CLI::App& command) {
 LiveModel CompensateCommand::live_model() const {
   if (model.empty() && machine.empty())
     throw thermal::InputError("compensate needs --model FILE or --observer MACHINE");
-  if (machine.empty()) return SavedModel(read_error_model(model));
-  return TwinObserver(Machine::read(machine_file(machine)), channel);
+  if (!machine.empty()) return TwinObserver(Machine::read(machine_file(machine)), displacement());
+  auto const saved = read_error_model(model);
+  check_error(saved);
+  fmt::print(stderr, "{}", error_model_text(saved));
+  if (saved.twin) return ModelBesideTwin(twin_of(*saved.twin), saved.error, saved.model);
+  return SavedModel(saved.model);
+}
+
+/// An axis follows the error that it was told to follow.
+void CompensateCommand::check_error(SavedErrorModel const& saved) const {
+  if (saved.unit != "um")
+    throw thermal::InputError(fmt::format("{} predicts {} in {}; the offset of an axis needs a displacement in um",
+                                          model, saved.error, saved.unit));
+  if (saved.error != displacement())
+    throw thermal::InputError(
+        fmt::format("{} predicts {}, and axis {} works against {}; give the model of {}, or --channel {} if {} shall "
+                    "follow that",
+                    model, saved.error, axis, displacement(), displacement(), saved.error, axis));
 }
 
 CompensationSettings CompensateCommand::settings() const {
@@ -133,7 +150,7 @@ void CompensateCommand::operator()(std::atomic<bool> const& stop) const {
   check_suffix(record, "a data set", {".h5"});
   check_output(record, {model, machine.empty() ? std::filesystem::path() : machine_file(machine)});
   auto const set = settings();
-  CompensateOptions options{broker, topics, axis, {}, {}, {}};
+  CompensateOptions options{broker, topics, axis, displacement(), {}, {}, {}};
   options.broker.client = fmt::format("thermotwin-compensate-{}-{}", topics.prefix, axis);
   options.loop = {parse_value(cycle, dimension::time), speed, 0.5 * set.watch.stale_time,
                   parse_value(start, dimension::time)};
@@ -170,7 +187,7 @@ void PlayCommand::operator()(std::atomic<bool> const& stop) const {
   require_topics();
   check_suffix(output, "a table", {".csv"});
   check_output(output, {run});
-  VirtualMachineSettings settings{channel, axis, {}, {}};
+  VirtualMachineSettings settings{displacement(), axis, {}, {}};
   settings.limits.largest = um(largest);
   settings.limits.slew = um_per_m * parse_value(slew, dimension::speed);
   PlayOptions options{broker, topics, speed, 10.0, {}, {}};
@@ -187,31 +204,9 @@ void PlayCommand::operator()(std::atomic<bool> const& stop) const {
   fmt::print("{}", played_text(played));
 }
 
-void add_fit(CLI::App& app) {
-  auto* command = app.add_subcommand("fit", "fit an error model to runs and save it");
-  auto fit = std::make_shared<ErrorModelFit>();
-  auto file = std::make_shared<std::string>();
-  command->add_option("runs", fit->runs, "data sets (HDF5)")->required();
-  command->add_option("--error", fit->error, "displacement to explain")->capture_default_str();
-  command->add_option("--sensors", fit->sensors, "temperatures to explain it by; default: all")->delimiter(',');
-  command->add_option("--method", fit->method, "linear, ridge, ridge_distributed_lag, …: docs/study.md")
-      ->capture_default_str();
-  command->add_option("--seed", fit->seed, "of random starts")->capture_default_str();
-  command->add_option("--output,-o", *file, "error model to write (TOML)")->required();
-  command->callback([fit, file] {
-    check_suffix(*file, "an error model", {".toml"});
-    refuse_to_overwrite(*file, {}, fit->runs);
-    auto const model = fit_error_model(*fit);
-    write_error_model(*file, model);
-    fmt::print("{} of {} on {}{}{}\n", model.method, fit->error, fmt::join(model.inputs, ", "),
-               model.remark.empty() ? "" : ": ", model.remark);
-  });
-}
-
 }  // namespace
 
 void add_compensation_commands(CLI::App& app, std::atomic<bool> const& stop) {
-  add_fit(app);
   auto compensate = std::make_shared<CompensateCommand>();
   auto* command = app.add_subcommand("compensate", "tell a controller its thermal error, live, over an MQTT broker");
   compensate->add_to(*command);

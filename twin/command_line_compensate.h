@@ -8,7 +8,7 @@ class App;
 
 namespace thermotwin::twin {
 
-/// `thermotwin fit`, `compensate` and `play`; `stop`: set from outside to end the latter two.
+/// `thermotwin compensate` and `play`; `stop`: set from outside to end them.
 void add_compensation_commands(CLI::App& app, std::atomic<bool> const& stop);
 
 }  // namespace thermotwin::twin

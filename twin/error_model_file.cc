@@ -7,6 +7,7 @@
 
 #include "output/atomic_file.h"
 #include "thermal/error.h"
+#include "twin/axis_record.h"
 #include "twin/file/schema.h"
 
 namespace thermotwin::twin {
@@ -130,6 +131,76 @@ struct ModelTable {
     f("linear", &ModelTable::linear, "");
     f("kernel", &ModelTable::kernel, "");
     f("network", &ModelTable::network, "");
+  }
+};
+
+struct RunTable {
+  std::string file, machine, fingerprint;
+  int rows = 0;
+  double rmse = required, largest = required;
+  std::vector<double> zero;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("file", &RunTable::file, "that the model was fitted to");
+    f("machine", &RunTable::machine, "that was run or measured");
+    f("fingerprint", &RunTable::fingerprint, "of times, temperatures and errors");
+    f("rows", &RunTable::rows, "that the model claims to predict", Range{0, 1e9});
+    f("rmse", &RunTable::rmse, dimensionless, "there [unit of the error]");
+    f("largest", &RunTable::largest, dimensionless, "there [unit of the error]");
+    f("zero_degC", &RunTable::zero, dimensionless, "temperatures of the inputs where the error is zero");
+  }
+};
+
+struct TwinTable {
+  std::string machine, fingerprint;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("machine", &TwinTable::machine, "machine file, relative to this one");
+    f.name("fingerprint", &TwinTable::fingerprint, "of its text");
+  }
+};
+
+struct FitTable {
+  std::string version, commit;
+  std::optional<double> sampling;
+  std::vector<RunTable> runs;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f("version", &FitTable::version, "of the program");
+    f("commit", &FitTable::commit, "of the program");
+    f("sampling", &FitTable::sampling, thermal::dimension::time, "over which rows were averaged", Range{0, 1e6});
+    f("run", &FitTable::runs, "what the model was fitted to");
+  }
+};
+
+struct PredictsTable {
+  std::string error, unit = "um", title;
+  std::optional<double> zero_position;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.name("error", &PredictsTable::error, "displacement channel, or \"slope z\"");
+    f.choice("unit", &PredictsTable::unit, {"um", "urad", "um/m"}, "of the error");
+    f("title", &PredictsTable::title, "of the channel");
+    f("zero_position", &PredictsTable::zero_position, thermal::dimension::length, "of a slope");
+  }
+};
+
+struct FileTables {
+  std::optional<PredictsTable> predicts;
+  std::optional<TwinTable> twin;
+  std::optional<FitTable> fit;
+  std::optional<ModelTable> model;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f("predicts", &FileTables::predicts, "");
+    f("twin", &FileTables::twin, "what the model stands beside");
+    f("fit", &FileTables::fit, "");
+    f("model", &FileTables::model, "");
   }
 };
 
@@ -264,6 +335,32 @@ NetworkForm form_of(NetworkTable const& table, TablePlace const& place) {
   return form;
 }
 
+std::string predicts_text(SavedErrorModel const& saved) {
+  std::string text = fmt::format("[predicts]\nerror = {}\nunit = {}\ntitle = {}\n", toml_text(saved.error),
+                                 toml_text(saved.unit), toml_text(saved.title));
+  if (saved.zero_position) text += fmt::format("zero_position = \"{} m\"\n", number(*saved.zero_position));
+  return text;
+}
+
+std::string twin_text(TwinBeside const& twin, std::filesystem::path const& folder) {
+  auto const machine = std::filesystem::proximate(std::filesystem::absolute(twin.machine), folder);
+  return fmt::format("\n[twin]\nmachine = {}\nfingerprint = {}\n", toml_text(machine.string()),
+                     toml_text(twin.fingerprint));
+}
+
+std::string fit_text(SavedErrorModel const& saved) {
+  std::string text =
+      fmt::format("\n[fit]\nversion = {}\ncommit = {}\n", toml_text(saved.version), toml_text(saved.commit));
+  if (saved.sampling) text += fmt::format("sampling = \"{} s\"\n", number(*saved.sampling));
+  text += "run = [\n";
+  for (auto const& run : saved.runs)
+    text += fmt::format(
+        "  {{ file = {}, machine = {}, fingerprint = {}, rows = {}, rmse = {}, largest = {}, zero_degC = {} }},\n",
+        toml_text(run.file), toml_text(run.machine), toml_text(run.fingerprint), run.rows, number(run.rmse),
+        number(run.largest), list(run.zero));
+  return text + "]\n";
+}
+
 void check_method(std::string const& method, Value const& table) {
   std::vector<std::string> known;
   for (auto const& entry : models::model_methods()) known.emplace_back(entry.name);
@@ -272,35 +369,90 @@ void check_method(std::string const& method, Value const& table) {
                     fmt::format("unknown method '{}'; {}", method, thermal::did_you_mean(method, known)));
 }
 
-}  // namespace
-
-void write_error_model(std::filesystem::path const& path, ErrorModel const& model) {
+std::string model_text(ErrorModel const& model) {
   std::vector<std::string> inputs;
   for (auto const& input : model.inputs) inputs.push_back(toml_text(input));
-  std::string const head =
-      fmt::format("[model]\nmethod = {}\ninputs = [{}]\nsample_period = \"{} s\"\nparameters = {}\nremark = {}\n",
-                  toml_text(model.method), fmt::join(inputs, ", "), number(model.sample_period),
-                  number(model.parameters), toml_text(model.remark));
-  output::write_atomically(path, head + std::visit(FormText{}, model.form));
+  return fmt::format("\n[model]\nmethod = {}\ninputs = [{}]\nsample_period = \"{} s\"\nparameters = {}\nremark = {}\n",
+                     toml_text(model.method), fmt::join(inputs, ", "), number(model.sample_period),
+                     number(model.parameters), toml_text(model.remark));
 }
 
-ErrorModel read_error_model(std::filesystem::path const& path) {
+ErrorModel model_of(ModelTable const& read, Value const& table) {
+  check_method(read.method, table);
+  if (read.inputs.empty()) throw FileError(table.where, "'inputs' is missing or empty");
+  if (read.linear.has_value() + read.kernel.has_value() + read.network.has_value() != 1)
+    throw FileError(table.where, "exactly one of [model.linear], [model.kernel] and [model.network] is due");
+  auto const place = [&](char const* key) { return TablePlace{table.find(key)->where, Index(read.inputs.size())}; };
+  ErrorModel model{read.method, read.inputs, read.sample_period, read.parameters, {}, read.remark};
+  if (read.linear) {
+    auto const form = form_of(*read.linear, place("linear"));
+    place("linear").check(form.lags.back() == 0 || read.sample_period > 0.0,
+                          "lags count samples, and 'sample_period' of [model] is missing or 0");
+    model.form = form;
+  }
+  if (read.kernel) model.form = form_of(*read.kernel, place("kernel"));
+  if (read.network) model.form = form_of(*read.network, place("network"));
+  return model;
+}
+
+/// A slope has a zero position and its own unit, a displacement neither.
+void check_predicts(FileTables const& read, Value const& document) {
+  if (!read.predicts)
+    throw FileError(document.where,
+                    "no table [predicts]: an error model of an earlier version, which does not say what it predicts; "
+                    "fit it anew");
+  auto const& predicts = *read.predicts;
+  bool const slope = predicts.error.starts_with(slope_prefix);
+  auto const where = document.find("predicts")->where;
+  if (slope != (predicts.unit == "um/m"))
+    throw FileError(where, fmt::format("the unit of '{}' is {}, not '{}'", predicts.error,
+                                       slope ? "'um/m'" : "'um' or 'urad'", predicts.unit));
+  if (slope != predicts.zero_position.has_value())
+    throw FileError(where, slope ? "'zero_position' of the slope is missing; write for example \"0.018 m\""
+                                 : "'zero_position' is of a slope only");
+  if (slope && read.twin) throw FileError(document.find("twin")->where, "a slope stands beside no twin");
+}
+
+void take_fit(FitTable const& read, Value const& table, SavedErrorModel& saved) {
+  saved.version = read.version;
+  saved.commit = read.commit;
+  saved.sampling = read.sampling;
+  for (std::size_t i = 0; i < read.runs.size(); ++i) {
+    auto const& run = read.runs[i];
+    if (run.zero.size() != saved.model.inputs.size())
+      throw FileError(std::get<Value::List>(table.find("run")->content)[i].where,
+                      fmt::format("'zero_degC' has {} temperatures; the model has {} inputs", run.zero.size(),
+                                  saved.model.inputs.size()));
+    saved.runs.push_back({run.file, run.machine, run.fingerprint, run.rows, run.zero, run.rmse, run.largest});
+  }
+}
+
+}  // namespace
+
+void write_error_model(std::filesystem::path const& path, SavedErrorModel const& saved) {
+  auto const folder = std::filesystem::absolute(path).parent_path();
+  output::write_atomically(path, predicts_text(saved) + (saved.twin ? twin_text(*saved.twin, folder) : "") +
+                                     (saved.runs.empty() ? "" : fit_text(saved)) + model_text(saved.model) +
+                                     std::visit(FormText{}, saved.model.form));
+}
+
+SavedErrorModel read_error_model(std::filesystem::path const& path) {
   auto const document = read_toml(path);
   auto const* table = document.find("model");
   if (!table || !table->is_table())
     throw FileError(document.where, "no table [model]: this is not the file of an error model");
-  ModelTable read;
-  read_fields(*table, read);
-  check_method(read.method, *table);
-  if (read.inputs.empty()) throw FileError(table->where, "'inputs' is missing or empty");
-  if (read.linear.has_value() + read.kernel.has_value() + read.network.has_value() != 1)
-    throw FileError(table->where, "exactly one of [model.linear], [model.kernel] and [model.network] is due");
-  auto const place = [&](char const* key) { return TablePlace{table->find(key)->where, Index(read.inputs.size())}; };
-  ErrorModel model{read.method, read.inputs, read.sample_period, read.parameters, {}, read.remark};
-  if (read.linear) model.form = form_of(*read.linear, place("linear"));
-  if (read.kernel) model.form = form_of(*read.kernel, place("kernel"));
-  if (read.network) model.form = form_of(*read.network, place("network"));
-  return model;
+  FileTables read;
+  read_fields(document, read);
+  check_predicts(read, document);
+  SavedErrorModel saved;
+  saved.error = read.predicts->error;
+  saved.unit = read.predicts->unit;
+  saved.title = read.predicts->title;
+  saved.zero_position = read.predicts->zero_position;
+  saved.model = model_of(*read.model, *table);
+  if (read.twin) saved.twin = {path.parent_path() / read.twin->machine, read.twin->fingerprint};
+  if (read.fit) take_fit(*read.fit, *document.find("fit"), saved);
+  return saved;
 }
 
 }  // namespace thermotwin::twin

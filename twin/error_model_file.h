@@ -2,12 +2,28 @@
 
 #include <filesystem>
 
-#include "models/error_model.h"
+#include "twin/saved_error_model.h"
 
 namespace thermotwin::twin {
 
-/// A fitted thermal-error model as a file: the table `[model]` of TOML with the names of the inputs in their order and
-/// every number in its shortest form that reads back as the same double, so that it predicts the same bytes.
+/// A fitted thermal-error model as a file: what it predicts, the data that it was fitted to with its error there, and
+/// the names of the inputs in their order; every number in its shortest form that reads back as the same double, so
+/// that it predicts the same bytes.
+///
+///   [predicts]
+///   error = "E_X"                       # or "slope z", with zero_position = "0.018 m"
+///   unit = "um"
+///   title = "spindle against turret, radial"
+///
+///   [twin]                              # where the model is of what a twin errs by
+///   machine = "calibrated.toml"         # relative to this file
+///   fingerprint = "1b…"                 # of its text
+///
+///   [fit]                               # may be missing: then nobody knows
+///   version = "0.1.0"
+///   commit = "1fdea30"
+///   run = [{ file = "other.h5", machine = "g200", fingerprint = "8c…", rows = 481, rmse = 0.3, largest = 1.1,
+///            zero_degC = [20.1, 20.0] }]
 ///
 ///   [model]
 ///   method = "ridge"
@@ -20,10 +36,10 @@ namespace thermotwin::twin {
 ///   lag = [{ samples = 0, coefficients = [0.5, -2.75] }]
 ///
 /// Written atomically; InputError for a model with a number that is not finite.
-void write_error_model(std::filesystem::path const& path, models::ErrorModel const& model);
+void write_error_model(std::filesystem::path const& path, SavedErrorModel const& saved);
 
-/// FileError, with line and column, for unknown methods and keys, missing ones, and lists whose lengths are not the
-/// number of inputs.
-[[nodiscard]] models::ErrorModel read_error_model(std::filesystem::path const& path);
+/// FileError, with line and column, for unknown methods and keys, missing ones, a file that does not say what it
+/// predicts, and lists whose lengths are not the number of inputs.
+[[nodiscard]] SavedErrorModel read_error_model(std::filesystem::path const& path);
 
 }  // namespace thermotwin::twin

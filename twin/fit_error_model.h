@@ -1,23 +1,27 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "models/error_model.h"
+#include "twin/saved_error_model.h"
 
 namespace thermotwin::twin {
 
 struct ErrorModelFit {
-  std::vector<std::filesystem::path> runs;  ///< data sets (.h5)
-  std::string error = "E_X";                ///< displacement to explain
-  std::vector<std::string> sensors;         ///< of the readings; none: all
+  std::vector<std::filesystem::path> runs;  ///< data sets (.h5), tables (.csv), measurement files (.toml)
+  std::string error = "E_X";                ///< displacement to explain, or "slope z" of an axis' error
+  std::vector<std::string> sensors{};       ///< of the readings; none: all that have all their readings in every run
   std::string method = "linear";            ///< of models::model_methods()
   std::uint64_t seed = 1;
+  std::optional<std::filesystem::path> twin{};  ///< machine file, best calibrated: the model is of what that errs by
+  std::optional<double> sampling{};             ///< means over this time [s]; none: the rows as they are
 };
 
 /// An error model from what the instruments showed in these runs, temperatures and error counted from the first row of
-/// each. InputError that names run, sensor, displacement or method.
-[[nodiscard]] models::ErrorModel fit_error_model(ErrorModelFit const& fit);
+/// each. What is odd about a run goes to `remarks`, under its name. InputError that names run, sensor, displacement or
+/// method.
+[[nodiscard]] SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::string>& remarks);
 
 }  // namespace thermotwin::twin

@@ -19,6 +19,7 @@ namespace thermotwin {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using tests::answer;
@@ -163,6 +164,20 @@ TEST_F(LiveCompensation, SaysWhichInputsDoNotCome) {
   EXPECT_THAT(tests::contents(at("compensate")), HasSubstr("no reading of T10 within 1 s"));
 }
 
+TEST_F(LiveCompensation, SaysWhatItWorksAgainstAndIsNotJudgedByAnother) {
+  Child compensate(compensation({"--model", at("model.toml"), "--axis", "Z", "--channel", "E_X"}, "6000"),
+                   at("compensate"));
+  EXPECT_THAT(answer(program + " play " + at("duty.h5") + " -q --axis Z --speed 6000 -o " + at("judged.csv") +
+                         " --broker " + broker_.url(),
+                     2),
+              HasSubstr("axis Z is compensated against E_X, and this run is judged by E_Z; give both the same"));
+  EXPECT_EQ(compensate.end(SIGINT), 0);
+  EXPECT_THAT(tests::contents(at("compensate")),
+              AllOf(HasSubstr("linear of E_X [um] (spindle against turret, radial) on T2, T4, T10, T12, T15"),
+                    HasSubstr("fitted to other.h5 of g200: 121 rows, RMSE")));
+  EXPECT_FALSE(std::filesystem::exists(at("judged.csv")));
+}
+
 TEST_F(LiveCompensation, LeavesALastWill) {
   Child compensate({program, "compensate", "--model", at("model.toml"), "--broker", broker_.url()}, at("compensate"));
   Broker listener({broker_.url(), "listener", {}, {}, {}, {}, {}, {}}, {"thermotwin/status/compensate-X"});
@@ -186,12 +201,14 @@ TEST_F(LiveCompensation, RefusesWhatItCannotDo) {
   for (std::string const port : {"1883x", "99999", ""})
     EXPECT_THAT(answer(program + " compensate --broker mqtt://127.0.0.1:" + port + " --model " + at("model.toml"), 2),
                 HasSubstr("write mqtt://HOST:1883"));
+  EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --axis Z", 2),
+              HasSubstr("predicts E_X, and axis Z works against E_Z; give the model of E_Z, or --channel E_X"));
   EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --axis 'X/#'", 2),
               HasSubstr("--axis 'X/#': it is a part of topics"));
   EXPECT_THAT(answer(program + " play " + at("duty.h5") + " --prefix '' --broker " + broker_.url(), 2),
               HasSubstr("--prefix '': it is a part of topics"));
   EXPECT_THAT(answer(program + " fit " + at("other.h5") + " --sensors T22 -o " + at("x.toml"), 2),
-              HasSubstr("has no 'T22'; did you mean 'T"));
+              HasSubstr("has no sensor 'T22'; did you mean 'T"));
 }
 
 // --- the connection --------------------------------------------------------------------------------------------------

@@ -33,6 +33,20 @@ Batch run() {
   return batch;
 }
 
+/// Of everything that a file can say.
+SavedErrorModel saved(ErrorModel const& model) {
+  SavedErrorModel all;
+  all.error = "E_Z";
+  all.title = "spindle nose, \"axial\"";
+  all.version = "0.1.0";
+  all.commit = "1fdea30";
+  all.sampling = 60.0;
+  all.runs = {{"monday.h5", "v450", "8c", 60, {20.1, 19.98}, 0.1, 1.0 / 3.0},
+              {"tuesday.csv", "", "9d", 41, {7, 8}, 0, 0}};
+  all.model = model;
+  return all;
+}
+
 class SavedModel : public testing::TestWithParam<std::string> {
  protected:
   tests::TemporaryDirectory directory_;
@@ -49,16 +63,21 @@ INSTANTIATE_TEST_SUITE_P(Methods, SavedModel, testing::ValuesIn(names()), [](aut
 TEST_P(SavedModel, PredictsTheSameBytes) {
   auto const batch = run();
   auto const fitted = models::model_method(GetParam()).fit(std::span(&batch, 1), {});
-  write_error_model(directory_ / "model.toml", fitted);
-  auto const read = read_error_model(directory_ / "model.toml");
+  write_error_model(directory_ / "model.toml", saved(fitted));
+  auto const whole = read_error_model(directory_ / "model.toml");
+  auto const& read = whole.model;
   EXPECT_EQ(read.predict(batch), fitted.predict(batch));
+  EXPECT_EQ(whole.error, "E_Z");
+  EXPECT_EQ(whole.title, "spindle nose, \"axial\"");
+  EXPECT_EQ(whole.sampling, 60.0);
+  EXPECT_EQ(whole.runs[0].largest, 1.0 / 3.0);
   EXPECT_EQ(read.method, fitted.method);
   EXPECT_EQ(read.inputs, fitted.inputs);
   EXPECT_EQ(read.parameters, fitted.parameters);
   EXPECT_EQ(read.sample_period, fitted.sample_period);
   EXPECT_EQ(read.remark, fitted.remark);
   EXPECT_EQ(read.unclaimed_instants(), fitted.unclaimed_instants());
-  write_error_model(directory_ / "again.toml", read);
+  write_error_model(directory_ / "again.toml", whole);
   EXPECT_EQ(tests::contents(directory_ / "again.toml"), tests::contents(directory_ / "model.toml"));
 }
 
@@ -74,8 +93,13 @@ class ErrorModelFile : public testing::Test {
     return "";
   }
   static std::string linear(std::string const& form) {
-    return "[model]\nmethod = \"ridge\"\ninputs = [\"T2\", \"T4\"]\n[model.linear]\n" + form;
+    return predicts + "[model]\nmethod = \"ridge\"\ninputs = [\"T2\", \"T4\"]\n[model.linear]\n" + form;
   }
+  static std::string whole(std::string const& head) {
+    return head + "[model]\nmethod = \"ridge\"\ninputs = [\"T2\"]\n" +
+           "[model.linear]\nintercept = 1\nlag = [{ samples = 0, coefficients = [1] }]\n";
+  }
+  static inline std::string const predicts = "predicts = { error = \"E_X\" }\n";
   tests::TemporaryDirectory directory_;
 };
 
@@ -85,23 +109,25 @@ TEST_F(ErrorModelFile, RefusesWhatIsNoModel) {
 }
 
 TEST_F(ErrorModelFile, NamesTheNearestMethod) {
-  EXPECT_THAT(complaint("[model]\nmethod = \"rigde\"\ninputs = [\"T2\"]\n"),
-              HasSubstr("model.toml:2:10: unknown method 'rigde'; did you mean 'ridge'?"));
+  EXPECT_THAT(complaint(predicts + "[model]\nmethod = \"rigde\"\ninputs = [\"T2\"]\n"),
+              HasSubstr("model.toml:3:10: unknown method 'rigde'; did you mean 'ridge'?"));
 }
 
 TEST_F(ErrorModelFile, WantsExactlyOneForm) {
-  EXPECT_THAT(complaint("[model]\nmethod = \"ridge\"\ninputs = [\"T2\"]\n"), HasSubstr("exactly one of"));
-  EXPECT_THAT(complaint("[model]\nmethod = \"ridge\"\n[model.linear]\nintercept = 1\n"),
+  EXPECT_THAT(complaint(predicts + "[model]\nmethod = \"ridge\"\ninputs = [\"T2\"]\n"), HasSubstr("exactly one of"));
+  EXPECT_THAT(complaint(predicts + "[model]\nmethod = \"ridge\"\n[model.linear]\nintercept = 1\n"),
               HasSubstr("'inputs' is missing"));
 }
 
 TEST_F(ErrorModelFile, CountsTheNumbersOfEachLag) {
   EXPECT_EQ(complaint(linear("intercept = 1\nlag = [{ samples = 0, coefficients = [1, 2] }]\n")), "");
   EXPECT_THAT(complaint(linear("intercept = 1\nlag = [{ samples = 0, coefficients = [1] }]\n")),
-              HasSubstr("model.toml:4:1: 'coefficients' has 1 numbers; the model has 2 inputs"));
+              HasSubstr("model.toml:5:1: 'coefficients' has 1 numbers; the model has 2 inputs"));
   EXPECT_THAT(complaint(linear("intercept = 1\nlag = [{ samples = 2, coefficients = [1, 2] }, "
                                "{ samples = 1, coefficients = [1, 2] }]\n")),
               HasSubstr("lags ascend"));
+  EXPECT_THAT(complaint(linear("intercept = 1\nlag = [{ samples = 2, coefficients = [1, 2] }]\n")),
+              HasSubstr("model.toml:5:1: lags count samples, and 'sample_period' of [model] is missing"));
   EXPECT_THAT(complaint(linear("intercept = 1\n")), HasSubstr("'lag' is missing"));
   EXPECT_THAT(complaint(linear("lag = [{ samples = 0, coefficients = [1, 2] }]\n")),
               HasSubstr("'intercept' is missing"));
@@ -110,9 +136,36 @@ TEST_F(ErrorModelFile, CountsTheNumbersOfEachLag) {
   EXPECT_THAT(complaint(linear("intercept = 1\nlagg = []\n")), HasSubstr("unknown key 'lagg'; did you mean 'lag'?"));
 }
 
+TEST_F(ErrorModelFile, SaysWhatItPredicts) {
+  EXPECT_EQ(complaint(whole(predicts)), "");
+  EXPECT_THAT(complaint(whole("")), HasSubstr("no table [predicts]: an error model of an earlier version"));
+  EXPECT_THAT(complaint(whole("predicts = { unit = \"um\" }\n")), HasSubstr("model.toml:1:12: 'error' is missing"));
+  EXPECT_THAT(complaint(whole("predicts = { error = \"E_X\", unit = \"mm\" }\n")),
+              HasSubstr("model.toml:1:36: 'unit' is 'mm'; did you mean 'um'?"));
+  EXPECT_THAT(complaint(whole("predicts = { error = \"E_X\", unit = \"um/m\" }\n")),
+              HasSubstr("the unit of 'E_X' is 'um' or 'urad', not 'um/m'"));
+  EXPECT_THAT(complaint(whole("predicts = { error = \"E_X\", zero_position = \"3 mm\" }\n")),
+              HasSubstr("'zero_position' is of a slope only"));
+  EXPECT_THAT(complaint(whole("predicts = { error = \"slope z\", unit = \"um/m\" }\n")),
+              HasSubstr("'zero_position' of the slope is missing"));
+  EXPECT_THAT(complaint(whole("predicts = { error = \"slope z\", unit = \"um/m\", zero_position = \"3 mm\" }\n"
+                              "twin = { machine = \"a.toml\", fingerprint = \"8c\" }\n")),
+              HasSubstr("model.toml:2:8: a slope stands beside no twin"));
+  EXPECT_THAT(complaint(whole(predicts + "fit = { run = [{ file = \"a.h5\", rmse = 1, largest = 2 }] }\n")),
+              HasSubstr("model.toml:2:16: 'zero_degC' has 0 temperatures; the model has 1 inputs"));
+}
+
+TEST_F(ErrorModelFile, IsReadWithoutItsFit) {
+  EXPECT_EQ(complaint(whole(predicts)), "");
+  auto const read = read_error_model(directory_ / "model.toml");
+  EXPECT_EQ(read.error, "E_X");
+  EXPECT_TRUE(read.runs.empty());
+  EXPECT_THAT(error_model_text(read), HasSubstr("its file does not say what it was fitted to"));
+}
+
 TEST_F(ErrorModelFile, DoesNotSaveWhatIsNoNumber) {
   ErrorModel model{"ridge", {"T2"}, 0, 2, models::LinearForm{std::nan(""), {0}, Eigen::MatrixXd::Ones(1, 1)}, ""};
-  EXPECT_THROW(write_error_model(directory_ / "model.toml", model), thermal::InputError);
+  EXPECT_THROW(write_error_model(directory_ / "model.toml", saved(model)), thermal::InputError);
   EXPECT_TRUE(directory_.files().empty());
 }
 

@@ -24,8 +24,9 @@ nlohmann::json faults_json(Decision const& decision) {
   return faults;
 }
 
-std::string report_payload(std::string const& axis, Decision const& decision) {
-  return nlohmann::json{{"name", axis},
+std::string report_payload(CompensateOptions const& options, Decision const& decision) {
+  return nlohmann::json{{"name", options.axis},
+                        {"channel", options.channel},
                         {"time", decision.time},
                         {"support", name_of(decision.support)},
                         {"faults", faults_json(decision)}}
@@ -83,7 +84,7 @@ void Session::report(Decision const& decision) {
   if (decision.support == last_support_ && decision.faults == last_faults_) return;
   last_support_ = decision.support;
   last_faults_ = decision.faults;
-  broker_.publish(options_.topics.report(options_.axis), report_payload(options_.axis, decision));
+  broker_.publish(options_.topics.report(options_.axis), report_payload(options_, decision));
   say(report_line(decision));
 }
 

@@ -27,6 +27,7 @@ struct CompensateOptions {
   BrokerOptions broker;
   Topics topics;
   std::string axis = "X";
+  std::string channel = "E_X";  ///< displacement that the offset works against
   LoopSettings loop;
   std::function<void(std::string const&)> say;                      ///< what happens, one line each
   std::function<void(Decision const&, Compensator const&)> record;  ///< every decision, after it was published

@@ -1,6 +1,7 @@
 #include "twin/compensation/play.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "thermal/error.h"
 
@@ -21,17 +22,19 @@ class Player {
         options_(options),
         offset_topic_(options.topics.offset(axis)),
         status_topic_(options.topics.status("compensate-" + axis)),
-        broker_(options.broker, {offset_topic_, status_topic_}) {}
+        report_topic_(options.topics.report(axis)),
+        broker_(options.broker, {offset_topic_, status_topic_, report_topic_}) {}
 
   PlayedRun run(std::atomic<bool> const& stop);
 
  private:
   void await_compensation(std::atomic<bool> const& stop);
   void listen(Clock::time_point until, std::atomic<bool> const& stop);
+  void check_channel(std::string const& report) const;
 
   VirtualMachine machine_;
   PlayOptions& options_;
-  std::string offset_topic_, status_topic_;
+  std::string offset_topic_, status_topic_, report_topic_;
   Broker broker_;
   bool online_ = false;
 };
@@ -41,11 +44,26 @@ void Player::listen(Clock::time_point until, std::atomic<bool> const& stop) {
     auto const message = broker_.receive(std::min(until, after(Clock::now(), 0.1)));
     if (message && message->topic == status_topic_)
       online_ = message->payload == "online";
+    else if (message && message->topic == report_topic_)
+      check_channel(message->payload);
     else if (message)
       machine_.take(message->payload);
     else if (Clock::now() >= until)
       return;
   }
+}
+
+/// Offsets against one displacement are not judged by another.
+void Player::check_channel(std::string const& report) const {
+  auto const read = nlohmann::json::parse(report, nullptr, false);
+  if (!read.is_object() || !read.contains("channel") || !read["channel"].is_string()) return;
+  auto const works_against = read["channel"].get<std::string>();
+  auto const& [channel, axis, limits, fallback] = machine_.settings();
+  if (works_against != channel)
+    throw thermal::InputError(
+        fmt::format("axis {} is compensated against {}, and this run is judged by {}; give both "
+                    "the same --channel",
+                    axis, works_against, channel));
 }
 
 void Player::await_compensation(std::atomic<bool> const& stop) {

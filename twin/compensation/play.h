@@ -18,7 +18,8 @@ struct PlayOptions {
 };
 
 /// Plays a recorded run over a broker: publishes readings and inputs when they are due, applies the offsets that come
-/// back. Begins when the compensation of its axis is online, or without it when that takes too long.
+/// back. Begins when the compensation of its axis is online, or without it when that takes too long. InputError when
+/// that reports to work against another displacement than the run is judged by.
 [[nodiscard]] PlayedRun play(VirtualMachine machine, std::string const& axis, PlayOptions options,
                              std::atomic<bool> const& stop);
 

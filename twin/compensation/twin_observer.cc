@@ -26,6 +26,9 @@ constexpr double um_per_m = 1e6;
 Displacement displacement_of(Machine const& machine, std::string const& name) {
   std::vector<std::string> known;
   for (auto const& displacement : machine.displacements) {
+    if (displacement.name == name && displacement.rotation)
+      throw thermal::InputError(
+          fmt::format("'{}' of the machine is an angle; an offset needs a displacement in um", name));
     if (displacement.name == name) return displacement;
     known.push_back(displacement.name);
   }
@@ -192,6 +195,13 @@ double TwinObserver::error(double time, std::span<double const> values) {
     correct(values, elapsed);
   }
   return displaced() - zero_displaced_;
+}
+
+double TwinObserver::change(std::string const& sensor) const {
+  for (std::size_t j = 0; j < sensors_.size(); ++j)
+    if (auto const& known = machine_.sensors[sensors_[j]]; known.description.name == sensor)
+      return seen(known.weights) - zero_seen_[j];
+  throw thermal::InputError(fmt::format("the machine has no sensor '{}' on a body", sensor));
 }
 
 VectorXd TwinObserver::temperatures() const {

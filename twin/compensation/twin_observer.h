@@ -40,6 +40,8 @@ class TwinObserver {
   /// Thermal error [µm] at `time` [s], which never goes back. NaN among the sensors: not believed.
   [[nodiscard]] double error(double time, std::span<double const> values);
 
+  /// What it says that a sensor's temperature has changed by since the first readings [K]. InputError for another name.
+  [[nodiscard]] double change(std::string const& sensor) const;
   [[nodiscard]] Eigen::VectorXd temperatures() const;  ///< of the nodes, as estimated [K]
 
  private:

@@ -15,6 +15,9 @@ Eigen::VectorXd course_of(output::Dataset const& data, std::string const& name) 
   std::vector<std::string> known;
   for (auto const* group : {&data.truth_displacements, &data.displacements})
     for (auto const& channel : *group) {
+      if (channel.name == name && channel.unit != "um")
+        throw thermal::InputError(
+            fmt::format("the run shows '{}' in {}; an offset needs a displacement in um", name, channel.unit));
       if (channel.name == name) return channel.values;
       known.push_back(channel.name);
     }

@@ -36,7 +36,7 @@ struct PlayedRun {
 /// as a controller should: only numbers in µm, not larger than its limit, no faster than its slew, and none for ever.
 class VirtualMachine {
  public:
-  /// InputError for a displacement that the data set does not have.
+  /// InputError for a displacement that the data set does not have, or has in another unit.
   VirtualMachine(output::Dataset data, VirtualMachineSettings settings, Topics topics = {});
 
   [[nodiscard]] std::size_t rows() const { return std::size_t(data_.time_s.size()); }
@@ -49,6 +49,7 @@ class VirtualMachine {
   void take(std::string_view payload);
 
   [[nodiscard]] PlayedRun const& played() const { return played_; }
+  [[nodiscard]] VirtualMachineSettings const& settings() const { return settings_; }
 
  private:
   void move_on(double time);

@@ -13,6 +13,7 @@
 namespace thermotwin::twin {
 namespace {
 
+namespace dimension = thermal::dimension;
 using thermal::InputError;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
@@ -37,10 +38,18 @@ struct Expected {
 std::vector<Expected> expected_channels(Machine const& machine) {
   std::vector<Expected> expected;
   for (auto const& sensor : machine.sensors)
-    expected.push_back({sensor.description.name, false, thermal::dimension::temperature_difference});
+    expected.push_back({sensor.description.name, false, dimension::temperature_difference});
   for (auto const& channel : machine.displacements)
-    expected.push_back({channel.name, true, channel.rotation ? thermal::dimension::angle : thermal::dimension::length});
+    expected.push_back({channel.name, true, channel.rotation ? dimension::angle : dimension::length});
   return expected;
+}
+
+std::vector<Expected> all_channels(MeasuredData const& data) {
+  std::vector<Expected> all;
+  for (auto const& channel : data.readings) all.push_back({channel.name, false, dimension::temperature_difference});
+  for (auto const& channel : data.displacements)
+    all.push_back({channel.name, true, thermal::dimension_of(channel.unit)});
+  return all;
 }
 
 output::Channel const* find(std::vector<output::Channel> const& channels, std::string const& name) {
@@ -168,6 +177,13 @@ void remark_strangers(MeasuredData const& data, std::vector<Expected> const& exp
   throw InputError("the data have no readings at all");
 }
 
+std::vector<MeasuredChannel> living_channels(MeasuredData const& data, std::vector<MeasuredChannel> channels,
+                                             std::vector<std::string>& remarks) {
+  bury_dead(channels, data.time, remarks);
+  remark_gaps(channels, data, first_row(channels, data.time.size()), remarks);
+  return channels;
+}
+
 }  // namespace
 
 std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const& machine,
@@ -182,11 +198,17 @@ std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const
                                    e.displacement ? "temperature" : "displacement",
                                    e.displacement ? "displacement" : "temperature"));
   if (channels.empty()) no_channel(data, expected, machine);
-  bury_dead(channels, data.time, remarks);
-  Eigen::Index const first = first_row(channels, data.time.size());
-  remark_gaps(channels, data, first, remarks);
+  channels = living_channels(data, std::move(channels), remarks);
   remark_strangers(data, expected, remarks);
   return channels;
+}
+
+std::vector<MeasuredChannel> channels_of(MeasuredData const& data, std::vector<std::string>& remarks) {
+  std::vector<MeasuredChannel> channels;
+  for (auto const& expected : all_channels(data))
+    channels.push_back(
+        in_si(*find(expected.displacement ? data.displacements : data.readings, expected.name), expected));
+  return living_channels(data, std::move(channels), remarks);
 }
 
 }  // namespace thermotwin::twin

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,7 +22,15 @@ struct MeasuredData {
   std::vector<output::Channel> displacements;
   std::optional<double> initial_temperature;  ///< [K]
   double max_gap = 600.0;                     ///< longer gaps become remarks, and those of inputs are estimated [s]
+  std::vector<std::string> remarks;           ///< of the reader
 };
+
+/// A data set (`.h5` as `run -o` writes it, `.csv` as `export` does) or a measurement file (`.toml`), which maps the
+/// columns of a table to inputs and channels. InputError that names the file.
+[[nodiscard]] MeasuredData read_measured_data(std::filesystem::path const& path);
+
+/// The inputs, readings and displacements of a data set, counted from its first row.
+[[nodiscard]] MeasuredData measured_data(output::Dataset const& dataset);
 
 /// A time in which something was not recorded [s].
 struct RecordGap {
@@ -46,6 +55,9 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine);
 /// InputError when no channel is the machine's, when all are dead, when a unit contradicts the channel.
 [[nodiscard]] std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const& machine,
                                                        std::vector<std::string>& remarks);
+
+/// The same without a machine: every channel that the data have.
+[[nodiscard]] std::vector<MeasuredChannel> channels_of(MeasuredData const& data, std::vector<std::string>& remarks);
 
 /// Both together. InputError when the run has less than ten rows.
 [[nodiscard]] MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string const& name);

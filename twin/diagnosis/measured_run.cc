@@ -32,7 +32,7 @@ scenarios::SampledInput sampled(output::Channel const& channel, Eigen::VectorXd 
 
 /// What a run of the twin, or of a controller, says about the place of a file.
 template <class Action>
-MeasuredRun naming(std::filesystem::path const& path, Action action) {
+auto naming(std::filesystem::path const& path, Action action) {
   try {
     return action();
   } catch (InputError const& error) {
@@ -58,6 +58,7 @@ MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string 
         fmt::format("the run has {} rows, too few to identify anything; at least {} are due", rows, fewest_rows));
   MeasuredRun run;
   run.name = name;
+  run.remarks = data.remarks;
   run.time = data.time;
   run.initial_temperature = data.initial_temperature;
   if (!data.machine.empty() && data.machine != machine.name)
@@ -67,7 +68,7 @@ MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string 
   return run;
 }
 
-MeasuredRun measured_run(output::Dataset const& dataset, Machine const& machine, std::string const& name) {
+MeasuredData measured_data(output::Dataset const& dataset) {
   output::check(dataset);
   MeasuredData data;
   double const start = dataset.time_s.size() > 0 ? dataset.time_s[0] : 0.0;
@@ -75,23 +76,29 @@ MeasuredRun measured_run(output::Dataset const& dataset, Machine const& machine,
   data.readings = dataset.readings;
   data.displacements = dataset.displacements;
   for (auto const& channel : dataset.inputs) data.inputs.push_back(sampled(channel, data.time));
-  MeasuredRun run = measured_run(std::move(data), machine, name);
-  if (start != 0.0) run.remarks.push_back(fmt::format("the data start at {} s; the run is counted from there", start));
-  if (!dataset.complete) run.remarks.push_back("the data set is marked as incomplete");
-  return run;
+  if (start != 0.0) data.remarks.push_back(fmt::format("the data start at {} s; the run is counted from there", start));
+  if (!dataset.complete) data.remarks.push_back("the data set is marked as incomplete");
+  return data;
 }
 
-MeasuredRun read_measured_run(std::filesystem::path const& path, Machine const& machine) {
+MeasuredRun measured_run(output::Dataset const& dataset, Machine const& machine, std::string const& name) {
+  return measured_run(measured_data(dataset), machine, name);
+}
+
+MeasuredData read_measured_data(std::filesystem::path const& path) {
   return naming(path, [&] {
-    std::string const name = path.stem().string();
-    if (path.extension() == ".toml") return measured_run(read_measurement_file(path), machine, name);
-    if (path.extension() == ".csv") return measured_run(output::import_csv(path), machine, name);
-    if (path.extension() == ".h5") return measured_run(output::read(path), machine, name);
+    if (path.extension() == ".toml") return read_measurement_file(path);
+    if (path.extension() == ".csv") return measured_data(output::import_csv(path));
+    if (path.extension() == ".h5") return measured_data(output::read(path));
     throw InputError(
         fmt::format("'{}' is no measured run; a data set (.h5), a table (.csv) or a measurement file "
                     "(.toml) is due",
                     path.string()));
   });
+}
+
+MeasuredRun read_measured_run(std::filesystem::path const& path, Machine const& machine) {
+  return naming(path, [&] { return measured_run(read_measured_data(path), machine, path.stem().string()); });
 }
 
 }  // namespace thermotwin::twin

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "thermal/nearest_name.h"
+#include "twin/axis_record.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -171,27 +172,9 @@ models::Batch WorldReader::batch(View const& view, Eigen::VectorXd const& time, 
 
 models::AxisRecord WorldReader::record(View const& readings, View const& errors, Eigen::VectorXd const& time,
                                        std::string const& name) const {
-  auto const axis = world_.error.substr(StudyWorld::slope_prefix.size());
-  auto const it =
-      std::find_if(errors.positioning.begin(), errors.positioning.end(), [&](auto const& p) { return p.axis == axis; });
-  if (it == errors.positioning.end())
-    throw thermal::InputError(fmt::format("{} has no laser measurement of axis '{}'", name, axis));
-  std::vector<Index> rows, targets;
-  for (Index i = 0, row = 0; i < it->time_s.size(); ++i) {
-    while (row + 1 < time.size() && time[row + 1] <= it->time_s[i] + 1e-6) ++row;
-    rows.push_back(row);
-  }
-  for (Index q = 0; q < it->position_mm.size(); ++q)
-    if (1e-3 * it->position_mm[q] >= world_.from - 1e-9 && 1e-3 * it->position_mm[q] <= world_.to + 1e-9)
-      targets.push_back(q);
-  Eigen::MatrixXd const mean = 0.5 * (it->forward_um + it->backward_um);
-  return {name,
-          it->time_s,
-          data_.sensors,
-          components(),
-          rises(readings)(rows, Eigen::all),
-          1e-3 * it->position_mm(targets),
-          mean(Eigen::all, targets)};
+  auto const axis = world_.error.substr(slope_prefix.size());
+  return axis_record({name, time, data_.sensors, components(), rises(readings), {}},
+                     laser_of(errors.positioning, axis, name), world_.from, world_.to);
 }
 
 StudyRun WorldReader::run_of(output::Dataset const& data, std::string const& name) const {

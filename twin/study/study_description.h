@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "thermal/units.h"
+#include "twin/axis_record.h"
 #include "twin/file/schema.h"
 
 namespace thermotwin::twin {
@@ -29,8 +30,6 @@ struct StudyInstant {
 
 /// `[[world]]`: a machine, what it was put through, and the error that is to be predicted.
 struct StudyWorld {
-  static constexpr std::string_view slope_prefix = "slope ";
-
   std::string name, machine, added;
   std::vector<std::string> changes, train, test;
   std::optional<double> split;

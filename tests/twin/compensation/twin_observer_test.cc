@@ -95,6 +95,12 @@ TEST(TwinObserver, RefusesWhatItCannotObserve) {
   } catch (thermal::InputError const& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("the machine has no displacement 'E_x'; did you mean 'E_X'?"));
   }
+  try {
+    TwinObserver const observer(g200(), "B");
+    FAIL() << "not refused";
+  } catch (thermal::InputError const& error) {
+    EXPECT_STREQ(error.what(), "'B' of the machine is an angle; an offset needs a displacement in um");
+  }
   EXPECT_THROW(TwinObserver(Machine::read(machine_file("v450_fine")), "E_Z"), thermal::InputError);
 }
 

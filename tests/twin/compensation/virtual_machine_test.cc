@@ -86,5 +86,16 @@ TEST(VirtualMachine, NamesTheDisplacementsThatItHas) {
   }
 }
 
+TEST(VirtualMachine, IsJudgedInTheUnitOfTheOffset) {
+  auto other = run();
+  other.displacements[0].unit = "mm";
+  try {
+    VirtualMachine const machine(other, {});
+    FAIL() << "not refused";
+  } catch (thermal::InputError const& error) {
+    EXPECT_STREQ(error.what(), "the run shows 'E_X' in mm; an offset needs a displacement in um");
+  }
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

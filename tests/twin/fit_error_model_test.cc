@@ -1,0 +1,257 @@
+#include "twin/fit_error_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "output/csv.h"
+#include "output/dataset_file.h"
+#include "tests/output/temporary_directory.h"
+#include "tests/scenarios/refusal.h"
+#include "twin/axis_record.h"
+#include "twin/error_model_file.h"
+#include "twin/error_prediction.h"
+#include "twin/experiment_file.h"
+#include "twin/run.h"
+
+/// From files of runs to a saved model, and from that to what it says of other runs.
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using thermotwin::tests::contents;
+using thermotwin::tests::put;
+using thermotwin::tests::refusal;
+using thermotwin::tests::TemporaryDirectory;
+
+constexpr Index rows = 120;
+
+/// Three sensors, of which the error is 3 ΔT1 − 2 ΔT2 [um], and an axis that grows by 10 ΔT1 um/m from 0.1 m on.
+output::Dataset warming(double pace, double start = 20.0) {
+  output::Dataset data;
+  data.time_s = VectorXd::LinSpaced(rows, 0.0, 60.0 * (rows - 1));
+  VectorXd const hours = data.time_s / 3600.0;
+  VectorXd const first = 8.0 * (1.0 - (-pace * hours.array()).exp()) + 0.3 * (9.0 * hours.array().square()).sin(),
+                 second = 3.0 * hours.array().sqrt();
+  data.readings = {{"T1", "degC", "", start + first.array()},
+                   {"T2", "degC", "", start + 1.0 + second.array()},
+                   {"T3", "degC", "", start + (pace * hours.array()).sin()}};
+  data.displacements = {{"E_Z", "um", "nose", 5.0 + 3.0 * first.array() - 2.0 * second.array()},
+                        {"B_Y", "urad", "tilt", 4.0 * first}};
+  output::Positioning laser{"z", VectorXd::LinSpaced(5, 0.0, 400.0), data.time_s(Eigen::seq(0, rows - 1, 4)), {}, {}};
+  VectorXd const grown = 10.0 * first(Eigen::seq(0, rows - 1, 4));
+  laser.forward_um = grown * (1e-3 * laser.position_mm.array() - 0.1).matrix().transpose();
+  laser.backward_um = laser.forward_um;
+  data.positioning = {laser};
+  return data;
+}
+
+VectorXd& readings(output::Dataset& data, std::string const& name) {
+  for (auto* group : {&data.readings, &data.displacements})
+    for (auto& channel : *group)
+      if (channel.name == name) return channel.values;
+  throw std::out_of_range(name);
+}
+
+class FitErrorModel : public testing::Test {
+ protected:
+  std::filesystem::path put_run(output::Dataset const& data, std::string const& name) {
+    if (name.ends_with(".csv"))
+      output::export_csv(data, folder_ / name);
+    else
+      output::write(data, folder_ / name);
+    return folder_ / name;
+  }
+  SavedErrorModel fitted(ErrorModelFit fit) {
+    remarks_.clear();
+    return fit_error_model(fit, remarks_);
+  }
+  SavedErrorModel read_back(SavedErrorModel const& saved) {
+    write_error_model(folder_ / "model.toml", saved);
+    return read_error_model(folder_ / "model.toml");
+  }
+  static Eigen::RowVectorXd coefficients(SavedErrorModel const& saved) {
+    return std::get<models::LinearForm>(saved.model.form).coefficients.transpose();
+  }
+
+  TemporaryDirectory folder_;
+  std::vector<std::string> remarks_;
+};
+
+TEST_F(FitErrorModel, FindsTheErrorAndSaysOfWhatItIs) {
+  auto const file = put_run(warming(1.5), "monday.h5");
+  auto const saved = fitted({{file}, "E_Z", {"T2", "T1"}});
+  EXPECT_TRUE(coefficients(saved).isApprox(Eigen::RowVector2d(-2.0, 3.0), 1e-9)) << coefficients(saved);
+  EXPECT_EQ(saved.unit, "um");
+  EXPECT_EQ(saved.title, "nose");
+  ASSERT_EQ(saved.runs.size(), 1U);
+  EXPECT_EQ(saved.runs[0].file, "monday.h5");
+  EXPECT_EQ(saved.runs[0].rows, rows);
+  EXPECT_THAT(saved.runs[0].zero, ElementsAre(21.0, 20.0));
+  EXPECT_LT(saved.runs[0].largest, 1e-9);
+  EXPECT_THAT(remarks_, IsEmpty());
+  EXPECT_EQ(fitted({{file}, "B_Y", {"T1"}}).unit, "urad");
+  EXPECT_NEAR(coefficients(fitted({{file}, "B_Y", {"T1"}}))(0), 4.0, 1e-9);
+}
+
+TEST_F(FitErrorModel, PredictsTheSameBytesReadBack) {
+  auto const monday = put_run(warming(1.5), "monday.h5"), tuesday = put_run(warming(0.7, 24.0), "tuesday.csv");
+  for (auto const* error : {"E_Z", "slope z"})
+    for (auto const* method : {"linear", "ridge", "ridge_distributed_lag"}) {
+      auto const saved = fitted({{monday}, error, {"T1", "T2", "T3"}, method});
+      auto const& test = saved.zero_position ? monday : tuesday;
+      auto const before = predict_error(saved, test), after = predict_error(read_back(saved), test);
+      EXPECT_EQ(before.predicted, after.predicted) << error << " by " << method;
+      EXPECT_EQ(prediction_csv(before), prediction_csv(after));
+    }
+}
+
+TEST_F(FitErrorModel, FindsItsInputsByNameInWhateverOrder) {
+  auto const saved = read_back(fitted({{put_run(warming(1.5), "monday.h5")}, "E_Z", {"T2", "T1"}}));
+  EXPECT_THAT(saved.model.inputs, ElementsAre("T2", "T1"));
+  auto data = warming(0.7);
+  auto const in_order = predict_error(saved, put_run(data, "tuesday.h5"));
+  std::reverse(data.readings.begin(), data.readings.end());
+  EXPECT_EQ(predict_error(saved, put_run(data, "reversed.h5")).predicted, in_order.predicted);
+}
+
+TEST_F(FitErrorModel, SlopeIsTheFeedAxisModel) {
+  auto const run = put_run(warming(1.5), "monday.h5");
+  auto const saved = read_back(fitted({{run}, "slope z", {"T1"}}));
+  EXPECT_NEAR(*saved.zero_position, 0.1, 1e-9);
+  EXPECT_NEAR(coefficients(saved)(0), 10.0, 1e-9);
+  EXPECT_EQ(saved.unit, "um/m");
+  auto const other = predict_error(saved, put_run(warming(0.7), "tuesday.h5"));
+  EXPECT_TRUE(other.predicted.isApprox(warming(0.7).positioning[0].forward_um, 1e-9));
+  EXPECT_EQ(other.unit, "um");
+  EXPECT_THAT(prediction_csv(other), testing::StartsWith("time_s,position_mm,error_um,predicted_um\n0,0,"));
+  EXPECT_THAT(refusal([&] { fitted({{run}, "slope x", {"T1"}}); }), HasSubstr("no laser measurement of axis 'x'"));
+}
+
+/// The same numbers, whoever wrote the table and however its columns are called.
+TEST_F(FitErrorModel, TakesTablesAndMeasurementFiles) {
+  auto const data = warming(1.5);
+  auto const from_h5 = fitted({{put_run(data, "run.h5")}, "E_Z", {"T1", "T2"}});
+  auto const from_csv = fitted({{put_run(data, "run.csv")}, "E_Z", {"T1", "T2"}});
+  put(folder_ / "run.toml", R"(
+    machine = "lathe"
+    [[table]]
+    file = "run.csv"
+    reading = [{column = "T1_degC", sensor = "T1", unit = "degC"}, {column = "T2_degC", sensor = "T2", unit = "degC"},
+               {column = "E_Z_um", sensor = "E_Z", unit = "um", factor = -1}])");
+  auto const mapped = fitted({{folder_ / "run.toml"}, "E_Z", {"T1", "T2"}});
+  EXPECT_EQ(coefficients(from_h5), coefficients(from_csv));
+  EXPECT_EQ(from_h5.runs[0].fingerprint, from_csv.runs[0].fingerprint);
+  EXPECT_TRUE(coefficients(mapped).isApprox(-coefficients(from_h5), 1e-12));
+  EXPECT_EQ(mapped.runs[0].machine, "lathe");
+}
+
+TEST_F(FitErrorModel, LeavesOutWhatIsDeadAndSaysSo) {
+  auto data = warming(1.5);
+  readings(data, "T3").setConstant(21.0);
+  auto const file = put_run(data, "run.csv");
+  auto const saved = fitted({{file}, "E_Z"});
+  EXPECT_THAT(saved.model.inputs, ElementsAre("T1", "T2"));
+  EXPECT_THAT(remarks_, ElementsAre("run.csv: 'T3' is dead: it never moves", "run.csv: T3 is left out: it is dead"));
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z", {"T1", "T3"}});
+              }),
+              HasSubstr("run.csv: none of its 120 rows is complete: no value of T3 in 120"));
+}
+
+TEST_F(FitErrorModel, LeavesOutRowsWithoutAReadingOfWhatWasNamed) {
+  auto data = warming(1.5);
+  readings(data, "T1").segment(10, 5).setConstant(std::nan(""));
+  readings(data, "E_Z")[20] = std::nan("");
+  auto const file = put_run(data, "run.csv");
+  auto const saved = fitted({{file}, "E_Z", {"T1", "T2"}});
+  EXPECT_EQ(saved.runs[0].rows, rows - 6);
+  EXPECT_TRUE(coefficients(saved).isApprox(Eigen::RowVector2d(3.0, -2.0), 1e-9));
+  EXPECT_THAT(remarks_, Contains("run.csv: 6 of 120 rows are left out: no value of T1 in 5, of E_Z in 1"));
+  EXPECT_THAT(refusal([&] { fitted({{file}, "E_Z", {"T1", "T2"}, "distributed_lag"}); }), HasSubstr("run.csv"));
+  auto const averaged = fitted({{file}, "E_Z", {"T1", "T2"}, "distributed_lag", 1, {}, 600.0});
+  EXPECT_EQ(averaged.model.sample_period, 600.0);
+  EXPECT_EQ(read_back(averaged).sampling, 600.0);
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z", {"T1"}, "linear", 1, {}, 30.0});
+              }),
+              HasSubstr("a sampling of 30 s is finer than the 60 s between its rows"));
+}
+
+TEST_F(FitErrorModel, NamesTheNearest) {
+  auto const file = put_run(warming(1.5), "run.csv");
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Y", {"T1"}});
+              }),
+              HasSubstr("run.csv has no displacement 'E_Y'; did you mean 'E_Z'"));
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z", {"T1", "T4"}});
+              }),
+              HasSubstr("run.csv has no sensor 'T4'; did you mean"));
+  EXPECT_THAT(refusal([&] { fitted({{file}, "E_Z", {"T1"}, "rigde"}); }), HasSubstr("ridge"));
+  EXPECT_THAT(refusal([&] { fitted({{folder_ / "run.txt"}, "E_Z", {"T1"}}); }), HasSubstr("is no measured run"));
+}
+
+/// A machine with less grease than its file says: the twin tells most of the error, the model what it errs by.
+TEST_F(FitErrorModel, BesideATwinAddsToWhatThatSays) {
+  auto const simulated = [&](std::string const& experiment, std::string const& name) {
+    auto document = read_toml(machine_file("v450"));
+    set_parameter(document, "bearing.front.grease_factor", "0.7");
+    auto const file = experiment_file(experiment);
+    return put_run(run(Machine::build(document), read_experiment(read_toml(file), file), {}).dataset, name);
+  };
+  auto const train = simulated("golden_b_6000", "train.h5"), test = simulated("golden_b_4000", "test.h5");
+  std::filesystem::copy_file(machine_file("v450"), folder_ / "mine.toml");
+  ErrorModelFit fit{{train}, "E_Z", {"T1", "T3"}};
+  auto const alone = predict_error(fitted(fit), test);
+  fit.twin = folder_ / "mine.toml";
+  auto const saved = fitted(fit);
+  auto const beside = predict_error(saved, test);
+  EXPECT_EQ(beside.predicted, predict_error(read_back(saved), test).predicted);
+  EXPECT_TRUE(beside.shown().isApprox(alone.shown(), 1e-12));
+  auto const rms = [](ErrorPrediction const& p) { return (p.shown() - p.predicted).norm(); };
+  EXPECT_LT(rms(beside), 0.5 * rms(alone));
+
+  put(folder_ / "mine.toml", contents(folder_ / "mine.toml") + "# changed\n");
+  EXPECT_THAT(refusal([&] { (void)predict_error(saved, test); }),
+              HasSubstr("mine.toml is no longer the file beside which the model was fitted"));
+  EXPECT_THAT(refusal([&] {
+                fitted({{train}, "slope z", {"T1"}, "linear", 1, folder_ / "mine.toml"});
+              }),
+              HasSubstr("'slope z': a slope is fitted without a twin"));
+}
+
+TEST_F(FitErrorModel, IsJudgedOnOtherRuns) {
+  auto monday = warming(1.5);
+  monday.provenance["machine.file"] = "name = \"v450\"\n";
+  auto const saved = read_back(fitted({{put_run(monday, "monday.h5")}, "E_Z", {"T1"}}));
+  EXPECT_EQ(saved.runs[0].machine, "v450");
+  auto const same = predict_error(saved, folder_ / "monday.h5");
+  EXPECT_TRUE(same.seen_before);
+  EXPECT_NEAR((same.shown() - same.predicted).norm() / std::sqrt(double(rows)), saved.runs[0].rmse, 1e-9);
+  EXPECT_THAT(prediction_text(same), HasSubstr("the model was fitted to these very data"));
+
+  auto other = warming(0.7);
+  other.provenance["machine.file"] = "name = \"g200\"\n";
+  auto const unlike = predict_error(saved, put_run(other, "other.h5"));
+  EXPECT_FALSE(unlike.seen_before);
+  EXPECT_THAT(unlike.remarks, ElementsAre("other.h5: of 'g200'; the model was fitted to 'v450'"));
+
+  auto bare = warming(0.7);
+  bare.displacements.clear();
+  EXPECT_THAT(prediction_text(predict_error(saved, put_run(bare, "bare.csv"))),
+              HasSubstr("120 rows predicted; the run does not show the error"));
+  EXPECT_EQ(predict_error(saved, folder_ / "bare.csv").predicted, unlike.predicted);
+  bare.readings.erase(bare.readings.begin());
+  EXPECT_THAT(refusal([&] { (void)predict_error(saved, put_run(bare, "poor.csv")); }),
+              HasSubstr("poor.csv has no sensor 'T1'; did you mean 'T2'"));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

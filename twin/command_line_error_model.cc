@@ -1,0 +1,97 @@
+#include "twin/command_line_error_model.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+#include "output/atomic_file.h"
+#include "thermal/error.h"
+#include "thermal/units.h"
+#include "twin/error_model_file.h"
+#include "twin/error_prediction.h"
+#include "twin/file/output_path.h"
+#include "twin/fit_error_model.h"
+
+namespace thermotwin::twin {
+namespace {
+
+struct FitCommand {
+  ErrorModelFit fit;
+  std::string sampling, twin, output;
+
+  void add_to(CLI::App& command);
+  void operator()();
+};
+
+void FitCommand::add_to(CLI::App& command) {
+  command.add_option("runs", fit.runs, "data sets (.h5), tables (.csv) or measurement files (.toml)")->required();
+  command.add_option("--error", fit.error, "displacement to explain, or \"slope z\" of axis z's error")
+      ->capture_default_str();
+  command.add_option("--sensors", fit.sensors, "temperatures to explain it by; default: all without a missing reading")
+      ->delimiter(',');
+  command.add_option("--method", fit.method, "linear, ridge, ridge_distributed_lag, …: docs/study.md")
+      ->capture_default_str();
+  command.add_option("--twin", twin,
+                     "machine, file or name, best calibrated: fit what it errs by, at the tool and at the sensors");
+  command.add_option("--sampling", sampling, "fit means over this time: \"1 min\"; default: the rows as they are");
+  command.add_option("--seed", fit.seed, "of random starts")->capture_default_str();
+  command.add_option("--output,-o", output, "error model to write (TOML)")->required();
+}
+
+void FitCommand::operator()() {
+  check_suffix(output, "an error model", {".toml"});
+  if (!twin.empty()) fit.twin = machine_file(twin);
+  refuse_to_overwrite(output, fit.twin.value_or(""), fit.runs);
+  if (!sampling.empty()) {
+    fit.sampling = thermal::parse_value(sampling, thermal::dimension::time);
+    if (*fit.sampling <= 0.0) throw thermal::InputError(fmt::format("--sampling {}: a time above 0 is due", sampling));
+  }
+  std::vector<std::string> remarks;
+  auto const saved = fit_error_model(fit, remarks);
+  write_error_model(output, saved);
+  for (auto const& remark : remarks) fmt::print("{}\n", remark);
+  fmt::print("{}", error_model_text(saved));
+}
+
+struct PredictCommand {
+  std::string model, output;
+  std::vector<std::filesystem::path> runs;
+
+  void operator()() const;
+};
+
+void PredictCommand::operator()() const {
+  check_suffix(output, "a table", {".csv"});
+  auto read = runs;
+  read.emplace_back(model);
+  refuse_to_overwrite(output, {}, read);
+  if (!output.empty() && runs.size() > 1)
+    throw thermal::InputError(
+        fmt::format("--output {} takes the prediction of one run; {} are given", output, runs.size()));
+  auto const saved = read_error_model(model);
+  fmt::print("{}", error_model_text(saved));
+  for (auto const& run : runs) {
+    auto const prediction = predict_error(saved, run);
+    if (!output.empty()) output::write_atomically(output, prediction_csv(prediction));
+    fmt::print("\n");
+    for (auto const& remark : prediction.remarks) fmt::print("{}\n", remark);
+    fmt::print("{}", prediction_text(prediction));
+  }
+}
+
+}  // namespace
+
+void add_error_model_commands(CLI::App& app) {
+  auto fit = std::make_shared<FitCommand>();
+  auto* command = app.add_subcommand("fit", "fit an error model to runs and save it");
+  fit->add_to(*command);
+  command->callback([fit] { (*fit)(); });
+  auto predict = std::make_shared<PredictCommand>();
+  command = app.add_subcommand("predict", "what a saved error model says of other runs, and by how much it errs");
+  command->add_option("model", predict->model, "error model (thermotwin fit)")->required();
+  command->add_option("runs", predict->runs, "data sets (.h5), tables (.csv) or measurement files (.toml)")->required();
+  command->add_option("--output,-o", predict->output, "table to write (CSV): error and prediction of every row");
+  command->callback([predict] { (*predict)(); });
+}
+
+}  // namespace thermotwin::twin

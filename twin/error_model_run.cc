@@ -1,0 +1,188 @@
+#include "twin/error_model_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "output/dataset_file.h"
+#include "thermal/error.h"
+#include "thermal/nearest_name.h"
+#include "thermal/units.h"
+#include "twin/axis_record.h"
+#include "twin/diagnosis/measured_data.h"
+#include "twin/diagnosis/prediction.h"
+#include "twin/file/value.h"
+#include "twin/fingerprint.h"
+#include "twin/study/study_runs.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using thermal::InputError;
+
+output::Channel const* find_channel(std::vector<output::Channel> const& group, std::string const& name) {
+  auto const it = std::find_if(group.begin(), group.end(), [&](auto const& channel) { return channel.name == name; });
+  return it == group.end() ? nullptr : &*it;
+}
+
+output::Channel const& channel_named(std::vector<output::Channel> const& group, std::string const& name,
+                                     std::string const& file, char const* kind) {
+  if (auto const* channel = find_channel(group, name)) return *channel;
+  std::vector<std::string> known;
+  for (auto const& channel : group) known.push_back(channel.name);
+  throw InputError(fmt::format("{} has no {} '{}'; {}", file, kind, name, thermal::did_you_mean(name, known)));
+}
+
+output::Channel const& sensor_named(output::Dataset const& data, std::string const& name, std::string const& file) {
+  return channel_named(data.readings, name, file, "sensor");
+}
+
+output::Channel const& displacement_named(output::Dataset const& data, std::string const& name,
+                                          std::string const& file) {
+  return channel_named(data.displacements, name, file, "displacement");
+}
+
+/// The name in the machine's file, which a simulated run keeps.
+std::string machine_name_of(output::Dataset const& data) {
+  auto const text = data.provenance.find("machine.file");
+  if (text == data.provenance.end()) return {};
+  auto const document = parse_toml(text->second, "machine");
+  auto const* name = document.find("name");
+  return name && name->is_text() ? std::get<std::string>(name->content) : std::string();
+}
+
+/// Units and titles are those of the record; dataset_of() gives numbers in µm and µrad.
+void take_titles(MeasuredData const& data, output::Dataset& shown) {
+  for (auto& channel : shown.displacements) {
+    auto const& recorded = *find_channel(data.displacements, channel.name);
+    channel.long_name = recorded.long_name;
+    if (thermal::dimension_of(recorded.unit) == thermal::dimension::angle) channel.unit = "urad";
+  }
+}
+
+std::string fingerprint_of(ErrorModelRun const& run) {
+  Fingerprint print;
+  auto const add = [&](auto const& numbers) { print.add(std::span(numbers.data(), std::size_t(numbers.size()))); };
+  add(run.batch.time);
+  add(run.batch.temperature_rise);
+  add(run.batch.error);
+  if (run.axis) {
+    add(run.axis->position);
+    add(run.axis->error);
+  }
+  return print.text();
+}
+
+/// "no value of E_X in 3, of T2 in 12"
+std::string lacks(std::vector<output::Channel const*> const& channels) {
+  std::vector<std::string> counts;
+  for (auto const* channel : channels)
+    if (auto const missing = (!channel->values.array().isFinite()).count(); missing > 0)
+      counts.push_back(fmt::format("{} in {}", channel->name, missing));
+  return fmt::format("no value of {}", fmt::join(counts, ", of "));
+}
+
+/// Rows in which all of these have a value; what is left out is remarked.
+std::vector<Index> complete_rows(std::vector<output::Channel const*> const& channels, RecordedRun& run) {
+  Index const rows = run.shown.time_s.size();
+  std::vector<Index> complete;
+  for (Index i = 0; i < rows; ++i)
+    if (std::all_of(channels.begin(), channels.end(), [&](auto const* c) { return std::isfinite(c->values[i]); }))
+      complete.push_back(i);
+  if (complete.empty())
+    throw InputError(fmt::format("{}: none of its {} rows is complete: {}", run.file, rows, lacks(channels)));
+  if (Index(complete.size()) < rows)
+    run.remarks.push_back(
+        fmt::format("{} of {} rows are left out: {}", rows - Index(complete.size()), rows, lacks(channels)));
+  return complete;
+}
+
+MeasuredRun without_machine(MeasuredData const& data) {
+  MeasuredRun run;
+  run.time = data.time;
+  run.remarks = data.remarks;
+  run.channels = channels_of(data, run.remarks);
+  return run;
+}
+
+/// Their changes since the first of these rows.
+void take_changes(output::Dataset const& data, std::string const& error, std::vector<Index> const& rows,
+                  models::Batch& batch) {
+  auto const change = [&](output::Channel const& channel) {
+    return VectorXd(channel.values(rows).array() - channel.values[rows[0]]);
+  };
+  batch.temperature_rise.resize(Index(rows.size()), Index(batch.sensors.size()));
+  for (std::size_t j = 0; j < batch.sensors.size(); ++j)
+    batch.temperature_rise.col(Index(j)) = change(sensor_named(data, batch.sensors[j], batch.name));
+  batch.error = VectorXd::Zero(Index(rows.size()));
+  if (find_channel(data.displacements, error)) batch.error = change(displacement_named(data, error, batch.name));
+}
+
+}  // namespace
+
+RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<double> sampling, Machine const* twin) {
+  RecordedRun result{path.filename().string(), {}, {}, {}, {}};
+  bool const whole = path.extension() == ".h5";
+  auto const file = whole ? output::read(path) : output::Dataset();
+  auto const data = whole ? measured_data(file) : read_measured_data(path);
+  try {
+    auto const run = twin ? measured_run(data, *twin, result.file) : without_machine(data);
+    result.remarks = run.remarks;
+    double const own = usual_interval({run.time.data(), std::size_t(run.time.size())});
+    if (sampling && *sampling < own * (1.0 - 1e-6))
+      throw InputError(fmt::format("a sampling of {:g} s is finer than the {:g} s between its rows", *sampling, own));
+    result.machine = whole ? machine_name_of(file) : data.machine;
+    result.shown = dataset_of(run, sampling);
+    take_titles(data, result.shown);
+    result.shown.positioning = file.positioning;
+    for (auto& laser : result.shown.positioning) laser.time_s.array() -= file.time_s[0] + run.time[first_reading(run)];
+    if (!twin) return result;
+    auto const values = predict(*twin, run);
+    result.said = dataset_of(run, sampling, &values);
+    return result;
+  } catch (InputError const& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& sensors, std::string const& error,
+                              bool must_show) {
+  auto const& data = run.shown;
+  bool const slope = error.starts_with(slope_prefix);
+  auto const axis = slope ? error.substr(slope_prefix.size()) : std::string();
+  std::vector<output::Channel const*> used;
+  for (auto const& sensor : sensors) used.push_back(&sensor_named(data, sensor, run.file));
+  auto const* shown = slope ? nullptr : find_channel(data.displacements, error);
+  if (!slope && (shown || must_show)) used.push_back(&displacement_named(data, error, run.file));
+  auto const rows = complete_rows(used, run);
+  ErrorModelRun result;
+  auto& batch = result.batch;
+  batch = {run.file, data.time_s(rows), sensors, sensors, {}, {}};
+  take_changes(data, error, rows, batch);
+  for (std::size_t j = 0; j < sensors.size(); ++j)
+    result.zero.push_back(std::round(1e3 * used[j]->values[rows[0]]) / 1e3);
+  if (run.said) {
+    auto said = batch;
+    take_changes(*run.said, error, rows, said);
+    result.said = said.error;
+    batch.temperature_rise -= said.temperature_rise;
+    if (shown) batch.error -= said.error;
+  }
+  if (slope) {
+    result.axis = axis_record(batch, laser_of(data.positioning, axis, run.file));
+    batch = models::slope_batch(*result.axis);
+    result.unit = "um/m";
+    result.title = fmt::format("of axis {}'s position error over its travel", axis);
+  } else if (shown) {
+    result.unit = shown->unit;
+    result.title = shown->long_name;
+  }
+  result.shown = slope || shown;
+  result.fingerprint = fingerprint_of(result);
+  return result;
+}
+
+}  // namespace thermotwin::twin

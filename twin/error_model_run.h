@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/feed_axis.h"
+#include "output/dataset.h"
+#include "twin/machine.h"
+
+namespace thermotwin::twin {
+
+/// What a run was recorded as, before it is known what a model makes of it: readings [°C] and displacements in the
+/// units of a data set, from the first reading on. Simulated or measured: a data set (.h5), a table (.csv), a
+/// measurement file
+/// (.toml).
+struct RecordedRun {
+  std::string file;                     ///< for messages
+  std::string machine;                  ///< name; empty where the data do not say
+  output::Dataset shown;                ///< dead sensors and missing readings are NaN
+  std::optional<output::Dataset> said;  ///< by the twin, in the same rows
+  std::vector<std::string> remarks;
+};
+
+/// Means over `sampling` [s] where it is given. With a twin, what the machine says that is given the run's inputs.
+/// InputError that names the file; for a `sampling` finer than the rows.
+[[nodiscard]] RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<double> sampling,
+                                            Machine const* twin = nullptr);
+
+/// A run as error models see it, temperatures and errors counted from its first row.
+struct ErrorModelRun {
+  models::Batch batch;                     ///< error 0 where the run did not show it; with a twin, less what that says
+  Eigen::VectorXd said;                    ///< of the error by the twin; empty: there is none
+  std::optional<models::AxisRecord> axis;  ///< where the error is a slope
+  bool shown = true;                       ///< the run shows the error
+  std::string unit, title;                 ///< of the error
+  std::vector<double> zero;                ///< what the sensors showed in the first row, to 1 mK [°C]
+  std::string fingerprint;
+};
+
+/// These sensors of a run, and its error: a displacement channel or "slope z". Rows that lack one of them are left out,
+/// and a remark says so. InputError with the nearest name for a sensor that the run does not have, or that is dead; for
+/// the error too where it must be shown.
+[[nodiscard]] ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& sensors,
+                                            std::string const& error, bool must_show);
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,97 @@
+#include "twin/error_prediction.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <stdexcept>
+
+#include "models/metrics.h"
+#include "thermal/error.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+MatrixXd predicted_of(SavedErrorModel const& saved, ErrorModelRun const& run) {
+  try {
+    if (run.axis) return models::FeedAxisModel{saved.model, *saved.zero_position}.predict(*run.axis);
+    auto const own = saved.model.predict(run.batch);
+    return run.said.size() > 0 ? MatrixXd(own + run.said) : MatrixXd(own);
+  } catch (std::invalid_argument const& error) {
+    throw thermal::InputError(error.what());
+  }
+}
+
+void remark_machine(SavedErrorModel const& saved, std::string const& machine, std::vector<std::string>& remarks) {
+  std::vector<std::string> fitted;
+  for (auto const& run : saved.runs)
+    if (!run.machine.empty() && std::find(fitted.begin(), fitted.end(), run.machine) == fitted.end())
+      fitted.push_back(run.machine);
+  if (machine.empty() || fitted.empty() || std::find(fitted.begin(), fitted.end(), machine) != fitted.end()) return;
+  remarks.push_back(fmt::format("of '{}'; the model was fitted to '{}'", machine, fmt::join(fitted, "', '")));
+}
+
+std::string metrics_line(std::string const& name, Index rows, MatrixXd const& truth, MatrixXd const& said,
+                         std::string const& unit) {
+  auto const judged = models::metrics(truth.reshaped(), said.reshaped());
+  return fmt::format("{:<18}{:>6}{:>10.2f}{:>10.2f}{:>10.2f}  {}\n", name, rows, judged.rmse, judged.mae, judged.max,
+                     unit);
+}
+
+}  // namespace
+
+MatrixXd ErrorPrediction::shown() const {
+  if (run.axis) return run.axis->error;
+  return run.said.size() > 0 ? MatrixXd(run.batch.error + run.said) : MatrixXd(run.batch.error);
+}
+
+ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::path const& run) {
+  auto const twin = saved.twin ? std::optional(twin_of(*saved.twin)) : std::nullopt;
+  auto recorded = read_recorded_run(run, saved.sampling, twin ? &*twin : nullptr);
+  ErrorPrediction result;
+  result.run = error_model_run(recorded, saved.model.inputs, saved.error, false);
+  if (result.run.shown && result.run.unit != saved.unit)
+    throw thermal::InputError(fmt::format("{} shows {} in {}; the model predicts {}", recorded.file, saved.error,
+                                          result.run.unit, saved.unit));
+  result.predicted = predicted_of(saved, result.run);
+  result.unclaimed = saved.model.unclaimed_instants();
+  result.unit = result.run.axis ? "um" : saved.unit;
+  result.seen_before = std::any_of(saved.runs.begin(), saved.runs.end(),
+                                   [&](auto const& fitted) { return fitted.fingerprint == result.run.fingerprint; });
+  remark_machine(saved, recorded.machine, recorded.remarks);
+  for (auto const& remark : recorded.remarks) result.remarks.push_back(recorded.file + ": " + remark);
+  return result;
+}
+
+std::string prediction_text(ErrorPrediction const& prediction) {
+  auto const& name = prediction.run.batch.name;
+  Index const rows = prediction.predicted.rows() - prediction.unclaimed;
+  if (rows <= 0) return fmt::format("{}: fewer rows than the model's lags reach back\n", name);
+  if (!prediction.run.shown) return fmt::format("{}: {} rows predicted; the run does not show the error\n", name, rows);
+  MatrixXd const shown = prediction.shown().bottomRows(rows);
+  MatrixXd const predicted = prediction.predicted.bottomRows(rows);
+  std::string text = fmt::format("{:<18}{:>6}{:>10}{:>10}{:>10}\n", name, "rows", "RMSE", "mean", "largest");
+  text += metrics_line("error", rows, shown, MatrixXd::Zero(shown.rows(), shown.cols()), prediction.unit);
+  text += metrics_line("less prediction", rows, shown, predicted, prediction.unit);
+  if (prediction.seen_before) text += "the model was fitted to these very data: this is no test of it\n";
+  return text;
+}
+
+std::string prediction_csv(ErrorPrediction const& prediction) {
+  auto const& run = prediction.run;
+  auto const shown = prediction.shown();
+  std::string text = fmt::format("time_s{}{},predicted_{}\n", run.axis ? ",position_mm" : "",
+                                 run.shown ? ",error_" + prediction.unit : "", prediction.unit);
+  for (Index i = 0; i < prediction.predicted.rows(); ++i)
+    for (Index q = 0; q < prediction.predicted.cols(); ++q) {
+      text += fmt::format("{}", run.batch.time[i]);
+      if (run.axis) text += fmt::format(",{}", 1e3 * run.axis->position[q]);
+      if (run.shown) text += fmt::format(",{}", shown(i, q));
+      text += fmt::format(",{}\n", prediction.predicted(i, q));
+    }
+  return text;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "twin/error_model_run.h"
+#include "twin/saved_error_model.h"
+
+namespace thermotwin::twin {
+
+/// What a saved model says of a run.
+struct ErrorPrediction {
+  ErrorModelRun run;
+  Eigen::MatrixXd predicted;  ///< rows × positions; of a displacement one column
+  int unclaimed = 0;          ///< first rows that the model does not claim to predict
+  std::string unit;           ///< of the predicted numbers: "um", "urad"
+  bool seen_before = false;   ///< the model was fitted to these very data
+  std::vector<std::string> remarks;
+
+  /// As the run showed it, likewise.
+  [[nodiscard]] Eigen::MatrixXd shown() const;
+};
+
+/// The inputs are found by name. InputError for a run that lacks one, or shows the error in another unit; a run of
+/// another machine than those that the model was fitted to is remarked.
+[[nodiscard]] ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::path const& run);
+
+/// RMSE, mean and largest of what is left, beside the same of the error itself.
+[[nodiscard]] std::string prediction_text(ErrorPrediction const& prediction);
+
+/// time_s, error, predicted; of a slope with position_mm, and a row per pass and position.
+[[nodiscard]] std::string prediction_csv(ErrorPrediction const& prediction);
+
+}  // namespace thermotwin::twin
