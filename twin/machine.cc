@@ -382,8 +382,7 @@ std::vector<TableRecord> describe_machine() {
       {"laser", "laser interferometer along an axis; one table", list_fields<LaserInterferometer>()},
       {"volumetric", "21 error elements of a machine with three linear axes; one table",
        list_fields<VolumetricDescription>()},
-      {"uncertain", "a number of this file that is known within a range only: placement draws machines from it",
-       list_fields<UncertainRange>()}};
+      {"uncertain", "a number of this file that is known within a range only", list_fields<UncertainRange>()}};
   for (auto const& entry : effect_catalogue()) tables.push_back({entry.name, entry.meaning, entry.parameters});
   return tables;
 }

@@ -1,5 +1,6 @@
 #include "twin/uncertain_range.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 #include "thermal/error.h"
@@ -9,6 +10,8 @@ namespace thermotwin::twin {
 namespace {
 
 using thermal::InputError;
+
+constexpr double written_digits = 1e-3;  // of an end: a number that a fit left there is written with few digits
 
 double end_of(std::string const& text, Parameter const& number) {
   if (!number.absolute_temperature) return thermal::parse_value(text, number.dimension);
@@ -24,7 +27,8 @@ RangedNumber ranged(Value const& document, UncertainRange const& range) {
   if (!(result.low < result.high))
     throw InputError(
         fmt::format("the range from '{}' to '{}' is empty; 'from' is the lower end", range.from, range.to));
-  if (number.value < result.low || number.value > result.high)
+  if (number.value < result.low - written_digits * std::abs(result.low) ||
+      number.value > result.high + written_digits * std::abs(result.high))
     throw InputError(fmt::format("'{}' is {} in this file, outside its range from '{}' to '{}'", range.name,
                                  number.absolute_temperature ? thermal::format_temperature(number.value)
                                                              : thermal::format_quantity(number.value, number.dimension),

@@ -140,7 +140,8 @@ void Estimation::add_unknowns() {
   using Kind = Unknown::Kind;
   auto const sensors = Machine::build(document_).sensors;
   for (std::size_t i = 0; i < numbers_.size(); ++i)
-    unknowns_.push_back({Kind::number, numbers_[i].path, 0.0, numbers_[i].deviation, -INFINITY, INFINITY, i, -1});
+    unknowns_.push_back(
+        {Kind::number, numbers_[i].path, 0.0, numbers_[i].deviation, numbers_[i].lower, numbers_[i].upper, i, -1});
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     auto const holds = [&](MeasuredChannel const& channel) { return channel.name == channels_[c]; };
     bool sensor = false;

@@ -1,11 +1,13 @@
 #include "twin/diagnosis/uncertain_number.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
 
 #include "twin/effect.h"
 #include "twin/sensitivity.h"
+#include "twin/uncertain_range.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -86,6 +88,21 @@ void add_growth(Value& channel, std::string const& kind, Value const& document, 
   }
 }
 
+void set_range(Value& document, RangedNumber const& range, std::vector<UncertainNumber>& numbers) {
+  auto it = std::find_if(numbers.begin(), numbers.end(), [&](auto const& n) { return n.path == range.number.path; });
+  if (it == numbers.end()) {
+    if (range.number.absolute_temperature) return;
+    auto const [table, key] = find_parameter(document, range.number.path);
+    it = numbers.insert(
+        it, {range.number.path, range.number.value, range.number.dimension, 0.0, unit_of(*table->find(key))});
+  }
+  it->of_either_sign = it->of_either_sign || range.low <= 0.0;
+  auto const end = [&](double at) { return it->of_either_sign ? at - it->nominal : std::log(at / it->nominal); };
+  it->lower = end(range.low);
+  it->upper = end(range.high);
+  it->deviation = (it->upper - it->lower) / std::sqrt(12.0);
+}
+
 }  // namespace
 
 double UncertainNumber::value(double x) const { return of_either_sign ? nominal + x : nominal * std::exp(x); }
@@ -106,6 +123,7 @@ std::vector<UncertainNumber> uncertain_numbers(Value& document) {
     with_tables(entry.name, [&](Value& table) { add_numbers(document, entry.name, table, numbers); });
   for (std::string const kind : {"rotation", "displacement"})
     with_tables(kind, [&](Value& table) { add_growth(table, kind, document, numbers); });
+  for (auto const& range : ranged_numbers(document)) set_range(document, range, numbers);
   return numbers;
 }
 

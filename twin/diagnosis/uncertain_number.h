@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct UncertainNumber {
   double deviation = 0.2;
   std::string unit = {};  ///< that its author chose; empty: a bare number
   bool of_either_sign = false;
+  double lower = -INFINITY, upper = INFINITY;  ///< of x
 
   [[nodiscard]] double value(double x) const;
   /// ∂value/∂x.
@@ -36,6 +38,9 @@ struct UncertainNumber {
 ///
 /// A segment of weight 0 stands for a machine without drawings: nobody knows what this body does to the channel. Its
 /// weight is N(0, 1), so that the segment's length says how much it may do.
+///
+/// A number of which the file states a range (`[[uncertain]]`), of whatever kind but a temperature, stays within it,
+/// with the deviation of an even distribution there (JCGM 100:2008, 4.3.7).
 ///
 /// `document` gets a growth_factor of 1 wherever a segment has none, so that every path can be set.
 [[nodiscard]] std::vector<UncertainNumber> uncertain_numbers(Value& document);

@@ -80,6 +80,20 @@ TEST_F(CalibrationTest, GapShrinksThoughOnlyIdentifiedNumbersChange) {
   EXPECT_LT(calibration.misfit, 1.2);
 }
 
+/// A range holds where a kind would not: the data want a motor film of 18 W/(m2 K), and get no less than 20; what is
+/// written is a machine again.
+TEST_F(CalibrationTest, RangesOfTheFileHold) {
+  thermotwin::tests::put(*folder / "ranged.toml", contents(machine_file("v450")) +
+                                                      "\n[[uncertain]]\nname = \"film.motor.coefficient\"\n"
+                                                      "from = \"20 W/(m2 K)\"\nto = \"40 W/(m2 K)\"\n");
+  auto const ranged = calibrate_files({*folder / "ranged.toml", {*folder / "run.h5"}, *folder / "ranged_fit.toml"});
+  for (auto const& number : ranged.numbers)
+    if (number.number.path == "film.motor.coefficient") {
+      EXPECT_NEAR(number.estimate(), 20.0, 0.01);
+    }
+  EXPECT_NO_THROW((void)Machine::read(*folder / "ranged_fit.toml"));
+}
+
 /// A cabinet of 60 W at the column, of which the file says nothing: the tilt that it makes is beyond what the numbers
 /// of the loop may be.
 TEST_F(CalibrationTest, SaysWhereNumbersAloneDoNotDo) {

@@ -83,6 +83,32 @@ TEST(UncertainNumbers, OfASegmentWithoutAWeightIsTheWeight) {
                           [](auto const& weights) { return !weights.empty(); }));
 }
 
+/// What its author knows to a range only, of whatever kind: even within it, nowhere else.
+TEST(UncertainNumbers, OfAStatedRangeStayWithinIt) {
+  Value document = tests::v450();
+  auto const where = document.where;
+  auto const text = [&](char const* key, char const* value) {
+    return Value::Entry{key, where, {where, std::string(value)}};
+  };
+  Value::List ranges;
+  ranges.push_back(
+      {where, Value::Table{text("name", "joint.guide.conductance"), text("from", "9 W/K"), text("to", "36 W/K")}});
+  ranges.push_back(
+      {where, Value::Table{text("name", "bar.shaft.outer_diameter"), text("from", "64 mm"), text("to", "74 mm")}});
+  std::get<Value::Table>(document.content).push_back({"uncertain", where, {where, ranges}});
+  Uncertain const v450(document);
+  auto const* guide = v450.find("joint.guide.conductance");
+  ASSERT_TRUE(guide);
+  EXPECT_NEAR(guide->value(guide->lower), 9.0, 1e-9);
+  EXPECT_NEAR(guide->value(guide->upper), 36.0, 1e-9);
+  EXPECT_NEAR(guide->deviation, std::log(4.0) / std::sqrt(12.0), 1e-12);
+  auto const* shaft = v450.find("bar.shaft.outer_diameter");
+  ASSERT_TRUE(shaft);
+  EXPECT_EQ(shaft->unit, "mm");
+  EXPECT_NEAR(shaft->value(shaft->upper), 0.074, 1e-12);
+  EXPECT_EQ(v450.numbers.size(), Uncertain(tests::v450()).numbers.size() + 1);
+}
+
 class UncertainNumbersOf : public testing::TestWithParam<char const*> {};
 
 TEST_P(UncertainNumbersOf, StandInTheFileOnceAndCanBeSet) {
