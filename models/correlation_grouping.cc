@@ -8,7 +8,6 @@
 #include <set>
 
 #include "models/candidates.h"
-#include "models/ranking.h"
 
 namespace thermotwin::models {
 
@@ -25,7 +24,7 @@ constexpr double alike_within = 1e-12;  // of 1: correlations that differ by rou
 std::vector<Index> best_of_groups(std::vector<Index> const& groups, Eigen::VectorXd const& score) {
   std::vector<Index> best;
   std::set<Index> seen;
-  for (auto sensor : ranked(score, first_numbers(score.size())))
+  for (auto sensor : by_falling_score(score))
     if (seen.insert(groups[static_cast<std::size_t>(sensor)]).second) best.push_back(sensor);
   return best;
 }
@@ -69,7 +68,8 @@ Selection select_by_correlation(std::span<Batch const> batches, SelectionOptions
   require_error_that_moves(from);
   MatrixXd const readings = centred(from.all.temperature_rise).colwise().normalized();
   Eigen::VectorXd const error = (from.all.error.array() - from.all.error.mean()).matrix().normalized();
-  Eigen::VectorXd const score = (readings.transpose() * error).cwiseAbs();
+  Eigen::VectorXd score = (readings.transpose() * error).cwiseAbs();
+  score = (score.array() > 1.0 - alike_within).select(1.0, score);
   MatrixXd distance = 1.0 - (readings.transpose() * readings).array().abs();
   distance = (distance.array() < alike_within).select(0.0, distance);
   auto const merges = average_linkage(distance);
