@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "twin/study/study.h"
 #include "twin/study/study_page.h"
+#include "twin/study/study_runs.h"
 
 // What methods.md §11 asks of the papers' models in a world of known truth, on the shipped studies, cut down.
 
@@ -19,6 +21,16 @@ Combination const& row_of(StudyReport const& report, std::string const& world, s
 double mean_of(Combination const& row, std::string const& figure) { return interval(row.figures.at(figure)).mean; }
 
 std::string text_of(ClaimVerdict const& claim) { return claim.claim.world + ": " + claim.claim.says; }
+
+/// All of them: what takes hours is not run here, but begins.
+TEST(ShippedStudies, AskForWhatTheirMachinesHave) {
+  int studies = 0;
+  for (auto const& entry : std::filesystem::directory_iterator(study_file("paper_000").parent_path())) {
+    EXPECT_NO_THROW(check_worlds(read_study(entry.path()))) << entry.path();
+    ++studies;
+  }
+  EXPECT_GE(studies, 6);
+}
 
 /// E2: the three rules on the same data, within and beyond the runs that they were fitted to, in ten draws of the
 /// instruments; what does not hold is told.

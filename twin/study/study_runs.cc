@@ -10,6 +10,7 @@
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
 #include "twin/file/value.h"
+#include "twin/history.h"
 #include "twin/parallel.h"
 #include "twin/run.h"
 #include "twin/thermal_modes.h"
@@ -85,7 +86,7 @@ auto in_world(StudyWorld const& world, Action action) {
 void check_error(StudyWorld const& world, Machine const& machine) {
   if (world.slope()) return;
   std::vector<std::string> known;
-  for (auto const& channel : machine.displacements) known.push_back(channel.name);
+  for (auto const& channel : displacement_channels(machine)) known.push_back(channel.name);
   if (std::find(known.begin(), known.end(), world.error) == known.end())
     throw thermal::InputError(fmt::format("the machine has no displacement '{}'; {}", world.error,
                                           thermal::did_you_mean(world.error, known)));
@@ -161,6 +162,10 @@ void find_modes(Order const& order, WorldRuns& runs) {
 }
 
 }  // namespace
+
+void check_worlds(Study const& study) {
+  for (auto const& world : study.description.worlds) static_cast<void>(order_of(world, study.directory));
+}
 
 std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)> const& progress,
                                   std::atomic<bool> const* stop) {

@@ -27,6 +27,9 @@ struct WorldRuns {
   std::vector<std::shared_ptr<MeasuredRun const>> measured;       ///< of each run; none where it is simulated
 };
 
+/// FileError where a world names a machine, a run or an error that is not there; simulates nothing.
+void check_worlds(Study const& study);
+
 /// Simulates and reads, in parallel; see study_data().
 [[nodiscard]] std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)> const& progress,
                                                 std::atomic<bool> const* stop);
