@@ -91,7 +91,7 @@ TEST_F(CalibrationTest, RangesOfTheFileHold) {
     if (number.number.path == "film.motor.coefficient") {
       EXPECT_NEAR(number.estimate(), 20.0, 0.01);
     }
-  EXPECT_NO_THROW((void)Machine::read(*folder / "ranged_fit.toml"));
+  EXPECT_NO_THROW((void)calibrate_files({*folder / "ranged_fit.toml", {*folder / "run.h5"}, *folder / "again.toml"}));
 }
 
 /// A cabinet of 60 W at the column, of which the file says nothing: the tilt that it makes is beyond what the numbers
