@@ -88,6 +88,18 @@ void RunCommand::run_reduced(Machine const& machine, scenarios::Experiment const
   if (!quiet) fmt::print("{}", reduced_table(twin, result));
 }
 
+/// What a run complains of gets its place in the experiment's file.
+template <class Action>
+auto in_experiment(Value const& document, Action action) {
+  try {
+    return action();
+  } catch (FileError const&) {
+    throw;
+  } catch (thermal::InputError const& error) {
+    throw located_in(document, error);
+  }
+}
+
 void RunCommand::operator()(std::atomic<bool> const& stop) const {
   if (!(tolerance >= finest_tolerance && tolerance <= coarsest_tolerance))
     throw thermal::InputError(
@@ -113,30 +125,14 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   options.node_temperatures = nodes;
   options.provenance = origin(path, experiment_path, fmt::format("{}", fmt::join(settings, "\n")), programme);
   set_checkpoint(options);
-  if (reduced) {
-    try {
-      return run_reduced(built, programme, options);
-    } catch (FileError const&) {
-      throw;
-    } catch (thermal::InputError const& error) {
-      throw located_in(experiment_document, error);
-    }
-  }
+  if (reduced) return in_experiment(experiment_document, [&] { run_reduced(built, programme, options); });
   options.stop = &stop;
   std::optional<Progress> progress;
   if (!quiet) {
     progress.emplace(fmt::format("{} on {}", experiment_path.stem().string(), built.name));
     options.progress = [&](double share) { progress->show(share); };
   }
-  auto const result = [&] {
-    try {
-      return run(built, programme, options);
-    } catch (FileError const&) {
-      throw;
-    } catch (thermal::InputError const& error) {
-      throw located_in(experiment_document, error);
-    }
-  }();
+  auto const result = in_experiment(experiment_document, [&] { return run(built, programme, options); });
   progress.reset();
   if (json)
     fmt::print("{}", summary_json(built, result));

@@ -13,8 +13,7 @@ namespace thermotwin::twin {
 
 /// What a run was recorded as, before it is known what a model makes of it: readings [°C] and displacements in the
 /// units of a data set, from the first reading on. Simulated or measured: a data set (.h5), a table (.csv), a
-/// measurement file
-/// (.toml).
+/// measurement file (.toml).
 struct RecordedRun {
   std::string file;                     ///< for messages
   std::string machine;                  ///< name; empty where the data do not say
