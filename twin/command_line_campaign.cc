@@ -7,7 +7,6 @@
 
 #include "thermal/error.h"
 #include "twin/campaign/campaign.h"
-#include "twin/campaign/ranks.h"
 #include "twin/campaign/run_campaign.h"
 #include "twin/progress.h"
 
@@ -31,34 +30,32 @@ void CampaignCommand::show_run(Campaign const& campaign) const {
   fmt::print("{}\n", campaign.command(campaign.run(show)));
 }
 
-std::string text_of(CampaignReport const& report) {
+std::string text_of(CampaignReport const& report, Share rank) {
   if (report.made == 0) return "";
-  return fmt::format("{} runs in {:.1f} s on {} threads: {:.3f} ms of a thread each, and {:.1f} us for the campaign\n",
-                     report.made, report.seconds, report.threads, 1e3 * report.run_seconds / double(report.made),
-                     1e6 * report.overhead());
+  return fmt::format(
+      "{} runs{} in {:.1f} s on {} threads: {:.3f} ms of a thread each, and {:.1f} us for the campaign\n", report.made,
+      rank.count > 1 ? fmt::format(" by rank {} of {}", rank.index, rank.count) : "", report.seconds, report.threads,
+      1e3 * report.run_seconds / double(report.made), 1e6 * report.overhead());
 }
 
 void CampaignCommand::operator()(std::atomic<bool> const& stop) const {
   if (folder.empty() && show < 0) throw thermal::InputError("campaign needs a folder: --output DIR");
   auto const campaign = Campaign::read(campaign_file(file));
   if (show >= 0) return show_run(campaign);
-  Ranks const ranks;
-  if (!share.empty() && ranks.share().count > 1)
+  auto const rank = share_of_rank();
+  if (!share.empty() && rank.count > 1)
     throw thermal::InputError("--array and mpirun both share out the runs; use one of them");
-  CampaignOptions options{folder, share.empty() ? ranks.share() : share_of(share), {}, &stop};
+  CampaignOptions options{folder, share.empty() ? rank : share_of(share), {}, &stop};
   std::optional<Progress> progress;
-  if (!quiet && options.share.index == 0) {
+  if (!quiet && rank.index == 0) {
     progress.emplace(fmt::format("{} runs", campaign.runs()));
     options.progress = [&](double done) { progress->show(done); };
   }
   auto const report = run_campaign(campaign, options);
   progress.reset();
-  double const made = ranks.sum(double(report.made));
-  if (ranks.share().index != 0) return;
-  bool const whole = finish_campaign(campaign, folder);
-  if (quiet) return;
-  fmt::print("{}", text_of(report));
-  if (ranks.share().count > 1) fmt::print("{:.0f} runs on {} ranks\n", made, ranks.share().count);
+  bool const whole = finish_campaign(campaign, folder), ended_it = whole && report.made > 0;
+  if (quiet || (rank.index != 0 && !ended_it)) return;
+  fmt::print("{}", text_of(report, rank));
   if (whole)
     fmt::print("{}: {} runs, {} of them failed (failures.csv)\n",
                (std::filesystem::path(folder) / "campaign.h5").string(), campaign.runs(), failed_runs(folder));
