@@ -119,7 +119,7 @@ def main():
         plain, more = times[f"Spectrum/{name}"], times.get(f"SpectrumWithSensitivities/{name}")
         print(f"| `{name}` | {plain * 1e3:.2f} ms | " + (f"{more * 1e3:.1f} ms | {more / plain:.1f} |" if more else " | |"))
     print()
-    subprocess.run([sys.executable, str(pathlib.Path(__file__).parent / "v450_spectrum.py")], check=True)
+    subprocess.run([sys.executable, str(pathlib.Path(__file__).parent / "spectrum.py")], check=True)
 
 
 if __name__ == "__main__":
