@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
 #include <string_view>
 
 #include "thermal/dual.h"
+#include "thermal/lanes.h"
 
 namespace thermotwin::thermal {
 
@@ -54,7 +56,9 @@ class Law {
 };
 
 /// Makes a Law out of a formula: a struct with the constants `name`, `ports`, `coefficients`, `inputs`, `conservative`
-/// and a member `template <class S> static void flows(S const* T, S const* c, double const* u, S* q)`.
+/// and a member `template <class S> static void flows(S const* T, S const* c, double const* u, S* q)`. One that has a
+/// constant `in_lanes`, true, is dear and free of branches on S: elements with the same inputs are taken four at a
+/// time.
 template <class Formula>
 class LawOf final : public Law {
   static constexpr int P = Formula::ports;
@@ -70,19 +74,17 @@ class LawOf final : public Law {
 
   void add_heat_flows(ElementBatch const& batch, double const* temperature, double const* input,
                       double* heat) const override {
-    for (int e = 0; e < batch.count; ++e) {
+    for_elements(batch, temperature, input, [&](int e, std::array<double, P> const& q) {
       int const* port = batch.ports.data() + std::size_t(e) * P;
-      auto const q = evaluate(batch, e, temperature, input);
       for (int p = 0; p < P; ++p) heat[port[p]] += q[p];
-    }
+    });
   }
 
   void heat_flows(ElementBatch const& batch, double const* temperature, double const* input,
                   double* flows) const override {
-    for (int e = 0; e < batch.count; ++e) {
-      auto const q = evaluate(batch, e, temperature, input);
+    for_elements(batch, temperature, input, [&](int e, std::array<double, P> const& q) {
       for (int p = 0; p < P; ++p) flows[std::size_t(e) * P + p] = q[p];
-    }
+    });
   }
 
   void jacobian_blocks(ElementBatch const& batch, double const* temperature, double const* input,
@@ -139,6 +141,57 @@ class LawOf final : public Law {
     std::array<double, P> q{};
     Formula::flows(T.data(), batch.coefficients.data() + std::size_t(e) * C, u.data(), q.data());
     return q;
+  }
+
+#ifdef THERMOTWIN_LANES
+  /// `four`: elements, of which the last may stand there several times. Flat, so that constants of the formula meet.
+  [[gnu::flatten]] static std::array<Lanes, P> evaluate(ElementBatch const& batch,
+                                                        std::array<int, Lanes::count> const& four,
+                                                        double const* temperature, double const* input) {
+    std::array<Lanes, P> T, q;
+    std::array<Lanes, C + 1> c;
+    for (int k = 0; k < Lanes::count; ++k) {
+      for (int p = 0; p < P; ++p) T[p].value[k] = temperature[batch.ports[std::size_t(four[k]) * P + p]];
+      for (int i = 0; i < C; ++i) c[i].value[k] = batch.coefficients[std::size_t(four[k]) * C + i];
+    }
+    auto const u = gather_inputs(batch, four[0], input);
+    Formula::flows(T.data(), c.data(), u.data(), q.data());
+    return q;
+  }
+
+  static bool alike(ElementBatch const& batch, int e, int other) {
+    auto const inputs = batch.inputs.data();
+    return std::equal(inputs + e * U, inputs + (e + 1) * U, inputs + other * U);
+  }
+#endif
+
+  /// take(e, flows into the ports of element e), for every element of the batch.
+  template <class Take>
+  static void for_elements(ElementBatch const& batch, double const* temperature, double const* input, Take take) {
+    int e = 0;
+#ifdef THERMOTWIN_LANES
+    if constexpr (requires { requires Formula::in_lanes; })
+      while (e + 1 < batch.count) {
+        std::array<int, Lanes::count> four;
+        int taken = 0;
+        for (int& one : four) {
+          if (e + taken < batch.count && alike(batch, e, e + taken)) ++taken;
+          one = e + taken - 1;
+        }
+        if (taken == 1) {
+          take(e, evaluate(batch, e, temperature, input));
+        } else {
+          auto const q = evaluate(batch, four, temperature, input);
+          for (int k = 0; k < taken; ++k) {
+            std::array<double, P> own;
+            for (int p = 0; p < P; ++p) own[p] = q[p].value[k];
+            take(e + k, own);
+          }
+        }
+        e += taken;
+      }
+#endif
+    for (; e < batch.count; ++e) take(e, evaluate(batch, e, temperature, input));
   }
 };
 

@@ -16,7 +16,7 @@ template <class Correlation>
 struct FilmLaw {
   static constexpr std::string_view name = Correlation::name;
   static constexpr int ports = 2, coefficients = 6, inputs = 1;
-  static constexpr bool conservative = true;
+  static constexpr bool conservative = true, in_lanes = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     S const h = c[5] * Correlation::template film<S>(T[0], T[1], c[2], c[3], c[4], u[0]);
