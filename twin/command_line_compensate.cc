@@ -116,8 +116,9 @@ LiveModel CompensateCommand::live_model() const {
   auto const saved = read_error_model(model);
   check_error(saved);
   fmt::print(stderr, "{}", error_model_text(saved));
-  if (saved.twin) return ModelBesideTwin(twin_of(*saved.twin), saved.error, saved.model);
-  return SavedModel(saved.model);
+  SavedModel live(saved.model, saved.ranges);
+  if (saved.twin) return ModelBesideTwin(twin_of(*saved.twin), saved.error, std::move(live));
+  return live;
 }
 
 /// An axis follows the error that it was told to follow.
