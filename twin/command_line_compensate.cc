@@ -51,9 +51,8 @@ void ConnectionArguments::check_output(std::string const& output, std::vector<st
 /// Of what a topic is made, + and # are for those who subscribe.
 void ConnectionArguments::require_topics() const {
   for (auto const& [option, text] : {std::pair{"--axis", axis}, {"--prefix", topics.prefix}})
-    if (text.empty() || text.find_first_of("+#") != std::string::npos)
-      throw thermal::InputError(
-          fmt::format("{} '{}': it is a part of topics, so not empty and without + and #", option, text));
+    if (text.find_first_of("+#") != std::string::npos)
+      throw thermal::InputError(fmt::format("{} '{}': it is a part of topics, so without + and #", option, text));
 }
 
 void ConnectionArguments::add_to(CLI::App& command) {
