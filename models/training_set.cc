@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <stdexcept>
 
+#include "models/quantile.h"
+
 namespace thermotwin::models {
 
 namespace {
@@ -80,12 +82,15 @@ double sample_period(Batch const& batch) {
   auto const rows = batch.time.size();
   if (rows < 2) throw std::invalid_argument(fmt::format("batch '{}': one instant has no sample period", batch.name));
   double const period = (batch.time(rows - 1) - batch.time(0)) / static_cast<double>(rows - 1);
+  std::vector<double> steps;
+  for (Index i = 1; i < rows; ++i) steps.push_back(batch.time(i) - batch.time(i - 1));
+  double const usual = upper_median(steps);
   for (Index i = 1; i < rows; ++i)
-    if (double const step = batch.time(i) - batch.time(i - 1); std::abs(step - period) > uneven_step * period)
+    if (double const step = steps[static_cast<std::size_t>(i - 1)]; std::abs(step - usual) > uneven_step * usual)
       throw std::invalid_argument(
           fmt::format("batch '{}': row {} comes {:.6g} s after the one before, others {:.6g} s; "
                       "lags need even steps",
-                      batch.name, i + 1, step, period));
+                      batch.name, i + 1, step, usual));
   return period;
 }
 

@@ -26,6 +26,8 @@ std::string content_of(std::filesystem::path const& file) {
   if (!stream) throw InputError(file.string() + ": cannot be read");
   if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
   std::string text = content.str();
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw InputError(file.string() + ": is written in UTF-16; UTF-8 is due");
   return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
 }
 

@@ -1,9 +1,13 @@
 #include "scenarios/experiment.h"
 
+#include <fmt/format.h>
+
 #include "thermal/error.h"
 
 namespace thermotwin::scenarios {
 namespace {
+
+constexpr double most_readings = 1e8;  ///< of a channel: more fit into no memory
 
 void require_positive(double seconds, std::string const& name) {
   if (seconds > 0.0) return;
@@ -22,6 +26,11 @@ std::vector<double> sample_times(Experiment const& experiment) {
 void check(Experiment const& experiment) {
   require_positive(experiment.duration, "duration");
   require_positive(experiment.sampling, "sampling");
+  if (double const readings = experiment.duration / experiment.sampling; readings > most_readings)
+    throw thermal::InputError(
+        fmt::format("sampling: {} makes {:.1e} readings of {}; at most {:.0e} are possible",
+                    thermal::format_quantity(experiment.sampling, thermal::dimension::time), readings,
+                    thermal::format_quantity(experiment.duration, thermal::dimension::time), most_readings));
   if (experiment.seed < 0) {
     throw thermal::InputError("seed: " + std::to_string(experiment.seed) + " must be 0 or more");
   }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <csignal>
 #include <fmt/format.h>
 #include <iostream>
@@ -11,6 +12,8 @@
 #include "output/dataset_file.h"
 #include "output/error.h"
 #include "thermal/error.h"
+#include "thermal/nearest_name.h"
+#include "twin/campaign/campaign_description.h"
 #include "twin/command_line_campaign.h"
 #include "twin/command_line_compensate.h"
 #include "twin/command_line_diagnose.h"
@@ -23,13 +26,17 @@
 #include "twin/command_line_study.h"
 #include "twin/command_line_view.h"
 #include "twin/command_line_volumetric.h"
+#include "twin/diagnosis/measurement_file.h"
 #include "twin/effect_page.h"
+#include "twin/error_model_file.h"
 #include "twin/experiment_file.h"
 #include "twin/file/output_path.h"
 #include "twin/file_check.h"
 #include "twin/needed_solution.h"
+#include "twin/placement/candidate_sites.h"
 #include "twin/report/report_files.h"
 #include "twin/run.h"
+#include "twin/study/study_description.h"
 #include "twin/version.h"
 
 namespace thermotwin::twin {
@@ -57,23 +64,35 @@ void print_checks(std::vector<std::filesystem::path> const& files) {
 }
 
 void describe(std::string const& what) {
-  if (what == "experiment") {
-    fmt::print("{}", table_page({"experiment", "what a machine is put through; the keys of its file",
-                                 list_fields<scenarios::Experiment>()}));
-    return;
+  std::vector<TableRecord> const files = {
+      {"experiment", "what a machine is put through; the keys of its file", list_fields<scenarios::Experiment>()},
+      {"model", "an error model, as `fit` writes it", error_model_fields()},
+      {"study", "selections and models on the same runs", list_fields<StudyDescription>()},
+      {"campaign", "many runs: grid x samples x cases x experiments x repetitions", list_fields<CampaignDescription>()},
+      {"candidates", "where sensors may sit, for `place`", list_fields<CandidateRules>()},
+      {"measurement", "what the columns of measured tables are", list_fields<MeasurementFile>()}};
+  std::vector<std::string> known = {"machine"};
+  for (auto const& file : files) {
+    if (file.name == what) {
+      fmt::print("{}", table_page(file));
+      return;
+    }
+    known.push_back(file.name);
   }
+  if (what != "machine")
+    throw thermal::InputError(fmt::format("describe: no file '{}'; {}", what, thermal::did_you_mean(what, known)));
   for (auto const& table : describe_machine()) fmt::print("{}\n", table_page(table));
 }
 
 void add_other_commands(CLI::App& app) {
-  auto* describe_command = app.add_subcommand("describe", "print every key of a machine or experiment file");
+  auto* describe_command = app.add_subcommand("describe", "print every key of a kind of file");
   auto what = std::make_shared<std::string>();
-  describe_command->add_option("what", *what, "machine or experiment")
-      ->required()
-      ->check(CLI::IsMember({"machine", "experiment"}));
+  describe_command->add_option("what", *what, "machine, experiment, measurement, model, study, campaign or candidates")
+      ->required();
   describe_command->callback([what] { describe(*what); });
 
-  auto* check_command = app.add_subcommand("check", "look for mistakes in machine and experiment files");
+  auto* check_command =
+      app.add_subcommand("check", "look for mistakes in the files that the program reads, of whatever kind");
   auto files = std::make_shared<std::vector<std::filesystem::path>>();
   check_command->add_option("files", *files, "files; an experiment is checked together with a machine among them")
       ->required();
@@ -144,13 +163,24 @@ void heed_signals(CLI::App& app) {
     });
 }
 
-/// CLI11 would take -1 for 18446744073709551615.
-void refuse_negative_seeds(CLI::App& app) {
+/// CLI11 would take -1, and whatever is too large, for 18446744073709551615.
+void check_seeds(CLI::App& app) {
   for (auto* command : app.get_subcommands({}))
     if (auto* seed = command->get_option_no_throw("--seed"))
       seed->check([](std::string const& text) {
-        return text.starts_with('-') ? fmt::format("{} is negative; a whole number from 0 on is due", text) : "";
+        std::uint64_t number = 0;
+        if (text.starts_with('-')) return fmt::format("{} is negative; a whole number from 0 on is due", text);
+        auto const error = std::from_chars(text.data(), text.data() + text.size(), number).ec;
+        return error == std::errc::result_out_of_range ? fmt::format("{} is more than 18446744073709551615", text) : "";
       });
+}
+
+/// An empty word is a variable of a script that was never set, and no name, file or quantity.
+void refuse_empty_words(CLI::App& app) {
+  for (auto* option : app.get_options())
+    if (option->get_items_expected_max() > 0)
+      option->check([](std::string const& text) { return text.empty() ? "an empty text; a value is due" : ""; });
+  for (auto* part : app.get_subcommands({})) refuse_empty_words(*part);  // commands, and groups of their options
 }
 
 /// The words of the command line, last one first, as CLI11 takes them; `help run` is `run --help`.
@@ -189,7 +219,8 @@ int command_line(int argc, char** argv) {
   add_figure_command(app);
   add_view_command(app, stop_requested);
   heed_signals(app);
-  refuse_negative_seeds(app);
+  check_seeds(app);
+  refuse_empty_words(app);
   try {
     app.parse(reversed_words(argc, argv));
     return 0;
@@ -203,6 +234,8 @@ int command_line(int argc, char** argv) {
     return fail(2, error.what());
   } catch (output::OutputError const& error) {
     return fail(2, error.what());
+  } catch (std::filesystem::filesystem_error const& error) {
+    return fail(2, fmt::format("'{}': {}", error.path1().string(), error.code().message()));
   } catch (std::exception const& error) {
     return fail(1, error.what());
   }

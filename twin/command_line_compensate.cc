@@ -51,9 +51,8 @@ void ConnectionArguments::check_output(std::string const& output, std::vector<st
 /// Of what a topic is made, + and # are for those who subscribe.
 void ConnectionArguments::require_topics() const {
   for (auto const& [option, text] : {std::pair{"--axis", axis}, {"--prefix", topics.prefix}})
-    if (text.empty() || text.find_first_of("+#") != std::string::npos)
-      throw thermal::InputError(
-          fmt::format("{} '{}': it is a part of topics, so not empty and without + and #", option, text));
+    if (text.find_first_of("+#") != std::string::npos)
+      throw thermal::InputError(fmt::format("{} '{}': it is a part of topics, so without + and #", option, text));
 }
 
 void ConnectionArguments::add_to(CLI::App& command) {
@@ -116,8 +115,9 @@ LiveModel CompensateCommand::live_model() const {
   auto const saved = read_error_model(model);
   check_error(saved);
   fmt::print(stderr, "{}", error_model_text(saved));
-  if (saved.twin) return ModelBesideTwin(twin_of(*saved.twin), saved.error, saved.model);
-  return SavedModel(saved.model);
+  SavedModel live(saved.model, saved.ranges);
+  if (saved.twin) return ModelBesideTwin(twin_of(*saved.twin), saved.error, std::move(live));
+  return live;
 }
 
 /// An axis follows the error that it was told to follow.

@@ -122,6 +122,8 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   if (!fields.empty()) options.fields = fields;
   if (!picture.empty()) options.picture = picture;
   options.field_interval = thermal::parse_value(field_interval, thermal::dimension::time);
+  if (!(options.field_interval > 0.0))
+    throw thermal::InputError(fmt::format("--field-interval {}: a time above 0 is due", field_interval));
   options.node_temperatures = nodes;
   options.provenance = origin(path, experiment_path, fmt::format("{}", fmt::join(settings, "\n")), programme);
   set_checkpoint(options);

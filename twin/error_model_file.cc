@@ -8,7 +8,6 @@
 #include "output/atomic_file.h"
 #include "thermal/error.h"
 #include "twin/axis_record.h"
-#include "twin/file/schema.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -128,9 +127,9 @@ struct ModelTable {
     f("sample_period", &ModelTable::sample_period, thermal::dimension::time, "that lags count in", Range{0, 1e6});
     f("parameters", &ModelTable::parameters, dimensionless, "numbers that the fit determined");
     f("remark", &ModelTable::remark, "what the fit found out");
-    f("linear", &ModelTable::linear, "");
-    f("kernel", &ModelTable::kernel, "");
-    f("network", &ModelTable::network, "");
+    f("linear", &ModelTable::linear, "one of the three forms");
+    f("kernel", &ModelTable::kernel, "likewise");
+    f("network", &ModelTable::network, "likewise");
   }
 };
 
@@ -165,6 +164,7 @@ struct TwinTable {
 struct FitTable {
   std::string version, commit;
   std::optional<double> sampling;
+  std::vector<double> lowest, highest;
   std::vector<RunTable> runs;
 
   template <class Fields>
@@ -172,6 +172,8 @@ struct FitTable {
     f("version", &FitTable::version, "of the program");
     f("commit", &FitTable::commit, "of the program");
     f("sampling", &FitTable::sampling, thermal::dimension::time, "over which rows were averaged", Range{0, 1e6});
+    f("lowest_K", &FitTable::lowest, dimensionless, "change of each input since the first row, over all runs");
+    f("highest_K", &FitTable::highest, dimensionless, "likewise; beyond, the model extrapolates");
     f("run", &FitTable::runs, "what the model was fitted to");
   }
 };
@@ -197,10 +199,10 @@ struct FileTables {
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("predicts", &FileTables::predicts, "");
+    f("predicts", &FileTables::predicts, "what the model tells");
     f("twin", &FileTables::twin, "what the model stands beside");
-    f("fit", &FileTables::fit, "");
-    f("model", &FileTables::model, "");
+    f("fit", &FileTables::fit, "what it was fitted to; absent: nobody knows");
+    f("model", &FileTables::model, "inputs and numbers");
   }
 };
 
@@ -348,10 +350,21 @@ std::string twin_text(TwinBeside const& twin, std::filesystem::path const& folde
                      toml_text(twin.fingerprint));
 }
 
+std::string ranges_text(std::vector<InputRange> const& ranges) {
+  if (ranges.empty()) return {};
+  std::vector<double> lowest, highest;
+  for (auto const& range : ranges) {
+    lowest.push_back(range.lowest);
+    highest.push_back(range.highest);
+  }
+  return fmt::format("lowest_K = {}\nhighest_K = {}\n", list(lowest), list(highest));
+}
+
 std::string fit_text(SavedErrorModel const& saved) {
   std::string text =
       fmt::format("\n[fit]\nversion = {}\ncommit = {}\n", toml_text(saved.version), toml_text(saved.commit));
   if (saved.sampling) text += fmt::format("sampling = \"{} s\"\n", number(*saved.sampling));
+  text += ranges_text(saved.ranges);
   text += "run = [\n";
   for (auto const& run : saved.runs)
     text += fmt::format(
@@ -413,7 +426,23 @@ void check_predicts(FileTables const& read, Value const& document) {
   if (slope && read.twin) throw FileError(document.find("twin")->where, "a slope stands beside no twin");
 }
 
+std::vector<InputRange> ranges_of(FitTable const& read, Value const& table, std::size_t inputs) {
+  if (read.lowest.empty() && read.highest.empty()) return {};
+  if (read.lowest.size() != inputs || read.highest.size() != inputs)
+    throw FileError(table.where, fmt::format("'lowest_K' has {} numbers and 'highest_K' {}; the model has {} input{}",
+                                             read.lowest.size(), read.highest.size(), inputs, inputs == 1 ? "" : "s"));
+  std::vector<InputRange> ranges;
+  for (std::size_t j = 0; j < inputs; ++j) {
+    if (read.lowest[j] > read.highest[j])
+      throw FileError(table.find("lowest_K")->where,
+                      fmt::format("'lowest_K' {} is above 'highest_K' {}", read.lowest[j], read.highest[j]));
+    ranges.push_back({read.lowest[j], read.highest[j]});
+  }
+  return ranges;
+}
+
 void take_fit(FitTable const& read, Value const& table, SavedErrorModel& saved) {
+  saved.ranges = ranges_of(read, table, saved.model.inputs.size());
   saved.version = read.version;
   saved.commit = read.commit;
   saved.sampling = read.sampling;
@@ -454,5 +483,7 @@ SavedErrorModel read_error_model(std::filesystem::path const& path) {
   if (read.fit) take_fit(*read.fit, *document.find("fit"), saved);
   return saved;
 }
+
+std::vector<FieldRecord> error_model_fields() { return list_fields<FileTables>(); }
 
 }  // namespace thermotwin::twin

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "twin/file/schema.h"
 #include "twin/saved_error_model.h"
 
 namespace thermotwin::twin {
@@ -22,6 +23,8 @@ namespace thermotwin::twin {
 ///   [fit]                               # may be missing: then nobody knows
 ///   version = "0.1.0"
 ///   commit = "1fdea30"
+///   lowest_K = [-0.1, 0]                # change of each input since the first row, that the fit saw; may be missing
+///   highest_K = [7.8, 3.2]
 ///   run = [{ file = "other.h5", machine = "g200", fingerprint = "8c…", rows = 481, rmse = 0.3, largest = 1.1,
 ///            zero_degC = [20.1, 20.0] }]
 ///
@@ -41,5 +44,8 @@ void write_error_model(std::filesystem::path const& path, SavedErrorModel const&
 /// FileError, with line and column, for unknown methods and keys, missing ones, a file that does not say what it
 /// predicts, and lists whose lengths are not the number of inputs.
 [[nodiscard]] SavedErrorModel read_error_model(std::filesystem::path const& path);
+
+/// The keys of such a file.
+[[nodiscard]] std::vector<FieldRecord> error_model_fields();
 
 }  // namespace thermotwin::twin

@@ -93,7 +93,8 @@ std::vector<Index> complete_rows(std::vector<output::Channel const*> const& chan
     if (std::all_of(channels.begin(), channels.end(), [&](auto const* c) { return std::isfinite(c->values[i]); }))
       complete.push_back(i);
   if (complete.empty())
-    throw InputError(fmt::format("{}: none of its {} rows is complete: {}", run.file, rows, lacks(channels)));
+    throw InputError(fmt::format("{}: none of its {} rows is complete: {}{}{}", run.file, rows, lacks(channels),
+                                 run.remarks.empty() ? "" : "; ", fmt::join(run.remarks, "; ")));
   if (Index(complete.size()) < rows)
     run.remarks.push_back(
         fmt::format("{} of {} rows are left out: {}", rows - Index(complete.size()), rows, lacks(channels)));

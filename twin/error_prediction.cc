@@ -33,6 +33,19 @@ void remark_machine(SavedErrorModel const& saved, std::string const& machine, st
   remarks.push_back(fmt::format("of '{}'; the model was fitted to '{}'", machine, fmt::join(fitted, "', '")));
 }
 
+void remark_extrapolation(SavedErrorModel const& saved, models::Batch const& batch, std::vector<std::string>& remarks) {
+  for (std::size_t j = 0; j < saved.ranges.size(); ++j) {
+    auto const changes = batch.temperature_rise.col(Index(j));
+    auto const& range = saved.ranges[j];
+    Index const beyond = std::count_if(changes.begin(), changes.end(), [&](double x) { return range.left_by(x); });
+    if (beyond == 0) continue;
+    bool const above = changes.maxCoeff() - range.highest > range.lowest - changes.minCoeff();
+    remarks.push_back(
+        fmt::format("extrapolation in {} of {} rows: {}", beyond, changes.size(),
+                    range_left_text(saved.model.inputs[j], above ? changes.maxCoeff() : changes.minCoeff(), range)));
+  }
+}
+
 std::string metrics_line(std::string const& name, Index rows, MatrixXd const& truth, MatrixXd const& said,
                          std::string const& unit) {
   auto const judged = models::metrics(truth.reshaped(), said.reshaped());
@@ -61,6 +74,7 @@ ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::pat
   result.seen_before = std::any_of(saved.runs.begin(), saved.runs.end(),
                                    [&](auto const& fitted) { return fitted.fingerprint == result.run.fingerprint; });
   remark_machine(saved, recorded.machine, recorded.remarks);
+  remark_extrapolation(saved, result.run.batch, recorded.remarks);
   for (auto const& remark : recorded.remarks) result.remarks.push_back(recorded.file + ": " + remark);
   return result;
 }

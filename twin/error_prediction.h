@@ -23,7 +23,7 @@ struct ErrorPrediction {
 };
 
 /// The inputs are found by name. InputError for a run that lacks one, or shows the error in another unit; a run of
-/// another machine than those that the model was fitted to is remarked.
+/// another machine than those that the model was fitted to, and inputs that leave their range there, are remarked.
 [[nodiscard]] ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::path const& run);
 
 /// RMSE, mean and largest of what is left, beside the same of the error itself.

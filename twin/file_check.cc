@@ -8,11 +8,16 @@
 #include "scenarios/course.h"
 #include "thermal/course_inputs.h"
 #include "thermal/error.h"
+#include "twin/campaign/campaign.h"
+#include "twin/diagnosis/measured_data.h"
+#include "twin/error_model_file.h"
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
 #include "twin/file/tables.h"
 #include "twin/machine.h"
+#include "twin/placement/candidate_sites.h"
 #include "twin/setting.h"
+#include "twin/study/study_runs.h"
 #include "twin/uncertain_range.h"
 
 namespace thermotwin::twin {
@@ -70,6 +75,49 @@ std::vector<FieldRecord> machine_fields() {
   return fields;
 }
 
+/// Those keys of a document that no file of another kind has.
+bool has_any(Value const& document, std::initializer_list<char const*> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](char const* key) { return document.find(key); });
+}
+
+std::string counted(std::size_t count, std::string const& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string checked_error_model(std::filesystem::path const& file) {
+  auto const saved = read_error_model(file);
+  if (saved.twin) static_cast<void>(twin_of(*saved.twin));
+  return fmt::format("an error model: {} of {} [{}] on {}, fitted to {}", saved.model.method, saved.error, saved.unit,
+                     counted(saved.model.inputs.size(), "input"),
+                     saved.runs.empty() ? "nobody knows what" : counted(saved.runs.size(), "run"));
+}
+
+std::string checked_study(std::filesystem::path const& file) {
+  auto const study = read_study(file);
+  check_worlds(study);
+  auto const& description = study.description;
+  return fmt::format("a study of {}, {} and {}", counted(description.worlds.size(), "world"),
+                     counted(description.selections.size(), "selection"), counted(description.models.size(), "model"));
+}
+
+std::string checked_campaign(std::filesystem::path const& file) {
+  auto const campaign = Campaign::read(file);
+  return fmt::format("a campaign of {} on {}", counted(std::size_t(campaign.runs()), "run"),
+                     campaign.machine_file.stem().string());
+}
+
+std::string checked_record(std::filesystem::path const& file, std::vector<std::string>& warnings) {
+  auto const data = read_measured_data(file);
+  std::size_t const first = warnings.size();
+  warnings.insert(warnings.end(), data.remarks.begin(), data.remarks.end());
+  static_cast<void>(channels_of(data, warnings));
+  for (std::size_t i = first; i < warnings.size(); ++i) warnings[i] = file.string() + ": " + warnings[i];
+  return fmt::format("a record of {:.2f} h: {}, {}, {}, {}", data.time[data.time.size() - 1] / 3600.0,
+                     counted(std::size_t(data.time.size()), "row"), counted(data.inputs.size(), "input"),
+                     counted(data.readings.size(), "sensor"),
+                     counted(data.displacements.size(), "displacement channel"));
+}
+
 struct CheckedMachine {
   std::filesystem::path file;
   Value document;
@@ -100,21 +148,44 @@ class FileChecker {
     }
   }
   void read(std::filesystem::path const& file, std::size_t i);
+  void read_machine(std::filesystem::path const& file, Value const& document, FileCheck& check);
+  void check_candidates(CandidateRules const& rules, FileCheck& check) const;
   [[nodiscard]] CheckedMachine machine_for(CheckedExperiment const& checked) const;
 
   std::vector<FileCheck> checks_;
   std::vector<CheckedMachine> machines_;
   std::vector<std::pair<std::size_t, CheckedExperiment>> experiments_;
+  std::vector<std::pair<std::size_t, CandidateRules>> candidates_;
 };
 
 void FileChecker::read(std::filesystem::path const& file, std::size_t i) {
-  Value const document = read_toml(file);
   auto& check = checks_[i];
+  auto const suffix = file.extension();
+  if (suffix == ".h5" || suffix == ".csv") {
+    check.text = checked_record(file, check.warnings);
+    return;
+  }
+  Value const document = read_toml(file);
   if (document.find("duration")) {
     find_implausible(document, list_fields<scenarios::Experiment>(), check.warnings);
     experiments_.push_back({i, {file, document, read_experiment(document, file)}});
     return;
   }
+  if (has_any(document, {"predicts", "model"}))
+    check.text = checked_error_model(file);
+  else if (has_any(document, {"world", "selections", "models"}))
+    check.text = checked_study(file);
+  else if (has_any(document, {"experiments", "grid", "latin_hypercube"}))
+    check.text = checked_campaign(file);
+  else if (has_any(document, {"table"}))
+    check.text = checked_record(file, check.warnings);
+  else if (has_any(document, {"site", "body", "forbidden", "most", "budget"}))
+    candidates_.emplace_back(i, read_candidate_rules(file));
+  else
+    read_machine(file, document, check);
+}
+
+void FileChecker::read_machine(std::filesystem::path const& file, Value const& document, FileCheck& check) {
   auto const machine = Machine::build(document);
   check_counts(document);
   static_cast<void>(ranged_numbers(document));
@@ -151,6 +222,19 @@ void check_together(CheckedExperiment const& checked, CheckedMachine const& mach
   }
 }
 
+void FileChecker::check_candidates(CandidateRules const& rules, FileCheck& check) const {
+  std::string const sites =
+      rules.sites.empty() ? fmt::format("a mesh of {} at most", rules.most) : counted(rules.sites.size(), "site");
+  if (machines_.size() != 1) {
+    check.text =
+        fmt::format("candidates of a placement: {}; name a machine beside it to see whether it has them", sites);
+    return;
+  }
+  auto const& machine = machines_[0];
+  check.text = fmt::format("candidates of a placement: {}; on {} {}", sites, machine.machine.name,
+                           counted(candidate_sites(machine.document, rules).size(), "site"));
+}
+
 std::vector<FileCheck> FileChecker::operator()() {
   for (auto const& [i, checked] : experiments_)
     noting(checks_[i], [&, &check = checks_[i], &checked = checked] {
@@ -159,6 +243,8 @@ std::vector<FileCheck> FileChecker::operator()() {
       check.text =
           fmt::format("an experiment of {:.2f} h on {}", checked.experiment.duration / 3600.0, machine.machine.name);
     });
+  for (auto const& [i, rules] : candidates_)
+    noting(checks_[i], [&, &check = checks_[i], &rules = rules] { check_candidates(rules, check); });
   return std::move(checks_);
 }
 

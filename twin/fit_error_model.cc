@@ -55,6 +55,15 @@ FittedRun fitted_run(SavedErrorModel const& saved, ErrorModelRun const& run, std
   return {run.batch.name, machine, run.fingerprint, int(rows), run.zero, judged.rmse, judged.max};
 }
 
+void remark_repeated(std::vector<ErrorModelRun> const& runs, std::vector<RecordedRun>& recorded) {
+  for (std::size_t r = 1; r < runs.size(); ++r)
+    for (std::size_t s = 0; s < r; ++s)
+      if (runs[r].fingerprint == runs[s].fingerprint) {
+        recorded[r].remarks.push_back(fmt::format("the same data as {}; they count once more", recorded[s].file));
+        break;
+      }
+}
+
 void fit_form(SavedErrorModel& saved, std::vector<ErrorModelRun> const& runs, ErrorModelFit const& fit) {
   auto const& method = models::model_method(fit.method);
   models::FitOptions options;
@@ -65,6 +74,7 @@ void fit_form(SavedErrorModel& saved, std::vector<ErrorModelRun> const& runs, Er
     batches.push_back(run.batch);
     if (run.axis) records.push_back(*run.axis);
   }
+  saved.ranges = input_ranges(batches);
   if (records.empty()) {
     saved.model = method.fit(batches, options);
     return;
@@ -87,6 +97,7 @@ SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::strin
   std::vector<ErrorModelRun> runs;
   for (auto& run : recorded) runs.push_back(error_model_run(run, sensors, fit.error, true));
   check_units(runs, fit.error);
+  remark_repeated(runs, recorded);
   SavedErrorModel saved;
   saved.error = fit.error;
   saved.unit = runs.front().unit;

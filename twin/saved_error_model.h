@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/error_model.h"
+#include "twin/input_range.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -41,6 +42,7 @@ struct SavedErrorModel {
   std::optional<double> sampling;       ///< means over this time were fitted [s]; none: the rows as they are
   std::optional<TwinBeside> twin;
   std::vector<FittedRun> runs;
+  std::vector<InputRange> ranges;  ///< of the inputs, in their order; empty: its file does not say
   models::ErrorModel model;
 
   [[nodiscard]] double rmse() const;  ///< over all runs

@@ -202,7 +202,7 @@ TEST(BadInput, NamesThatDoNotExist) {
         Row{"run golden_b_2000 v450", "run: 'v450' is an argument too many"},
         Row{"diagnose v450 a.h5 --without radiation,hot_neighbor", "did you mean 'hot_neighbour'?"},
         Row{"effects bering", "did you mean 'bearing'?"}, Row{"describe machin", "machine"},
-        Row{"rnu", "unknown command 'rnu'; did you mean 'run'?"}}) {
+        Row{"describe studdy", "did you mean 'study'?"}, Row{"rnu", "unknown command 'rnu'; did you mean 'run'?"}}) {
     auto const answer = program(arguments);
     EXPECT_EQ(answer.code, 2) << arguments;
     EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
@@ -242,6 +242,43 @@ TEST(BadInput, NumbersThatCannotBe) {
     auto const answer = program(command + " --seed -1");
     EXPECT_EQ(answer.code, 2) << command;
     EXPECT_NE(answer.text.find("-1 is negative"), std::string::npos) << answer.text;
+  }
+}
+
+TEST(BadInput, NumbersTooLargeForWhatTheyCount) {
+  struct Row {
+    std::string arguments, message;
+  };
+  for (auto const& [arguments, message] :
+       {Row{"challenge --key --seed 99999999999999999999", "99999999999999999999 is more than 18446744073709551615"},
+        Row{"run golden_b_2000 --set experiment.seed=99999999999999999999", "a whole number without unit is due"},
+        Row{"run golden_b_2000 --set experiment.seed=4294967297", "'seed' is 4294967297; allowed is"},
+        Row{"run golden_b_2000 --set 'experiment.sampling=1 us'", "at most 1e+08 are possible"},
+        Row{"run golden_b_2000 --fields fields --field-interval '0 s'", "--field-interval 0 s: a time above 0 is due"},
+        Row{"place v450 -k 3 --unseen 0", "0 unseen members; at least 1 is due"}}) {
+    auto const answer = program(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
+  }
+}
+
+/// An unset variable of a script must not make a run whose output goes nowhere.
+TEST(BadInput, EmptyWords) {
+  for (std::string const arguments :
+       {"run golden_b_2000 -o ''", "run golden_b_2000 -m ''", "run ''", "export a.h5 -o ''", "fit a.h5 -o ''",
+        "challenge -o ''", "place v450 -k 3 --propose ''"}) {
+    auto const answer = program(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find("an empty text; a value is due"), std::string::npos) << arguments << "\n" << answer.text;
+  }
+}
+
+TEST(BadInput, NamesTooLongForAFile) {
+  std::string const name(300, 'x');
+  for (std::string const& arguments : {"fit " + name + ".csv -o model.toml", "run golden_b_2000 -o " + name + ".h5"}) {
+    auto const answer = program(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find("File name too long"), std::string::npos) << answer.text;
   }
 }
 

@@ -205,8 +205,8 @@ TEST_F(LiveCompensation, RefusesWhatItCannotDo) {
               HasSubstr("predicts E_X, and axis Z works against E_Z; give the model of E_Z, or --channel E_X"));
   EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --axis 'X/#'", 2),
               HasSubstr("--axis 'X/#': it is a part of topics"));
-  EXPECT_THAT(answer(program + " play " + at("duty.h5") + " --prefix '' --broker " + broker_.url(), 2),
-              HasSubstr("--prefix '': it is a part of topics"));
+  EXPECT_THAT(answer(program + " play " + at("duty.h5") + " --prefix 'a/+' --broker " + broker_.url(), 2),
+              HasSubstr("--prefix 'a/+': it is a part of topics"));
   EXPECT_THAT(answer(program + " fit " + at("other.h5") + " --sensors T22 -o " + at("x.toml"), 2),
               HasSubstr("has no sensor 'T22'; did you mean 'T"));
 }

@@ -173,6 +173,12 @@ TEST(Commands, DescribeAndEffectsReadTheCatalogue) {
   for (std::string const word : {"hollow_cylinder", "grease_factor", "temperature_sensor", "closure"})
     EXPECT_NE(machine.find(word), std::string::npos) << word;
   EXPECT_NE(answer(program + " describe experiment").find("of_maximum"), std::string::npos);
+  for (auto const& [file, key] : {std::pair("model", "highest_K"),
+                                  {"study", "selections"},
+                                  {"campaign", "latin_hypercube"},
+                                  {"candidates", "forbidden"},
+                                  {"measurement", "clock_offset"}})
+    EXPECT_NE(answer(program + " describe " + file).find(key), std::string::npos) << file;
   EXPECT_NE(answer(program + " effects").find("ball_nut"), std::string::npos);
   EXPECT_NE(answer(program + " effects bearing").find("Palmgren"), std::string::npos);
 }

@@ -73,6 +73,12 @@ TEST(StudyCommand, SaysWhereAWorldIsWrong) {
               HasSubstr("study.toml:8:9: world 'v450': the machine has no displacement 'E_Q'"));
   EXPECT_THAT(refused("[\"batch_004_K01\"]", "[\"batch_004_K99\"]"),
               HasSubstr("study.toml:10:10: world 'v450': there is no experiment 'batch_004_K99'"));
+  EXPECT_THAT(
+      refused("sampling = \"6 min\"", "set = [\"bearing.front.grease_fctor=1\"]"),
+      HasSubstr("study.toml:5:1: world 'v450': parameter bearing.front.grease_fctor: unknown key 'grease_fctor'"));
+  EXPECT_THAT(refused("sampling = \"6 min\"", "add = \"[[fan_coolin]]\""), HasSubstr("study.toml:5:1: world 'v450': "));
+  EXPECT_THAT(refused("test = [\"batch_004_K05\"]", "split = \"1 min\""),
+              HasSubstr("study.toml:5:1: world 'v450': 'split' leaves 1 rows to train on"));
 }
 
 }  // namespace

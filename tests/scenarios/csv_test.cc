@@ -83,6 +83,11 @@ TEST_F(Csv, RefusesFilesWithoutRows) {
   EXPECT_TRUE(tests::refusal([&] { read_csv(directory_.path(), {"t"}); }).ends_with(": is a folder; a file is due"));
 }
 
+TEST_F(Csv, RefusesUtf16) {
+  using namespace std::string_literals;
+  EXPECT_EQ(refused("\xFF\xFEt\0,\0"s, {"t"}), "data.csv: is written in UTF-16; UTF-8 is due");
+}
+
 TEST_F(Csv, SaysWhichSeparatorItFound) {
   EXPECT_EQ(refused("t;S (rpm)\n0;1,5\n", {"t"}),
             "data.csv:1:1: the fields are separated by semicolons; commas are due, and decimals after a point");

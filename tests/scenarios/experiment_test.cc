@@ -33,6 +33,8 @@ TEST(Experiment, RefusesTimesThatCannotBe) {
   EXPECT_EQ(refused(experiment), "accepted");
   experiment.sampling = 0.0;
   EXPECT_EQ(refused(experiment), "sampling: 0 min must be above 0 s, for example \"4 h\"");
+  experiment.sampling = 1e-7;
+  EXPECT_EQ(refused(experiment), "sampling: 1e-07 s makes 6.0e+08 readings of 1 min; at most 1e+08 are possible");
   experiment.sampling = 1.0;
   experiment.seed = -2;
   EXPECT_EQ(refused(experiment), "seed: -2 must be 0 or more");

@@ -43,6 +43,7 @@ SavedErrorModel saved(ErrorModel const& model) {
   all.sampling = 60.0;
   all.runs = {{"monday.h5", "v450", "8c", 60, {20.1, 19.98}, 0.1, 1.0 / 3.0},
               {"tuesday.csv", "", "9d", 41, {7, 8}, 0, 0}};
+  all.ranges = {{-0.125, 7.8}, {0.0, 3.251}};
   all.model = model;
   return all;
 }
@@ -71,6 +72,7 @@ TEST_P(SavedModel, PredictsTheSameBytes) {
   EXPECT_EQ(whole.title, "spindle nose, \"axial\"");
   EXPECT_EQ(whole.sampling, 60.0);
   EXPECT_EQ(whole.runs[0].largest, 1.0 / 3.0);
+  EXPECT_EQ(whole.ranges, (std::vector<InputRange>{{-0.125, 7.8}, {0.0, 3.251}}));
   EXPECT_EQ(read.method, fitted.method);
   EXPECT_EQ(read.inputs, fitted.inputs);
   EXPECT_EQ(read.parameters, fitted.parameters);
@@ -153,6 +155,17 @@ TEST_F(ErrorModelFile, SaysWhatItPredicts) {
               HasSubstr("model.toml:2:8: a slope stands beside no twin"));
   EXPECT_THAT(complaint(whole(predicts + "fit = { run = [{ file = \"a.h5\", rmse = 1, largest = 2 }] }\n")),
               HasSubstr("model.toml:2:16: 'zero_degC' has 0 temperatures; the model has 1 inputs"));
+}
+
+TEST_F(ErrorModelFile, KnowsTheRangeOfEachInputOrOfNone) {
+  EXPECT_EQ(complaint(whole(predicts + "fit = { lowest_K = [0], highest_K = [3] }\n")), "");
+  EXPECT_EQ(complaint(whole(predicts + "fit = { version = \"0.1.0\" }\n")), "");
+  EXPECT_THAT(complaint(whole(predicts + "fit = { lowest_K = [0, 1], highest_K = [3, 4] }\n")),
+              HasSubstr("model.toml:2:7: 'lowest_K' has 2 numbers and 'highest_K' 2; the model has 1 input"));
+  EXPECT_THAT(complaint(whole(predicts + "fit = { lowest_K = [0] }\n")),
+              HasSubstr("'lowest_K' has 1 numbers and 'highest_K' 0"));
+  EXPECT_THAT(complaint(whole(predicts + "fit = { lowest_K = [4], highest_K = [3] }\n")),
+              HasSubstr("model.toml:2:20: 'lowest_K' 4 is above 'highest_K' 3"));
 }
 
 TEST_F(ErrorModelFile, IsReadWithoutItsFit) {

@@ -74,6 +74,55 @@ TEST(FileCheck, AMistakeDoesNotHideTheNextFile) {
   EXPECT_EQ(checks[2].text, "an experiment of 1.00 h on v450");
 }
 
+TEST(FileCheck, KnowsEveryKindOfFile) {
+  fs::path const source = THERMOTWIN_SOURCE_DIR;
+  TemporaryDirectory const folder;
+  put(folder / "sites.toml", "[[site]]\nat = \"motor\"\n");
+  put(folder / "model.toml",
+      "[predicts]\nerror = \"E_X\"\n[model]\nmethod = \"linear\"\ninputs = [\"T2\"]\n[model.linear]\n"
+      "intercept = 1\nlag = [{ samples = 0, coefficients = [1] }]\n");
+  put(folder / "run.csv", "time_s,T1_degC,T2_degC,E_Z_um\n0,20,20,0\n600,21,20,3\n1200,22,20,5\n");
+  put(folder / "run.toml",
+      "[[table]]\nfile = \"run.csv\"\nreading = [{column = \"T1_degC\", sensor = \"T1\", unit = \"degC\"}]\n");
+  auto const checks =
+      check_files({source / "scenarios/studies/paper_004.toml", source / "scenarios/campaigns/v450_small.toml",
+                   folder / "sites.toml", folder / "model.toml", folder / "run.csv", folder / "run.toml"});
+  for (auto const& check : checks) EXPECT_EQ(check.mistake, "");
+  EXPECT_EQ(checks[0].text, "a study of 1 world, 8 selections and 11 models");
+  EXPECT_EQ(checks[1].text, "a campaign of 200 runs on v450");
+  EXPECT_THAT(checks[2].text, HasSubstr("candidates of a placement: 1 site; name a machine"));
+  EXPECT_EQ(checks[3].text, "an error model: linear of E_X [um] on 1 input, fitted to nobody knows what");
+  EXPECT_EQ(checks[4].text, "a record of 0.33 h: 3 rows, 0 inputs, 2 sensors, 1 displacement channel");
+  EXPECT_THAT(checks[4].warnings, ElementsAre(HasSubstr("run.csv: 'T2' is dead: it never moves")));
+  EXPECT_EQ(checks[5].text, "a record of 0.33 h: 3 rows, 0 inputs, 1 sensor, 0 displacement channels");
+}
+
+TEST(FileCheck, FindsTheMistakesOfEveryKind) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& text, std::string const& name = "file.toml") {
+    put(folder / name, text);
+    return check_files({folder / name})[0].mistake;
+  };
+  EXPECT_THAT(mistake("models = [\"linear\"]\nselections = [\"al\"]\n"),
+              HasSubstr("file.toml:2:15: no selection method 'al'"));
+  EXPECT_THAT(mistake("experiments = [\"etv\"]\n"), HasSubstr("file.toml:1:16: there is no experiment 'etv'"));
+  EXPECT_THAT(mistake("experiments = [\"etve\"]\nmachine = \"v450\"\ntolerance = 0\n"),
+              HasSubstr("file.toml:3:13: 'tolerance' is 0; allowed is 1e-12 to 0.01"));
+  EXPECT_THAT(mistake("predicts = { error = \"E_X\" }\n"), HasSubstr("file.toml:1:1: no table [model]"));
+  EXPECT_THAT(mistake("forbiden = []\nmost = 3\n"), HasSubstr("file.toml:1:1: unknown key 'forbiden'"));
+  EXPECT_THAT(mistake("[[table]]\nfile = \"none.csv\"\n"), HasSubstr("none.csv"));
+  EXPECT_THAT(mistake("time_s,T1_degC\n0,20\n60,warm\n", "run.csv"),
+              HasSubstr("run.csv:3:4: column 'T1_degC': 'warm'"));
+}
+
+TEST(FileCheck, LooksAtCandidatesAndMachineTogether) {
+  TemporaryDirectory const folder;
+  put(folder / "sites.toml", "forbidden = [\"rotr\"]\n");
+  auto const checks = check_files({folder / "sites.toml", machine_file("v450")});
+  EXPECT_THAT(checks[0].mistake, HasSubstr("sites.toml:1:14: unknown body 'rotr'; did you mean 'rotor'?"));
+  EXPECT_EQ(checks[1].mistake, "");
+}
+
 TEST(FileCheck, LooksAtMachineAndExperimentTogether) {
   TemporaryDirectory const folder;
   put(folder / "mine.toml", machine_with("[[heat]]\nname = \"pump\"\nat = \"bed\"\npower = \"60 W\"\n"

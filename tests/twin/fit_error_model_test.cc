@@ -159,10 +159,11 @@ TEST_F(FitErrorModel, LeavesOutWhatIsDeadAndSaysSo) {
   auto const saved = fitted({{file}, "E_Z"});
   EXPECT_THAT(saved.model.inputs, ElementsAre("T1", "T2"));
   EXPECT_THAT(remarks_, ElementsAre("run.csv: 'T3' is dead: it never moves", "run.csv: T3 is left out: it is dead"));
-  EXPECT_THAT(refusal([&] {
-                fitted({{file}, "E_Z", {"T1", "T3"}});
-              }),
-              HasSubstr("run.csv: none of its 120 rows is complete: no value of T3 in 120"));
+  EXPECT_THAT(
+      refusal([&] {
+        fitted({{file}, "E_Z", {"T1", "T3"}});
+      }),
+      HasSubstr("run.csv: none of its 120 rows is complete: no value of T3 in 120; 'T3' is dead: it never moves"));
 }
 
 TEST_F(FitErrorModel, LeavesOutRowsWithoutAReadingOfWhatWasNamed) {
@@ -174,7 +175,10 @@ TEST_F(FitErrorModel, LeavesOutRowsWithoutAReadingOfWhatWasNamed) {
   EXPECT_EQ(saved.runs[0].rows, rows - 6);
   EXPECT_TRUE(coefficients(saved).isApprox(Eigen::RowVector2d(3.0, -2.0), 1e-9));
   EXPECT_THAT(remarks_, Contains("run.csv: 6 of 120 rows are left out: no value of T1 in 5, of E_Z in 1"));
-  EXPECT_THAT(refusal([&] { fitted({{file}, "E_Z", {"T1", "T2"}, "distributed_lag"}); }), HasSubstr("run.csv"));
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z", {"T1", "T2"}, "distributed_lag"});
+              }),
+              HasSubstr("'run.csv': row 11 comes 360 s after the one before, others 60 s; lags need even steps"));
   auto const averaged = fitted({{file}, "E_Z", {"T1", "T2"}, "distributed_lag", 1, {}, 600.0});
   EXPECT_EQ(averaged.model.sample_period, 600.0);
   EXPECT_EQ(read_back(averaged).sampling, 600.0);
@@ -182,6 +186,29 @@ TEST_F(FitErrorModel, LeavesOutRowsWithoutAReadingOfWhatWasNamed) {
                 fitted({{file}, "E_Z", {"T1"}, "linear", 1, {}, 30.0});
               }),
               HasSubstr("a sampling of 30 s is finer than the 60 s between its rows"));
+}
+
+TEST_F(FitErrorModel, SaysWhichDataItWasGivenTwice) {
+  auto const monday = put_run(warming(1.5), "monday.h5"), tuesday = put_run(warming(0.7), "tuesday.h5");
+  (void)fitted({{monday, tuesday, put_run(warming(1.5), "again.csv")}, "E_Z", {"T1", "T2"}});
+  EXPECT_THAT(remarks_, ElementsAre("again.csv: the same data as monday.h5; they count once more"));
+}
+
+TEST_F(FitErrorModel, SaysWhereItExtrapolates) {
+  auto const saved = read_back(fitted({{put_run(warming(1.0), "monday.h5")}, "E_Z", {"T1", "T2"}}));
+  ASSERT_EQ(saved.ranges.size(), 2U);
+  EXPECT_EQ(saved.ranges[0].lowest, 0.0);
+  EXPECT_NEAR(saved.ranges[1].highest, 3.0 * std::sqrt(119.0 / 60.0), 1e-3);
+  auto inside = warming(1.0, 35.0);  // another room is no extrapolation: the model sees changes
+  EXPECT_THAT(predict_error(saved, put_run(inside, "inside.h5")).remarks, IsEmpty());
+  auto beyond = inside;
+  readings(beyond, "T2").tail(7).array() += 2.0;
+  EXPECT_THAT(predict_error(saved, put_run(beyond, "beyond.h5")).remarks,
+              ElementsAre("beyond.h5: extrapolation in 7 of 120 rows: T2 changed by 6.22 K; the model was fitted on "
+                          "changes of 0.00 K to 4.22 K"));
+  auto unknown = saved;
+  unknown.ranges.clear();
+  EXPECT_THAT(predict_error(read_back(unknown), folder_ / "beyond.h5").remarks, IsEmpty());
 }
 
 TEST_F(FitErrorModel, NamesTheNearest) {

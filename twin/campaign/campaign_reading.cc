@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_values_tried = 20;
 constexpr double most_runs = 1e9;
+constexpr double finest_tolerance = 1e-12, coarsest_tolerance = 0.01;
 
 /// Beside the campaign's file, or as the command line takes it.
 template <class Shipped>
@@ -210,6 +211,10 @@ Campaign Campaign::read(fs::path const& file) {
   read_fields(document, campaign.description);
   auto const& description = campaign.description;
   check_keep(document, description.keep);
+  if (!(description.tolerance >= finest_tolerance && description.tolerance <= coarsest_tolerance))
+    throw FileError(place_of_key(document, "tolerance"),
+                    fmt::format("'tolerance' is {}; allowed is {} to {}", description.tolerance, finest_tolerance,
+                                coarsest_tolerance));
   if (description.experiments.empty()) throw FileError(document.where, "the campaign names no 'experiments'");
   auto const located = [&](std::string const& key, auto const& action) {
     try {

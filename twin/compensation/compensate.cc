@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace thermotwin::twin {
 namespace {
@@ -60,6 +61,7 @@ class Session {
   void turn();
   void publish(Decision const& decision);
   void report(Decision const& decision);
+  void warn(Decision const& decision);
   void say(std::string const& line) const {
     if (options_.say) options_.say(line);
   }
@@ -72,6 +74,7 @@ class Session {
   std::map<std::string, SensorFault> last_faults_;
   std::optional<Clock::time_point> first_message_;
   std::size_t said_refusals_ = 0;
+  std::set<std::string> said_extrapolations_;  ///< inputs
 };
 
 void Session::publish(Decision const& decision) {
@@ -88,6 +91,13 @@ void Session::report(Decision const& decision) {
   say(report_line(decision));
 }
 
+/// Of each input once.
+void Session::warn(Decision const& decision) {
+  for (auto const& [input, sentence] : decision.extrapolated)
+    if (said_extrapolations_.insert(input).second)
+      say(fmt::format("t = {:.0f} s: extrapolation: {}", decision.time, sentence));
+}
+
 void Session::turn() {
   double const cycle = options_.loop.cycle / options_.loop.speed;
   auto const wait = duration<double>(std::min(longest_wait, 0.25 * cycle));
@@ -99,6 +109,7 @@ void Session::turn() {
     publish(*decision);
     if (message) summary_.latency.add(duration<double>(Clock::now() - message->arrived).count());
     report(*decision);
+    warn(*decision);
     if (options_.record) options_.record(*decision, loop_.compensator());
   }
   if (first_message_) loop_.require_inputs(duration<double>(Clock::now() - *first_message_).count());

@@ -71,6 +71,13 @@ double Compensator::estimate(double time) {
   return std::visit([&](auto& model) { return model.error(time, values); }, model_);
 }
 
+/// The twin itself was fitted to no range of readings.
+std::map<std::string, std::string> Compensator::extrapolated() const {
+  if (auto const* saved = std::get_if<SavedModel>(&model_)) return saved->extrapolated();
+  if (auto const* beside = std::get_if<ModelBesideTwin>(&model_)) return beside->extrapolated();
+  return {};
+}
+
 /// The target of before that time is the one to hold.
 void Compensator::fail_since(double since) {
   failed_ = true;
@@ -106,11 +113,12 @@ double Compensator::supported_target(double time, Decision& decision) {
   while (good_targets_.front().time < time - settings_.watch.stuck_time - settings_.watch.stale_time)
     good_targets_.pop_front();
   decision.support = Support::good;
+  decision.extrapolated = extrapolated();
   return -error;
 }
 
 Decision Compensator::step(double time, std::span<Reading const> readings, double elapsed) {
-  Decision decision{time, shift_.offset(), error_, Support::waiting, {}, {}};
+  Decision decision{time, shift_.offset(), error_, Support::waiting, {}, {}, {}};
   for (auto const& reading : readings) take(reading, time, decision);
   find_faults(time, decision);
   if (!started_ && unread().empty()) started_ = true;

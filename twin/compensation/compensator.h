@@ -44,6 +44,7 @@ struct Decision {
   Support support = Support::waiting;
   std::map<std::string, SensorFault> faults;  ///< inputs that are not believed, whether the model needs them or not
   std::vector<std::string> refused;           ///< sentences: readings that were not taken, and why
+  std::map<std::string, std::string> extrapolated;  ///< inputs beyond what a model was fitted on, and by how much
 };
 
 /// Decides the origin shift of one axis: offset = −Ê(t), within the limits of AxisShift. It knows no clock and no
@@ -77,6 +78,7 @@ class Compensator {
   [[nodiscard]] double supported_target(double time, Decision& decision);
   [[nodiscard]] double fallen_back(double time, Decision& decision) const;
   [[nodiscard]] double estimate(double time);
+  [[nodiscard]] std::map<std::string, std::string> extrapolated() const;
   void fail_since(double since);
 
   LiveModel model_;

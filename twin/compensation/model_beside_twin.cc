@@ -9,7 +9,7 @@
 
 namespace thermotwin::twin {
 
-ModelBesideTwin::ModelBesideTwin(Machine machine, std::string const& displacement, models::ErrorModel model)
+ModelBesideTwin::ModelBesideTwin(Machine machine, std::string const& displacement, SavedModel model)
     : twin_(std::move(machine), displacement), model_(std::move(model)) {
   std::vector<std::string> known;
   for (auto const& input : twin_.inputs())

@@ -12,7 +12,8 @@ constexpr double spacing = 0.05;  ///< of what is remembered, in sample periods
 
 }  // namespace
 
-SavedModel::SavedModel(models::ErrorModel model) : model_(std::move(model)) {
+SavedModel::SavedModel(models::ErrorModel model, std::vector<InputRange> ranges)
+    : model_(std::move(model)), ranges_(std::move(ranges)) {
   for (auto const& name : model_.inputs) inputs_.push_back({name, "degC"});
   if (auto const* linear = std::get_if<models::LinearForm>(&model_.form)) longest_lag_ = linear->lags.back();
 }
@@ -30,10 +31,19 @@ VectorXd SavedModel::rise_at(double time) const {
   return after == past_.begin() ? VectorXd::Zero(zero_.size()) : std::prev(after)->rise;
 }
 
+std::map<std::string, std::string> SavedModel::extrapolated() const {
+  std::map<std::string, std::string> result;
+  for (std::size_t j = 0; j < ranges_.size() && change_.size() > 0; ++j)
+    if (double const change = change_[Index(j)]; ranges_[j].left_by(change))
+      result[model_.inputs[j]] = range_left_text(model_.inputs[j], change, ranges_[j]);
+  return result;
+}
+
 double SavedModel::error(double time, std::span<double const> values) {
   VectorXd const now = VectorXd::Map(values.data(), Index(values.size()));
   if (zero_.size() == 0) zero_ = now;
-  VectorXd const rise = now - zero_;
+  change_ = now - zero_;
+  VectorXd const& rise = change_;
   remember(time, rise);
   Index const rows = longest_lag_ + 1;
   models::Batch batch{

@@ -137,9 +137,10 @@ class FieldReader {
     if (!value) return;
     if (!std::holds_alternative<std::int64_t>(value->content)) wrong(*value, key, "a whole number without unit");
     auto const given = std::get<std::int64_t>(value->content);
-    if (double(given) < range.low || double(given) > range.high)
-      throw FileError(value->where,
-                      fmt::format("'{}' is {}; allowed is {:g} to {:g}", key, given, range.low, range.high));
+    double const low = std::max(range.low, double(std::numeric_limits<I>::min()));
+    double const high = std::min(range.high, double(std::numeric_limits<I>::max()));
+    if (double(given) < low || double(given) > high)
+      throw FileError(value->where, fmt::format("'{}' is {}; allowed is {:g} to {:g}", key, given, low, high));
     object_.*member = I(given);
   }
   template <class M, class Nested>

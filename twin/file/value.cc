@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <optional>
 
@@ -36,13 +37,16 @@ std::vector<std::string> split(std::string_view path) {
   return parts;
 }
 
+constexpr double most_whole = 0x1p53;  ///< up to which a double counts
+
 /// What a text on the command line means: true, false, a number, or text (a quantity, a name).
 decltype(Value::content) interpret(std::string const& text) {
   if (text == "true" || text == "false") return text == "true";
   char* end = nullptr;
   double const number = std::strtod(text.c_str(), &end);
   if (!text.empty() && *end == '\0') {
-    if (text.find_first_not_of("+-0123456789") == std::string::npos) return std::int64_t(number);
+    bool const whole = text.find_first_not_of("+-0123456789") == std::string::npos;
+    if (whole && std::abs(number) < most_whole) return std::int64_t(number);
     return number;
   }
   return text;

@@ -9,6 +9,7 @@
 #include "thermal/nearest_name.h"
 #include "twin/assembly.h"
 #include "twin/file/document.h"
+#include "twin/file/tables.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -167,9 +168,12 @@ CandidateRules read_candidate_rules(std::filesystem::path const& path) {
   CandidateRules rules;
   read_fields(document, rules);
   rules.document = document;
-  if (Value const* list = document.find("site"))
-    for (auto const& table : std::get<Value::List>(list->content))
-      if (texts_of(table, "at").empty()) throw FileError(table.where, "a site needs a place: at = \"head\"");
+  Tables names(document);
+  for (auto const& table : names.of("site")) {
+    if (texts_of(table, "at").empty()) throw FileError(table.where, "a site needs a place: at = \"head\"");
+    if (auto const name = name_in(table); !name.empty()) names.claim(table, "site", name);
+  }
+  for (auto const& table : names.of("body")) names.claim(table, "body", name_in(table));
   return rules;
 }
 

@@ -35,8 +35,10 @@ void check(PlacementOptions const& options, std::size_t candidates) {
   if (options.dead < 0 || options.dead >= options.sensors)
     throw InputError(fmt::format("{} of {} sensors dead; at least one must be left", options.dead, options.sensors));
   if (!(options.noise > 0.0)) throw InputError(fmt::format("the noise is {} K; it must be positive", options.noise));
-  if (options.design.members < 2 || options.unseen_members < 1)
+  if (options.design.members < 2)
     throw InputError(fmt::format("{} members; at least 2 are due", options.design.members));
+  if (options.unseen_members < 1)
+    throw InputError(fmt::format("{} unseen members; at least 1 is due", options.unseen_members));
 }
 
 /// Sites that a user proposes, by name: a candidate's, a sensor's of the machine, or a place.

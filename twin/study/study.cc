@@ -84,7 +84,7 @@ void StudyRunner::ask() {
         repetitions_.push_back(
             {w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}, {}, {}, {}});
       } catch (thermal::InputError const& error) {
-        throw thermal::InputError(fmt::format("world '{}': {}", study_.worlds[w].name, error.what()));
+        throw about(study_.worlds[w], error.what());
       }
     }
   for (auto& repetition : repetitions_) {

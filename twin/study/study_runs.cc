@@ -63,6 +63,16 @@ Value changed_machine(StudyWorld const& world, Value document) {
   return document;
 }
 
+/// A complaint about what the world changes stands in the study's file.
+Machine machine_of(StudyWorld const& world, Value const& nominal) {
+  if (world.changes.empty() && world.added.empty()) return Machine::build(nominal);
+  try {
+    return Machine::build(changed_machine(world, nominal));
+  } catch (thermal::InputError const& error) {
+    throw about(world, error.what());
+  }
+}
+
 /// What a world asks for: the machine and the runs, by file.
 struct Order {
   StudyWorld const* world;
@@ -95,7 +105,7 @@ void check_error(StudyWorld const& world, Machine const& machine) {
 Order order_of(StudyWorld const& world, fs::path const& directory) {
   return in_world(world, [&] {
     Value const nominal = nominal_machine(world, directory);
-    Order order{&world, nominal, Machine::build(changed_machine(world, nominal)), {}};
+    Order order{&world, nominal, machine_of(world, nominal), {}};
     check_error(world, order.machine);
     for (auto const* list : {&world.train, &world.test})
       for (auto const& name : *list) order.sources.push_back(source_of(name, directory));

@@ -46,6 +46,18 @@ TEST_F(Compensated, CommandsTheNegativeError) {
   }
 }
 
+TEST(Compensator, SaysWhatItExtrapolatesAndGoesOn) {
+  models::LinearForm form;
+  form.coefficients = Eigen::VectorXd::Constant(1, 2.0);
+  Compensator compensator(SavedModel({"linear", {"T1"}, 0.0, 2.0, form, ""}, {{0.0, 1.05}}), settings);
+  for (int i = 0; i < 20; ++i) {
+    Reading const reading{"T1", 20.0 + 0.1 * i, "degC", 10.0 * i, "good"};
+    auto const decision = compensator.step(10.0 * i, std::span(&reading, 1), 10.0);
+    EXPECT_EQ(decision.extrapolated.size(), i > 11 ? 1U : 0U) << i;
+    EXPECT_NEAR(decision.offset, -0.2 * i, 0.05 + 1e-9);
+  }
+}
+
 TEST_F(Compensated, WaitsUntilEveryInputHasBeenRead) {
   for (int i = 0; i < 5; ++i) EXPECT_EQ(step({t1()}).support, Support::waiting);
   EXPECT_THAT(compensator_.unread(), ElementsAre("T2"));

@@ -34,7 +34,7 @@ TEST(ModelBesideTwin, TellsLiveWhatThePredictionOfTheRunTells) {
   auto const saved = fit_error_model(fit, remarks);
   auto const predicted = predict_error(saved, folder / "duty.h5");
 
-  ModelBesideTwin live(twin_of(*saved.twin), saved.error, saved.model);
+  ModelBesideTwin live(twin_of(*saved.twin), saved.error, SavedModel(saved.model, saved.ranges));
   auto channels = duty.inputs;
   channels.insert(channels.end(), duty.readings.begin(), duty.readings.end());
   for (Eigen::Index row = 0; row < duty.time_s.size(); ++row) {
@@ -50,7 +50,7 @@ TEST(ModelBesideTwin, TellsLiveWhatThePredictionOfTheRunTells) {
 TEST(ModelBesideTwin, NamesTheSensorThatTheTwinLacks) {
   models::ErrorModel const model{"linear", {"T99"}, 0, 2, models::LinearForm{0, {0}, Eigen::MatrixXd::Ones(1, 1)}, ""};
   EXPECT_THAT(thermotwin::tests::refusal(
-                  [&] { ModelBesideTwin const live(Machine::read(machine_file("g200")), "E_X", model); }),
+                  [&] { ModelBesideTwin const live(Machine::read(machine_file("g200")), "E_X", SavedModel(model)); }),
               HasSubstr("the twin has no sensor 'T99' on a body; did you mean 'T"));
 }
 

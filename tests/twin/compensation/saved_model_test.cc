@@ -50,6 +50,21 @@ TEST(SavedModel, CountsFromItsFirstReadings) {
   EXPECT_DOUBLE_EQ(live.error(10.0, std::vector{32.0, 18.0}), 3.5);
 }
 
+TEST(SavedModel, SaysWhichInputsLeaveTheirRange) {
+  SavedModel live(linear({0}), {{0.0, 5.0}, {-1.0, 1.0}});
+  EXPECT_TRUE(live.extrapolated().empty());
+  static_cast<void>(live.error(0.0, std::vector{31.0, 18.0}));
+  static_cast<void>(live.error(10.0, std::vector{36.0, 17.0}));
+  EXPECT_TRUE(live.extrapolated().empty());
+  static_cast<void>(live.error(20.0, std::vector{37.0, 17.0}));
+  ASSERT_EQ(live.extrapolated().size(), 1U);
+  EXPECT_EQ(live.extrapolated().at("T1"), "T1 changed by 6.00 K; the model was fitted on changes of 0.00 K to 5.00 K");
+  SavedModel unknown(linear({0}));
+  static_cast<void>(unknown.error(0.0, std::vector{0.0, 0.0}));
+  static_cast<void>(unknown.error(10.0, std::vector{99.0, 0.0}));
+  EXPECT_TRUE(unknown.extrapolated().empty());
+}
+
 TEST(SavedModel, AsksForItsSensorsInDegrees) {
   SavedModel const live(linear({0}));
   ASSERT_EQ(live.inputs().size(), 2u);

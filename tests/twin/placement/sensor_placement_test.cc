@@ -121,6 +121,14 @@ TEST(CandidateSites, SayWhereTheirFileIsWrong) {
               HasSubstr("candidates.toml:1:10: a 'budget' of 0.5 buys no sensor: the cheapest, at 'ambient', costs 1"));
 }
 
+TEST(CandidateSites, HaveNamesOfTheirOwn) {
+  using testing::ThrowsMessage;
+  EXPECT_THAT([] { rules_from("[[site]]\nname = \"a\"\nat = \"motor\"\n[[site]]\nname = \"a\"\nat = \"bed\"\n"); },
+              ThrowsMessage<thermal::InputError>(HasSubstr("candidates.toml:5:8: the name 'a' is taken")));
+  EXPECT_THAT([] { rules_from("[[body]]\nname = \"bed\"\n[[body]]\nname = \"bed\"\ncost = 2\n"); },
+              ThrowsMessage<thermal::InputError>(HasSubstr("candidates.toml:4:8: the name 'bed' is taken")));
+}
+
 TEST(CandidateSites, HaveRoomForSpares) {
   auto const sites = with_spares({{"a", {"motor"}, 2.0}, {"b", {"bed"}, 1.0}}, 2);
   EXPECT_THAT(names_of(sites), testing::ElementsAre("a", "b", "a (spare)", "b (spare)", "a (spare 2)", "b (spare 2)"));

@@ -1,0 +1,37 @@
+#include "twin/input_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double tolerated_share = 0.1;  ///< of its width, beyond a range
+
+double to_millikelvin(double change) { return std::round(1e3 * change) / 1e3; }
+
+}  // namespace
+
+bool InputRange::left_by(double change) const {
+  double const tolerated = tolerated_share * (highest - lowest);
+  return change < lowest - tolerated || change > highest + tolerated;
+}
+
+std::vector<InputRange> input_ranges(std::vector<models::Batch> const& batches) {
+  std::vector<InputRange> ranges(std::size_t(batches.front().temperature_rise.cols()), {INFINITY, -INFINITY});
+  for (auto const& batch : batches)
+    for (std::size_t j = 0; j < ranges.size(); ++j) {
+      auto const changes = batch.temperature_rise.col(Eigen::Index(j));
+      ranges[j].lowest = std::min(ranges[j].lowest, to_millikelvin(changes.minCoeff()));
+      ranges[j].highest = std::max(ranges[j].highest, to_millikelvin(changes.maxCoeff()));
+    }
+  return ranges;
+}
+
+std::string range_left_text(std::string const& input, double change, InputRange const& range) {
+  return fmt::format("{} changed by {:.2f} K; the model was fitted on changes of {:.2f} K to {:.2f} K", input, change,
+                     range.lowest, range.highest);
+}
+
+}  // namespace thermotwin::twin
