@@ -94,7 +94,7 @@ BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
 }
 
 Whitening whitening_of(ChannelNoise const& noise, BinnedRun const& run, Eigen::Index channel) {
-  return {noise.along(run.values.col(channel)), run.time, run.samples.col(channel)};
+  return {noise, run.time, run.samples.col(channel), noise.slow_along(run.time, run.values.col(channel))};
 }
 
 std::vector<std::string> channels_of(std::vector<BinnedRun> const& runs) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "twin/diagnosis/drifting_sensor.h"
 #include "twin/diagnosis/excitation.h"
 
 namespace thermotwin::twin {
@@ -57,6 +58,8 @@ Diagnosis Diagnostician::operator()() {
   d.noise_heard = search_.noise_heard();
   if (!d.effects.empty()) d.left = scan_for_free_heat(amended, d.amended);
   d.faulty_sensor = faulty_sensor(machine_, runs_);
+  if (!d.faulty_sensor && d.effects.empty())
+    d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
   d.verdict = verdict();
   if (d.verdict == Diagnosis::Verdict::none_known) d.unknown_heat = d.scan[0];
   d.disagreement = disagreements(search_.plain().with(amended.noise()), d.calibrated.x, machine_);

@@ -6,34 +6,42 @@
 #include <numbers>
 
 namespace thermotwin::twin {
-
-ChannelNoise ChannelNoise::along(Eigen::VectorXd const& values) const {
-  double low = INFINITY, high = -INFINITY;
-  for (double const v : values)
-    if (!std::isnan(v)) {
+Eigen::VectorXd ChannelNoise::slow_along(Eigen::VectorXd const& time, Eigen::VectorXd const& values) const {
+  double start = NAN, low = INFINITY, high = -INFINITY, way = 0.0;
+  Eigen::VectorXd sigma = Eigen::VectorXd::Zero(values.size());
+  for (Eigen::Index r = 0; r < values.size(); ++r) {
+    if (r > 0) way *= std::exp(-(time[r] - time[r - 1]) / slow_time);
+    if (double const v = values[r]; !std::isnan(v)) {
+      if (std::isnan(start)) start = v;
       low = std::min(low, v);
       high = std::max(high, v);
+      way = std::max(way, std::abs(v - start));
     }
-  ChannelNoise noise = *this;
-  noise.slow += slow_share * std::max(0.0, high - low);
-  noise.slow_share = 0.0;
-  return noise;
+    sigma[r] = way_share * way;
+  }
+  return sigma.array() + (slow + slow_share * std::max(0.0, high - low));
 }
 
-Whitening::Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eigen::VectorXd const& samples) {
-  Eigen::Vector2d const stationary(noise.fast * noise.fast, noise.slow * noise.slow);
+Whitening::Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eigen::VectorXd const& samples)
+    : Whitening(noise, time, samples, Eigen::VectorXd::Constant(time.size(), noise.slow)) {}
+
+Whitening::Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eigen::VectorXd const& samples,
+                     Eigen::VectorXd const& slow) {
+  Eigen::Vector2d const stationary(noise.fast * noise.fast, 1.0);
   Eigen::Matrix2d P = stationary.asDiagonal();
   for (Eigen::Index r = 0; r < time.size(); ++r) {
     double const step = r == 0 ? 0.0 : time[r] - time[r - 1];
     Eigen::Vector2d const decay(std::exp(-step / noise.fast_time), std::exp(-step / noise.slow_time));
     P = decay.asDiagonal() * P * decay.asDiagonal();
     P.diagonal() += stationary.cwiseProduct(Eigen::Vector2d::Ones() - decay.cwiseAbs2());
-    Row row{decay[0], decay[1], 0.0, 0.0, 0.0};
+    Row row{decay[0], decay[1], slow[r], 0.0, 0.0, 0.0};
     if (samples[r] > 0.0) {
-      double const variance = P.sum() + noise.white * noise.white / samples[r] + noise.rounding * noise.rounding;
-      Eigen::Vector2d const gain = P.rowwise().sum() / variance;
+      Eigen::Vector2d const seen(1.0, slow[r]);
+      double const variance =
+          seen.dot(P * seen) + noise.white * noise.white / samples[r] + noise.rounding * noise.rounding;
+      Eigen::Vector2d const gain = P * seen / variance;
       P -= gain * gain.transpose() * variance;
-      row = {decay[0], decay[1], gain[0], gain[1], 1.0 / std::sqrt(variance)};
+      row = {decay[0], decay[1], slow[r], gain[0], gain[1], 1.0 / std::sqrt(variance)};
       log_scale_ += 0.5 * std::log(2.0 * std::numbers::pi * variance);
       ++count_;
     }
@@ -53,7 +61,7 @@ void Whitening::apply(Eigen::Ref<Eigen::MatrixXd> signals) const {
         value = 0.0;
         continue;
       }
-      double const innovation = value - fast - slow;
+      double const innovation = value - fast - row.slow * slow;
       fast += row.fast_gain * innovation;
       slow += row.slow_gain * innovation;
       value = innovation * row.scale;

@@ -19,9 +19,12 @@ struct ChannelNoise {
   /// σ₂ besides, of the range that the channel goes through in a run: a machine at rest has little that a model could
   /// get wrong.
   double slow_share = 0.0;
+  /// σ₂ besides, of the way that the channel has gone from where it began; the way is forgotten with τ₂. At rest,
+  /// before the machine first moves and long after it stopped, there is none.
+  double way_share = 0.0;
 
-  /// The noise in a run in which the channel shows these values; NaN: none.
-  [[nodiscard]] ChannelNoise along(Eigen::VectorXd const& values) const;
+  /// σ₂ in the rows of a run in which the channel shows these values; NaN: none.
+  [[nodiscard]] Eigen::VectorXd slow_along(Eigen::VectorXd const& time, Eigen::VectorXd const& values) const;
 };
 
 /// Turns such noise into white noise of variance 1: the innovations of the Kalman filter of (m₁, m₂), divided by their
@@ -30,6 +33,9 @@ class Whitening {
  public:
   /// `time` of the rows [s]; `samples` averaged in each, 0: missing, whose whitened value is 0.
   Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eigen::VectorXd const& samples);
+  /// With a σ₂ of each row instead of the noise's.
+  Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eigen::VectorXd const& samples,
+            Eigen::VectorXd const& slow);
 
   /// In place: one column per signal, one row per row.
   void apply(Eigen::Ref<Eigen::MatrixXd> signals) const;
@@ -39,7 +45,7 @@ class Whitening {
 
  private:
   struct Row {
-    double fast_decay, slow_decay, fast_gain, slow_gain, scale;  ///< scale 0: missing
+    double fast_decay, slow_decay, slow, fast_gain, slow_gain, scale;  ///< scale 0: missing
   };
   std::vector<Row> rows_;
   double log_scale_ = 0.0;

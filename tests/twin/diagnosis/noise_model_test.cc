@@ -138,5 +138,35 @@ TEST(Whitening, ASlowErrorHidesAnOffset) {
   EXPECT_NEAR(constant.squaredNorm(), 1.0 / (0.25 + 0.01 * 0.01 / 100.0), 1e-3);
 }
 
+/// σ₂ that changes from row to row: cov = σ₂(t) σ₂(t') exp(−|t − t'|/τ₂).
+TEST(Whitening, FollowsASlowErrorThatGrows) {
+  Index const rows = 30;
+  VectorXd const time = uneven_times(rows), samples = VectorXd::Constant(rows, 4.0);
+  VectorXd const slow = VectorXd::LinSpaced(rows, 0.0, 0.5);
+  ChannelNoise rest = noise();
+  rest.slow = 0.0;
+  MatrixXd S = covariance(rest, time, samples);
+  for (Index i = 0; i < rows; ++i)
+    for (Index j = 0; j < rows; ++j)
+      S(i, j) += slow[i] * slow[j] * std::exp(-std::abs(time[i] - time[j]) / rest.slow_time);
+  VectorXd const e = 0.4 * normal(rows, 1, 9);
+  Eigen::LLT<MatrixXd> const solver(S);
+  double const logarithm = 2.0 * solver.matrixLLT().diagonal().array().log().sum();
+  double const whole = -0.5 * (e.dot(solver.solve(e)) + logarithm + double(rows) * std::log(2.0 * std::numbers::pi));
+  EXPECT_NEAR(log_likelihood({rest, time, samples, slow}, e), whole, 1e-9);
+}
+
+/// Nothing before the channel moves, most where it has gone furthest, a third of that when τ₂ has passed at rest.
+TEST(ChannelNoise, GrowsWithTheWayFromTheStartAndForgetsIt) {
+  ChannelNoise along{0.03, 0.0, 0.1, 600.0, 0.02, 3600.0};
+  along.way_share = 0.1;
+  VectorXd const time = 1800.0 * VectorXd::LinSpaced(7, 0.0, 6.0);
+  VectorXd values(7);
+  values << 293.0, 293.0, 303.0, 303.0, std::nan(""), 293.0, 293.0;
+  VectorXd expected(7);
+  expected << 0.0, 0.0, 1.0, 1.0, std::exp(-0.5), std::exp(-1.0), std::exp(-1.5);
+  EXPECT_TRUE(along.slow_along(time, values).isApprox((expected.array() + 0.02).matrix(), 1e-12));
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

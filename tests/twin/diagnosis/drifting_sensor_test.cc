@@ -1,0 +1,54 @@
+#include "twin/diagnosis/drifting_sensor.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/diagnosis/expected_noise.h"
+
+namespace thermotwin::twin {
+namespace {
+
+/// Warm for a while between two rests.
+scenarios::Experiment between_rests() {
+  return tests::experiment(R"(
+    duration = "18 h"
+    ambient.mean = "22 degC"
+    [spindle]
+    blocks = [{duration = "1 h", speed = "0 rpm"}, {duration = "8 h", speed = "5000 rpm"},
+              {duration = "9 h", speed = "0 rpm"}])");
+}
+
+std::optional<FaultySensor> drifting(Value const& truth) {
+  auto run = tests::measured(truth, between_rests());
+  tests::add_noise(run, 0.02, 0.05e-6, 11);
+  std::vector<BinnedRun> const data = {bin(run, 300.0)};
+  Value const document = tests::v450();
+  auto const estimation = expected_estimation(document, data);
+  return drifting_sensor(estimation, estimation.fit(estimation.prior_mean()),
+                         hypotheses(document, Machine::build(document)));
+}
+
+TEST(DriftingSensor, IsNoneOfAHealthyMachine) { EXPECT_FALSE(drifting(tests::v450())); }
+
+TEST(DriftingSensor, ShowsWhereTheMachineRests) {
+  auto const sensor = drifting(tests::with_table(tests::v450(), R"(
+    [[sensor_drift]]
+    name = "fault"
+    sensor = "T3"
+    drift = "-0.4 K/day")"));
+  ASSERT_TRUE(sensor);
+  EXPECT_EQ(sensor->name, "T3");
+  EXPECT_EQ(sensor->what.substr(0, 13), "drifts by -0.") << sensor->what;
+}
+
+/// What follows the heat is gone at rest: no drift, however far beyond the noise.
+TEST(DriftingSensor, IsNotOneThatTouchesBadly) {
+  EXPECT_FALSE(drifting(tests::with_table(tests::v450(), R"(
+    [[sensor_contact]]
+    name = "fault"
+    sensor = "T7"
+    air_share = 0.03)")));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

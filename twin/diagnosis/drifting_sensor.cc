@@ -1,0 +1,52 @@
+#include "twin/diagnosis/drifting_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "twin/diagnosis/score.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double air_slow = 0.02;         // what is not known of the air around a sensor [K]
+constexpr double way_of_range = 0.25;     // of what is expected of a range, for the way from the start
+constexpr double least_statistic = 12.0;  // T of a drift
+constexpr double seconds_a_day = 86400.0;
+
+/// The question to the same runs when a model is taken to be the better the nearer the machine is to rest.
+Estimation with_rest(Estimation const& estimation, std::vector<Hypothesis> const& drifts) {
+  auto noise = estimation.noise();
+  for (std::size_t c = 0; c < noise.size(); ++c) {
+    auto const reads = [&](Hypothesis const& drift) { return drift.body == estimation.channels()[c]; };
+    if (std::none_of(drifts.begin(), drifts.end(), reads)) continue;
+    noise[c].way_share = way_of_range * noise[c].slow_share;
+    noise[c].slow_share = 0.0;
+    noise[c].slow += air_slow;
+  }
+  return estimation.with(noise);
+}
+
+}  // namespace
+
+std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit const& calibrated,
+                                            std::vector<Hypothesis> const& hypotheses) {
+  std::vector<Hypothesis> drifts;
+  for (auto const& hypothesis : hypotheses)
+    if (hypothesis.effect->name == "sensor_drift") drifts.push_back(hypothesis);
+  if (drifts.empty()) return std::nullopt;
+  Estimation const resting = with_rest(estimation, drifts);
+  Fit const fit = resting.fit(calibrated.x, 6);
+  Eigen::MatrixXd columns = signatures(resting, fit, drifts);
+  resting.whiten(columns);
+  auto const scores = score(fit, columns, drifts);
+  auto const clearest = std::max_element(scores.begin(), scores.end(),
+                                         [](Score const& a, Score const& b) { return a.statistic < b.statistic; });
+  if (clearest->statistic < least_statistic) return std::nullopt;
+  auto const& drift = drifts[std::size_t(clearest - scores.begin())];
+  double const unit = drift.trial->largest * seconds_a_day;
+  return FaultySensor{drift.body, fmt::format("drifts by {:.2f} ± {:.2f} K a day, which shows where the machine rests",
+                                              clearest->amplitude * unit, unit / std::sqrt(clearest->information))};
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "twin/diagnosis/estimation.h"
+#include "twin/diagnosis/faulty_sensor.h"
+
+namespace thermotwin::twin {
+
+/// The sensor whose reading drifts away from what the others and the calibrated machine say of it, y = T + b t
+/// (physics.md §7 no. 27); of several that seem to, the clearest.
+///
+/// Within a day a drift is less than what a model gets wrong while the machine is warm, and more than what it gets
+/// wrong at rest. So the sensors' slow noise is taken to be σ₂ = 0.02 K and 0.5 % of the way that a reading has gone
+/// from where it began (ChannelNoise::way_share), instead of 2 % of its range throughout, times as much as was heard.
+/// With that noise the numbers are fitted again, and every drift among `hypotheses` has its score T = b²/a. The largest
+/// must exceed 12, the 99 % point of the largest of some twenty (physics.md 8.6).
+[[nodiscard]] std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit const& calibrated,
+                                                          std::vector<Hypothesis> const& hypotheses);
+
+}  // namespace thermotwin::twin
