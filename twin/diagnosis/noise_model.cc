@@ -6,6 +6,7 @@
 #include <numbers>
 
 namespace thermotwin::twin {
+
 Eigen::VectorXd ChannelNoise::slow_along(Eigen::VectorXd const& time, Eigen::VectorXd const& values) const {
   double start = NAN, low = INFINITY, high = -INFINITY, way = 0.0;
   Eigen::VectorXd sigma = Eigen::VectorXd::Zero(values.size());
