@@ -24,6 +24,7 @@ class Diagnostician {
   void say(std::string const& what) const {
     if (options_.progress) options_.progress(what);
   }
+  [[nodiscard]] FreeHeat unknown_heat() const;
   void find_where();
   using HeatAt = std::map<std::pair<std::string, std::string>, double>;  ///< body and regime, watts
   void tell_where(HeatAt const& heat);
@@ -61,7 +62,7 @@ Diagnosis Diagnostician::operator()() {
   if (!d.faulty_sensor && d.effects.empty())
     d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
   d.verdict = verdict();
-  if (d.verdict == Diagnosis::Verdict::none_known) d.unknown_heat = d.scan[0];
+  if (d.verdict == Diagnosis::Verdict::none_known) d.unknown_heat = unknown_heat();
   d.disagreement = disagreements(search_.plain().with(amended.noise()), d.calibrated.x, machine_);
   if (!d.effects.empty()) d.disagreement_left = disagreements(amended, d.amended.x, machine_);
   find_where();
@@ -85,6 +86,13 @@ bool Diagnostician::is_unknown() const {
     auto const& further = other.alternatives[0].hypothesis;
     return further.body == first.body && further.label() != first.label();
   });
+}
+
+/// About the numbers of the file. Those that were calibrated without the heat are bent so as to imitate it, too far for
+/// one linearisation to bend them back.
+FreeHeat Diagnostician::unknown_heat() const {
+  Estimation const plain = search_.plain().with(search_.estimation().noise());
+  return scan_for_free_heat(plain, plain.fit(plain.prior_mean(), 0))[0];
 }
 
 /// Bodies and regimes that receive the heat that is missing.
