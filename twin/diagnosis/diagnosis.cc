@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "twin/diagnosis/drifting_sensor.h"
 #include "twin/diagnosis/excitation.h"
 
 namespace thermotwin::twin {
 namespace {
+
+bool is_about(Hypothesis const& hypothesis, std::string const& what) {
+  return hypothesis.effect->changes.find(what) != std::string::npos;
+}
 
 class Diagnostician {
  public:
@@ -24,11 +29,13 @@ class Diagnostician {
   void say(std::string const& what) const {
     if (options_.progress) options_.progress(what);
   }
+  [[nodiscard]] FreeHeat unknown_heat() const;
   void find_where();
   using HeatAt = std::map<std::pair<std::string, std::string>, double>;  ///< body and regime, watts
   void tell_where(HeatAt const& heat);
   void propose();
-  [[nodiscard]] bool is_unknown() const;
+  [[nodiscard]] bool is_unknown_heat() const;
+  [[nodiscard]] bool is_unknown_shift() const;
   [[nodiscard]] Diagnosis::Verdict verdict() const;
 
   DiagnosisOptions const& options_;
@@ -61,7 +68,7 @@ Diagnosis Diagnostician::operator()() {
   if (!d.faulty_sensor && d.effects.empty())
     d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
   d.verdict = verdict();
-  if (d.verdict == Diagnosis::Verdict::none_known) d.unknown_heat = d.scan[0];
+  if (d.verdict == Diagnosis::Verdict::none_known && is_unknown_heat()) d.unknown_heat = unknown_heat();
   d.disagreement = disagreements(search_.plain().with(amended.noise()), d.calibrated.x, machine_);
   if (!d.effects.empty()) d.disagreement_left = disagreements(amended, d.amended.x, machine_);
   find_where();
@@ -71,20 +78,32 @@ Diagnosis Diagnostician::operator()() {
 
 /// Heat of free course is still evident, or it took two effects on the body of the first, which is about heat: the
 /// catalogue does not have what acts there.
-bool Diagnostician::is_unknown() const {
+bool Diagnostician::is_unknown_heat() const {
   auto const& found = diagnosis_.explanations;
   auto const& left = found.empty() ? diagnosis_.scan : diagnosis_.left;
   if (!left.empty() && left[0].gain > options_.heat_left) return true;
   if (found.empty()) return false;
   auto const& first = found[0].alternatives[0].hypothesis;
-  auto const about_heat = [&](std::string const& what) {
-    return first.effect->changes.find(what) != std::string::npos;
-  };
-  if (!about_heat("source") && !about_heat("film") && !about_heat("boundary")) return false;
+  if (!is_about(first, "source") && !is_about(first, "film") && !is_about(first, "boundary")) return false;
   return std::any_of(found.begin() + 1, found.end(), [&](Explanation const& other) {
     auto const& further = other.alternatives[0].hypothesis;
     return further.body == first.body && further.label() != first.label();
   });
+}
+
+/// It took two effects on one displacement: the catalogue does not have what moves it.
+bool Diagnostician::is_unknown_shift() const {
+  std::set<std::string> moved;
+  return std::any_of(diagnosis_.effects.begin(), diagnosis_.effects.end(), [&](Hypothesis const& effect) {
+    return is_about(effect, "deformation") && !moved.insert(effect.body).second;
+  });
+}
+
+/// About the numbers of the file. Those that were calibrated without the heat are bent so as to imitate it, too far for
+/// one linearisation to bend them back.
+FreeHeat Diagnostician::unknown_heat() const {
+  Estimation const plain = search_.plain().with(search_.estimation().noise());
+  return scan_for_free_heat(plain, plain.fit(plain.prior_mean(), 0))[0];
 }
 
 /// Bodies and regimes that receive the heat that is missing.
@@ -138,11 +157,10 @@ Diagnosis::Verdict Diagnostician::verdict() const {
   using Verdict = Diagnosis::Verdict;
   if (diagnosis_.faulty_sensor && diagnosis_.explanations.empty()) return Verdict::sensor;
   if (diagnosis_.explanations.empty()) return Verdict::nothing;
-  if (is_unknown()) return Verdict::none_known;
-  bool const sensors =
-      std::all_of(diagnosis_.explanations.begin(), diagnosis_.explanations.end(), [](Explanation const& explanation) {
-        return explanation.alternatives[0].hypothesis.effect->changes.find("sensor") != std::string::npos;
-      });
+  if (is_unknown_heat() || is_unknown_shift()) return Verdict::none_known;
+  bool const sensors = std::all_of(
+      diagnosis_.explanations.begin(), diagnosis_.explanations.end(),
+      [](Explanation const& explanation) { return is_about(explanation.alternatives[0].hypothesis, "sensor"); });
   if (sensors) return Verdict::sensor;
   bool const single = std::all_of(diagnosis_.explanations.begin(), diagnosis_.explanations.end(),
                                   [](Explanation const& explanation) { return explanation.alternatives.size() == 1; });

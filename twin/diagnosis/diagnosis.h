@@ -19,7 +19,7 @@ struct Diagnosis {
     effect,      ///< each missing thing has one name
     either,      ///< at least one has two or three
     sensor,      ///< an instrument is at fault, not the machine
-    none_known,  ///< heat that none of the effects tried explains
+    none_known,  ///< heat, or a displacement, that none of the effects tried explains
   };
   Verdict verdict = Verdict::nothing;
   /// Of the calibrated machine, before any effect was added, beside the noise that the amended one leaves.
@@ -28,7 +28,7 @@ struct Diagnosis {
   std::vector<Explanation> explanations;        ///< of `none_known`: what stands in for it, and does not suffice
   /// Bodies that the missing heat enters, and whether it does so while the spindle turns or while it stands.
   std::vector<std::pair<std::string, std::string>> where;
-  std::optional<FreeHeat> unknown_heat;  ///< of `none_known`
+  std::optional<FreeHeat> unknown_heat;  ///< of `none_known`, where it is heat
   std::vector<Remedy> proposals;         ///< of `either`: experiments that would tell the first one apart, best first
   std::optional<FaultySensor> faulty_sensor;
   std::vector<FreeHeat> scan;          ///< before any effect was added, best first

@@ -98,5 +98,21 @@ TEST(FreeHeat, ThatIsNotThereGainsNothing) {
     }
 }
 
+/// 150 W that are always there, and nothing calibrated: the other numbers give way within the one linearisation.
+TEST(FreeHeat, IsFoundAboutTheNumbersOfTheFile) {
+  auto run = tests::measured(tests::with_table(v450(), R"(
+    [[heat]]
+    name = "hidden"
+    at = "motor"
+    power = "150 W")"),
+                             tests::two_speeds());
+  tests::add_noise(run, kelvin, metres, 5);
+  std::vector<BinnedRun> const data = {bin(run, 300.0)};
+  Estimation const estimation(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+  auto const best = scan_for_free_heat(estimation, estimation.fit(estimation.prior_mean(), 0)).front();
+  EXPECT_EQ(best.site.body, "motor");
+  EXPECT_NEAR(best.mean[0], 150.0, 30.0);
+}
+
 }  // namespace
 }  // namespace thermotwin::twin
