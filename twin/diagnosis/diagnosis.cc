@@ -99,8 +99,7 @@ bool Diagnostician::is_unknown_shift() const {
   });
 }
 
-/// About the numbers of the file. Those that were calibrated without the heat are bent so as to imitate it, too far for
-/// one linearisation to bend them back.
+/// About the numbers of the file: those that were calibrated without the heat have taken part of it.
 FreeHeat Diagnostician::unknown_heat() const {
   Estimation const plain = search_.plain().with(search_.estimation().noise());
   return scan_for_free_heat(plain, plain.fit(plain.prior_mean(), 0))[0];

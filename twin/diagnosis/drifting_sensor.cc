@@ -12,6 +12,7 @@ namespace {
 constexpr double air_slow = 0.02;         // what is not known of the air around a sensor [K]
 constexpr double way_of_range = 0.25;     // of what is expected of a range, for the way from the start
 constexpr double least_statistic = 12.0;  // T of a drift
+constexpr int most_drifting = 2;          // beyond, something else pulls at all of them
 constexpr double seconds_a_day = 86400.0;
 
 /// The question to the same runs when a model is taken to be the better the nearer the machine is to rest.
@@ -42,7 +43,9 @@ std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit co
   auto const scores = score(fit, columns, drifts);
   auto const clearest = std::max_element(scores.begin(), scores.end(),
                                          [](Score const& a, Score const& b) { return a.statistic < b.statistic; });
-  if (clearest->statistic < least_statistic) return std::nullopt;
+  auto const drifting =
+      std::count_if(scores.begin(), scores.end(), [](Score const& s) { return s.statistic >= least_statistic; });
+  if (drifting < 1 || drifting > most_drifting) return std::nullopt;
   auto const& drift = drifts[std::size_t(clearest - scores.begin())];
   double const unit = drift.trial->largest * seconds_a_day;
   return FaultySensor{drift.body, fmt::format("drifts by {:.2f} ± {:.2f} K a day, which shows where the machine rests",

@@ -50,5 +50,14 @@ TEST(DriftingSensor, IsNotOneThatTouchesBadly) {
     air_share = 0.03)")));
 }
 
+/// What pulls at many is no sensor's fault.
+TEST(DriftingSensor, IsNoneWhereManySeemToDrift) {
+  Value truth = tests::v450();
+  for (std::string const sensor : {"T1", "T3", "T6", "T8"})
+    truth = tests::with_table(
+        truth, "[[sensor_drift]]\nname = \"of_" + sensor + "\"\nsensor = \"" + sensor + "\"\ndrift = \"-0.5 K/day\"\n");
+  EXPECT_FALSE(drifting(truth));
+}
+
 }  // namespace
 }  // namespace thermotwin::twin
