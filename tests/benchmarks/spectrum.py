@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""spectrum.py [MACHINE...]: v450, g200 and vmc850 through 8 h of spectrum, thermotwin beside SciPy's BDF on the same
-network.
+"""spectrum.py [--check PROGRAM] [MACHINE...]: v450, g200 and vmc850 through 8 h of spectrum, thermotwin beside SciPy's BDF
+on the same network.
 
 The network is read from the same machine file by code of its own, so that agreement of the two answers is a check of
 both. The right-hand side is vectorised NumPy. Both integrate to a relative tolerance of 1e-6; prints medians of five
-runs, their ratio, and the largest difference of any node between the two.
+runs, their ratio, and the largest difference of any node between the two. With --check PROGRAM is run once and nothing is
+timed: exit code 1 where the two differ by more than 1 mK.
 """
+import argparse
 import json
 import math
 import pathlib
@@ -25,6 +27,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MACHINES = ["v450", "g200", "vmc850"]
 SPECTRUM = [(25, 3600), (50, 3600), (75, 3600), (100, 3600), (0, 1800), (75, 5400), (50, 3600), (100, 3600), (0, 3600)]
 AIR = 295.15
+TOLERATED = 1e-3  # K
 FULL_FEED, DUTY = 0.27, 0.88  # m/s, of vmc850 at 100 %
 UNITS = {"mm": 1e-3, "mm2": 1e-6, "m2": 1.0, "kg": 1.0, "W/K": 1.0, "W": 1.0, "J/K": 1.0, "kJ/K": 1e3, "N": 1.0,
          "N m": 1.0, "N m/A": 1.0, "ohm": 1.0, "K": 1.0, "rpm": 2 * math.pi / 60, "L/min": 1e-3 / 60, "m/min": 1 / 60,
@@ -253,6 +256,10 @@ def rotating_cylinder(T, diameter, speed):
     return (forced**3 + free**3) ** (1 / 3) * k / diameter
 
 
+def network_of(machine):
+    return Network(tomllib.loads((ROOT / f"twin/machines/{machine}.toml").read_text()))
+
+
 def integrate(network):
     T, t = np.full(len(network.capacity), AIR), 0.0
     for share, duration in SPECTRUM:
@@ -275,20 +282,28 @@ def experiment(machine):
     return head + f'[[axes]]\naxis = "z"\nduty = {DUTY}\nblocks = [{blocks}]\n'
 
 
+def difference(machine, program, T):
+    """The largest of any node at the end [K], from a run of the program."""
+    with tempfile.TemporaryDirectory() as folder:
+        file, run = pathlib.Path(folder) / "spectrum.toml", pathlib.Path(folder) / "run.h5"
+        file.write_text(experiment(machine))
+        subprocess.run([str(program), "run", str(file), "--quiet", "--nodes", "-o", str(run)], check=True)
+        with h5py.File(run) as data:
+            return np.abs(T - 273.15 - data["nodes/temperature"][-1]).max()
+
+
+def check(machine, program):
+    apart = difference(machine, program, integrate(network_of(machine)))
+    print(f"{machine}: the program and the network in NumPy differ by {apart:.1e} K")
+    return apart <= TOLERATED
+
+
 def compare(machine):
-    network = Network(tomllib.loads((ROOT / f"twin/machines/{machine}.toml").read_text()))
-    scipy_times = []
+    network, scipy_times = network_of(machine), []
     for _ in range(5):
         start = time.perf_counter()
         T = integrate(network)
         scipy_times.append(time.perf_counter() - start)
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "spectrum.toml"
-        file.write_text(experiment(machine))
-        run = [str(ROOT / "build/thermotwin"), "run", str(file), "--quiet", "--nodes", "-o", str(pathlib.Path(folder) / "run.h5")]
-        subprocess.run(run, check=True)
-        with h5py.File(pathlib.Path(folder) / "run.h5") as data:
-            final = data["nodes/temperature"][-1]
     bench = [str(ROOT / "build/thermotwin_bench"), f"--benchmark_filter=^Spectrum/{machine}$", "--benchmark_repetitions=5",
              "--benchmark_report_aggregates_only", "--benchmark_format=json"]
     results = json.loads(subprocess.run(bench, check=True, capture_output=True, text=True).stdout)["benchmarks"]
@@ -296,11 +311,17 @@ def compare(machine):
     scipy_time = statistics.median(scipy_times)
     print(f"{machine:7} SciPy BDF, NumPy right-hand side {scipy_time * 1e3:7.1f} ms; thermotwin, integration only "
           f"{our_time * 1e3:5.2f} ms, {scipy_time / our_time:.0f} times as fast; largest difference of any node at the end "
-          f"{np.abs(T - 273.15 - final).max():.1e} K")
+          f"{difference(machine, ROOT / 'build/thermotwin', T):.1e} K")
 
 
 def main():
-    for machine in sys.argv[1:] or MACHINES:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", metavar="PROGRAM")
+    parser.add_argument("machines", nargs="*", default=MACHINES)
+    asked = parser.parse_args()
+    if asked.check:
+        return 0 if all([check(machine, asked.check) for machine in asked.machines]) else 1
+    for machine in asked.machines:
         compare(machine)
 
 

@@ -74,7 +74,7 @@ class LiveCompensation : public testing::Test {
 
   /// The duty with somebody who compensates. What `play` and `compensate` print.
   std::array<std::string, 2> played(std::vector<std::string> const& with, std::string const& run = "duty.h5",
-                                    std::string const& speed = "3000") {
+                                    std::string const& speed = "1500") {
     Child compensate(compensation(with, speed), at("compensate"));
     auto const text = answer(program + " play " + at(run) + " -q --speed " + speed + " --broker " + broker_.url() +
                              " -o " + at("played.csv"));
