@@ -87,8 +87,9 @@ class LawOf final : public Law {
     });
   }
 
-  void jacobian_blocks(ElementBatch const& batch, double const* temperature, double const* input,
-                       double* blocks) const override {
+  /// Flat, as the evaluation in lanes.
+  [[gnu::flatten]] void jacobian_blocks(ElementBatch const& batch, double const* temperature, double const* input,
+                                        double* blocks) const override {
     for (int e = 0; e < batch.count; ++e) {
       int const* port = batch.ports.data() + std::size_t(e) * P;
       std::array<Dual<P>, P> T;
