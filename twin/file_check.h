@@ -14,12 +14,11 @@ struct FileCheck {
 };
 
 /// Whatever the program reads, known by its keys: machines, experiments (`duration`), error models (`predicts`),
-/// studies
-/// (`world`), campaigns (`experiments`), candidates of a placement (`site`), measurement files (`table`), and tables
-/// and data sets of runs by their suffix. An experiment is looked at together with the machine among the files that it
-/// names, or the only one; without any, with the machine that it names: every input of the machine must be given.
-/// Candidates are looked at together with the only machine. A mistake in one file does not keep the others from being
-/// looked at.
+/// studies (`world`), campaigns (`experiments`), candidates of a placement (`site`), measurement files (`table`), and
+/// tables and data sets of runs by their suffix. An experiment is looked at together with the machine among the files
+/// that it names, or the only one; without any, with the machine that it names: every input of the machine must be
+/// given. Candidates are looked at together with the only machine. A mistake in one file does not keep the others from
+/// being looked at.
 [[nodiscard]] std::vector<FileCheck> check_files(std::vector<std::filesystem::path> const& files);
 
 }  // namespace thermotwin::twin
