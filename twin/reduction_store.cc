@@ -155,7 +155,8 @@ std::optional<Reduction> ReductionStore::find(std::string const& key) const {
   std::ifstream stream(file(key), std::ios::binary);
   std::string head;
   if (!std::getline(stream, head)) return {};
-  std::string const bytes(std::istreambuf_iterator<char>(stream), {});
+  std::string bytes(std::size_t(fs::file_size(file(key))) - head.size() - 1, '\0');
+  stream.read(bytes.data(), std::streamsize(bytes.size()));
   if (head + '\n' != first_line(key, bytes)) return {};
   try {
     return reduction_of(bytes);

@@ -196,7 +196,7 @@ class ChallengeFolder : public testing::Test {
 
 TEST_F(ChallengeFolder, HasTheSameBytesFromTheSameSeed) {
   auto const a = write("a", 17, CaseKind::one), b = write("b", 17, CaseKind::one), c = write("c", 18, CaseKind::one);
-  for (std::string const file : {"machine.toml", "run1.h5", "run2.h5", "unseen.h5", "sealed.json"})
+  for (std::string const file : {"machine.toml", "run1.h5", "run2.h5", "unseen.h5", "sealed_unseen.h5", "sealed.json"})
     EXPECT_EQ(text_of(a / file), text_of(b / file)) << file;
   EXPECT_NE(text_of(a / "run1.h5"), text_of(c / "run1.h5"));
 }
@@ -213,6 +213,19 @@ TEST_F(ChallengeFolder, GivesAwayNothingButWhatWasMeasured) {
     EXPECT_EQ(text_of(folder / file).find("plate"), std::string::npos) << file;
     EXPECT_GE(data.time_s[data.time_s.size() - 1], 12.0 * 3600.0);
   }
+}
+
+TEST_F(ChallengeFolder, SealsTheUnseenRunWithoutItsNoise) {
+  auto const folder = write("quiet", 31, CaseKind::one);
+  auto const seen = output::read(folder / "unseen.h5"), was = output::read(folder / "sealed_unseen.h5");
+  auto const rms = [](Eigen::VectorXd const& v) { return std::sqrt(v.squaredNorm() / double(v.size())); };
+  for (std::size_t c = 0; c < was.displacements.size(); ++c) {  // 0.3 and 0.1 um or, of a rotation, twice that in urad
+    double const size = was.displacements[c].unit == "urad" ? 2.0 : 1.0;
+    EXPECT_NEAR(rms(seen.displacements[c].values - was.displacements[c].values) / size, 0.32, 0.1)
+        << was.displacements[c].name;
+  }
+  for (std::size_t c = 0; c < was.readings.size(); ++c)  // 0.1 K and the step of a reading
+    EXPECT_NEAR(rms(seen.readings[c].values - was.readings[c].values), 0.1, 0.04) << was.readings[c].name;
 }
 
 TEST_F(ChallengeFolder, TakesOneMoreRunOfTheSameWorld) {

@@ -12,6 +12,7 @@
 #include "twin/challenge/challenge_runs.h"
 #include "twin/challenge/hidden_heat.h"
 #include "twin/experiment_file.h"
+#include "twin/file/document.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -39,6 +40,26 @@ output::Dataset measured(output::Dataset const& run, HiddenWorld const& world, i
   data.displacements = run.displacements;
   data.positioning = run.positioning;
   disturb(data, world, index);
+  return data;
+}
+
+/// The machine with the same sensors, had they no noise and showed every digit.
+Value with_quiet_sensors(Value document) {
+  for (auto* table : tables_of(document, "temperature_sensor"))
+    for (auto const* key : {"noise", "correlated_noise", "cold_junction", "resolution"})
+      set_key(*table, key, std::string("0 K"));
+  return document;
+}
+
+/// A run as the hidden world went through it, before noise: what a machine is held against that claims to be it.
+output::Dataset as_it_was(HiddenWorld const& world, scenarios::Experiment const& experiment) {
+  auto const run = simulate(Machine::build(with_quiet_sensors(world.hidden)), experiment);
+  output::Dataset data;
+  data.title = run.title;
+  data.time_s = run.time_s;
+  data.inputs = run.inputs;
+  data.readings = run.readings;
+  data.displacements = run.truth_displacements;
   return data;
 }
 
@@ -156,10 +177,11 @@ std::string write_challenge(ChallengeOptions const& options) {
     json["moved"] = moved(data, without);
     json["warmed_K"] = warmed(data, without);
   }
+  output::write(as_it_was(world, runs.back()), options.folder / "sealed_unseen.h5");
   json["drawn"] = world.drawn;
   std::filesystem::copy_file(file, options.folder / "machine.toml");
   output::write_atomically(options.folder / "sealed.json", json.dump(2) + "\n");
-  return fmt::format("{}: {} with {} sensors, three runs, {:.0f} h; the truth is in sealed.json\n",
+  return fmt::format("{}: {} with {} sensors, three runs, {:.0f} h; the truth is in sealed.json and sealed_unseen.h5\n",
                      options.folder.string(), nominal_machine.name, nominal_machine.sensors.size(), hours);
 }
 

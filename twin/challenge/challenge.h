@@ -26,6 +26,7 @@ struct ChallengeOptions {
 /// | machine.toml | the nominal machine, as its file stands |
 /// | run1.h5, run2.h5 | inputs, readings and displacements of the two runs to diagnose with; nothing else |
 /// | unseen.h5 | those of the run that is held out |
+/// | sealed_unseen.h5 | the same run before noise: what the hidden machine did, as its sensors would show it without |
 /// | sealed.json | kind, effects, sites, amplitudes, heat per body and run, displacement moved, parameters drawn |
 ///
 /// The same options write the same bytes. OutputError if the folder is there and not empty. A further run is written

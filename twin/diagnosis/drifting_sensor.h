@@ -14,8 +14,8 @@ namespace thermotwin::twin {
 /// wrong at rest. So the sensors' slow noise is taken to be σ₂ = 0.02 K and 0.5 % of the way that a reading has gone
 /// from where it began (ChannelNoise::way_share), instead of 2 % of its range throughout, times as much as was heard.
 /// With that noise the numbers are fitted again, and every drift among `hypotheses` has its score T = b²/a. The largest
-/// must reach 12, the 99 % point of the largest of some twenty (physics.md 8.6). Where more than two reach it, it is no
-/// sensor: a room that swings pulls at all of them.
+/// must reach 15, amid the 12 to 20 that physics.md 8.6 expects with correlated errors. Where more than two reach it,
+/// it is no sensor: a room that swings pulls at all of them.
 [[nodiscard]] std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit const& calibrated,
                                                           std::vector<Hypothesis> const& hypotheses);
 

@@ -154,7 +154,7 @@ std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vec
     start << about.x, scores[chosen[i]].amplitude;
     auto const last = about.x.size();
     bool const both = refit.hypothesis.trial->either_sign;
-    start[last] = std::clamp(start[last], both ? -1.5 : 1e-3, 1.5);
+    start[last] = std::clamp(start[last], both ? -most_of_largest : 1e-3, most_of_largest);
     try {
       Fit const fit = estimation_->with(std::vector<Hypothesis>{refit.hypothesis}).fit(start, 4);
       refit.x = fit.x;

@@ -239,7 +239,7 @@ Estimation Estimation::with(std::vector<Hypothesis> const& effects) const {
   for (auto const& effect : effects) {
     bool const both = effect.trial->either_sign;
     other.unknowns_.push_back({Unknown::Kind::amplitude, effect.label(), 0.0, amplitude_deviation,
-                               both ? -INFINITY : 1e-9, INFINITY, other.effects_.size(), -1});
+                               both ? -most_of_largest : 1e-9, most_of_largest, other.effects_.size(), -1});
     other.effects_.push_back(effect);
   }
   return other;
@@ -460,7 +460,7 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   for (auto const& unknown : unknowns_) fit.evidence += 2.0 * std::log(unknown.deviation);
   for (auto const& effect : effects_) fit.evidence += effect.choice;
   for (auto const& unknown : unknowns_)
-    if (unknown.kind == Unknown::Kind::amplitude && std::isfinite(unknown.lower)) fit.evidence -= 2.0 * std::log(2.0);
+    if (unknown.kind == Unknown::Kind::amplitude && unknown.lower > 0.0) fit.evidence -= 2.0 * std::log(2.0);
   return fit;
 }
 

@@ -9,6 +9,9 @@
 
 namespace thermotwin::twin {
 
+/// Beyond this share of the largest plausible amplitude it is not that effect.
+inline constexpr double most_of_largest = 1.25;
+
 /// One effect that a machine file may lack, at one site: a table that could be appended to it.
 struct Hypothesis {
   Effect const* effect = nullptr;

@@ -186,8 +186,10 @@ Eigen::VectorXd cosines(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen
 double evidence_of(Score const& score, Hypothesis const& hypothesis, double deviation) {
   if (score.statistic <= 0.0) return -hypothesis.choice;
   double const a = score.information, b = score.amplitude * a;
+  double const precision = a + 1.0 / (deviation * deviation);
+  double const amplitude = std::clamp(b / precision, -most_of_largest, most_of_largest);
   double const gain =
-      b * b / (a + 1.0 / (deviation * deviation)) - std::log1p(a * deviation * deviation) - hypothesis.choice;
+      (2.0 * b - precision * amplitude) * amplitude - std::log1p(a * deviation * deviation) - hypothesis.choice;
   return hypothesis.trial->either_sign ? gain : gain + 2.0 * std::log(2.0);
 }
 
