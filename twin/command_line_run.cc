@@ -20,8 +20,6 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double finest_tolerance = 1e-12, coarsest_tolerance = 0.01;
-
 struct RunCommand {
   std::string experiment, machine, dataset, fields, picture, field_interval = "15 min", checkpoint;
   std::vector<std::string> settings;

@@ -23,6 +23,9 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Of a run's tolerance, as users give it.
+inline constexpr double finest_tolerance = 1e-12, coarsest_tolerance = 0.01;
+
 /// How a run is carried out and what it leaves behind.
 struct RunOptions {
   thermal::IntegrationOptions integration;

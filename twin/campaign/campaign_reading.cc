@@ -11,6 +11,7 @@
 #include "twin/file/shipped_file.h"
 #include "twin/file/text_file.h"
 #include "twin/machine.h"
+#include "twin/run.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -19,7 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_values_tried = 20;
 constexpr double most_runs = 1e9;
-constexpr double finest_tolerance = 1e-12, coarsest_tolerance = 0.01;
 
 /// Beside the campaign's file, or as the command line takes it.
 template <class Shipped>

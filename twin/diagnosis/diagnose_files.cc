@@ -54,13 +54,14 @@ AddedTable table_of(Diagnosis const& diagnosis, std::size_t u, RunFiles const& d
   auto const i = Eigen::Index(u);
   double const amplitude = diagnosis.amended.x[i] * effect.trial->largest;
   Explanation const* explanation = explanation_of(diagnosis, effect);
-  double const error = explanation ? explanation->alternatives[0].standard_error
-                                   : std::sqrt(diagnosis.amended.covariance(i, i)) * effect.trial->largest;
+  double const error = std::sqrt(diagnosis.amended.covariance(i, i)) * effect.trial->largest;
   std::string const unit = readable_unit(amplitude, effect.dimension());
   AddedTable table{effect.effect->name, {}, origin_of(diagnosis, effect, data)};
   for (auto const& [key, text] : table_of(effect, fmt::format("diagnosed_{}", number + 1), amplitude))
     if (key == effect.trial->amplitude)
-      table.keys.push_back({key, written_value(amplitude, unit), written_interval(error, unit)});
+      table.keys.push_back(
+          {key, written_value(amplitude, unit),
+           explanation ? explanation->alternatives[0].interval_text(unit) : written_interval(error, unit)});
     else
       table.keys.push_back({key, text, ""});
   return table;

@@ -76,18 +76,17 @@ Diagnosis Diagnostician::operator()() {
   return d;
 }
 
-/// Heat of free course is still evident, or it took two effects on the body of the first, which is about heat: the
-/// catalogue does not have what acts there.
+/// Heat of free course is still evident, or it took two effects on one body that are about heat: the catalogue does not
+/// have what acts there.
 bool Diagnostician::is_unknown_heat() const {
   auto const& found = diagnosis_.explanations;
   auto const& left = found.empty() ? diagnosis_.scan : diagnosis_.left;
   if (!left.empty() && left[0].gain > options_.heat_left) return true;
-  if (found.empty()) return false;
-  auto const& first = found[0].alternatives[0].hypothesis;
-  if (!is_about(first, "source") && !is_about(first, "film") && !is_about(first, "boundary")) return false;
-  return std::any_of(found.begin() + 1, found.end(), [&](Explanation const& other) {
-    auto const& further = other.alternatives[0].hypothesis;
-    return further.body == first.body && further.label() != first.label();
+  std::map<std::string, std::string> acting;  // on each body, the first
+  return std::any_of(found.begin(), found.end(), [&](Explanation const& explanation) {
+    auto const& effect = explanation.alternatives[0].hypothesis;
+    if (!is_about(effect, "source") && !is_about(effect, "film") && !is_about(effect, "boundary")) return false;
+    return acting.emplace(effect.body, effect.label()).first->second != effect.label();
   });
 }
 

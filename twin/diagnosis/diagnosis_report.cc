@@ -23,7 +23,7 @@ std::string amplitude_text(Finding const& finding) {
   auto const& hypothesis = finding.hypothesis;
   std::string const unit = readable_unit(finding.amplitude, hypothesis.dimension());
   std::string text = fmt::format("{} = {} {}", hypothesis.trial->amplitude, written_value(finding.amplitude, unit, 3),
-                                 written_interval(finding.standard_error, unit));
+                                 finding.interval_text(unit));
   auto const is_site = [&](std::string const& key) {
     return std::any_of(hypothesis.trial->sites.begin(), hypothesis.trial->sites.end(),
                        [&](auto const& site) { return key == site.key || key == site.other || key == "axis"; });
@@ -36,7 +36,6 @@ std::string amplitude_text(Finding const& finding) {
 }
 
 Json json_of(Finding const& finding, std::size_t group) {
-  double const half = two_sided_95 * finding.standard_error;
   Json keys = Json::object();
   for (auto const& [key, text] : finding.hypothesis.keys) keys[key] = text;
   return {{"group", group},
@@ -45,8 +44,8 @@ Json json_of(Finding const& finding, std::size_t group) {
           {"body", finding.hypothesis.body},
           {"parameter", finding.hypothesis.trial->amplitude},
           {"amplitude", finding.amplitude},
-          {"low", finding.amplitude - half},
-          {"high", finding.amplitude + half},
+          {"low", finding.low()},
+          {"high", finding.high()},
           {"unit", thermal::unit_of(finding.hypothesis.dimension())},
           {"keys", keys},
           {"weight", finding.weight},

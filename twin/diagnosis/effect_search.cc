@@ -17,13 +17,6 @@ namespace {
 constexpr std::size_t most_refits = 24;
 constexpr std::size_t most_alternatives = 3;
 constexpr double confusable = 0.6;  // cosine of two signatures (physics.md 8.6)
-constexpr double fit_share = 1.2, form_share = 0.1;
-
-/// Of an amplitude: what the linearised fit says, and what a machine of some ten nodes gets wrong by its form, however
-/// clear the data are. With these shares intervals of 95 % are such (docs/diagnosis.md).
-double standard_error(double of_fit, double amplitude) {
-  return std::hypot(fit_share * of_fit, form_share * amplitude);
-}
 
 /// −2 ln likelihood of one channel's residuals in all runs.
 double misfit(ChannelNoise const& noise, std::string const& channel, std::vector<BinnedRun> const& runs,
@@ -98,7 +91,7 @@ struct EffectSearch::Refit {
 };
 
 EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options)
-    : options_(options) {
+    : options_(options), geometry_(Machine::build(document).geometry) {
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs));
   expected_ = estimation_->noise();
@@ -202,10 +195,8 @@ Explanation EffectSearch::explanation_of(std::vector<Refit> const& refits) const
     if (behind > options_.indistinct || explanation.alternatives.size() == most_alternatives) break;
     auto const same = [&](Finding const& f) { return f.hypothesis.effect == refit.hypothesis.effect; };
     if (std::any_of(explanation.alternatives.begin(), explanation.alternatives.end(), same)) continue;
-    double const unit = refit.hypothesis.trial->largest;
-    Finding finding{refit.hypothesis, refit.amplitude * unit,
-                    standard_error(refit.standard_error, refit.amplitude) * unit, refit.strength,
-                    std::exp(-0.5 * behind)};
+    Finding finding{.hypothesis = refit.hypothesis, .strength = refit.strength, .weight = std::exp(-0.5 * behind)};
+    finding.take(refit.amplitude, refit.standard_error, geometry_);
     sum += finding.weight;
     explanation.alternatives.push_back(std::move(finding));
   }
@@ -345,10 +336,7 @@ void EffectSearch::take_joint_estimates() {
   auto const first = calibrated_.x.size();
   for (std::size_t e = 0; e < explanations_.size(); ++e) {
     auto const u = first + Eigen::Index(e);
-    auto& best = explanations_[e].alternatives[0];
-    double const unit = best.hypothesis.trial->largest;
-    best.amplitude = fit_.x[u] * unit;
-    best.standard_error = standard_error(std::sqrt(fit_.covariance(u, u)), fit_.x[u]) * unit;
+    explanations_[e].alternatives[0].take(fit_.x[u], std::sqrt(fit_.covariance(u, u)), geometry_);
   }
 }
 

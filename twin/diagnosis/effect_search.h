@@ -7,23 +7,10 @@
 #include <vector>
 
 #include "twin/diagnosis/estimation.h"
+#include "twin/diagnosis/finding.h"
 #include "twin/diagnosis/score.h"
 
 namespace thermotwin::twin {
-
-/// An effect at a site as fitted.
-struct Finding {
-  Hypothesis hypothesis;
-  double amplitude = 0.0;       ///< [SI]
-  double standard_error = 0.0;  ///< [SI]
-  double strength = 0.0;        ///< 2 ln of the evidence against a machine without it
-  double weight = 0.0;          ///< among its alternatives
-};
-
-/// One thing that is missing: one effect, or several that the data cannot tell apart, best first.
-struct Explanation {
-  std::vector<Finding> alternatives;
-};
 
 struct DiagnosisOptions {
   std::vector<std::string> without;  ///< effects that are not tried
@@ -86,6 +73,7 @@ class EffectSearch {
   void take_joint_estimates();
 
   DiagnosisOptions const& options_;
+  thermal::Geometry geometry_;
   std::vector<ChannelNoise> expected_;
   std::vector<Hypothesis> hypotheses_;
   std::optional<Estimation> plain_;

@@ -132,6 +132,15 @@ TEST(Score, EvidenceIsAnIntegralOverTheAmplitude) {
   EXPECT_EQ(evidence_of({}, {nullptr, &toy.any, "", "", {}}, deviation), 0.0);
 }
 
+/// Nobody believes in an effect of three times its largest size: it explains what it does at 1.25 of it.
+TEST(Score, EvidenceOfAnImplausibleAmplitudeIsThatOfThePlausibleOne) {
+  Toy const toy;
+  double const a = 8.0, amplitude = 3.0, deviation = 0.5, most = 1.25;
+  double const gain = 2.0 * a * amplitude * most - (a + 1.0 / (deviation * deviation)) * most * most;
+  EXPECT_NEAR(evidence_of({a * amplitude * amplitude, amplitude, a, 1.0}, {nullptr, &toy.any, "", "", {}}, deviation),
+              gain - std::log1p(a * deviation * deviation), 1e-12);
+}
+
 /// A machine that hides 30 W, and the fit of its twin that does not know of it.
 struct Hidden {
   explicit Hidden(std::string const& table)

@@ -1,0 +1,42 @@
+#include "twin/diagnosis/finding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "twin/diagnosis/estimate_text.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double fit_share = 1.2, form_share = 0.1;
+constexpr double lump_limit = 0.1;     // Biot number
+constexpr double conductivity = 20.0;  // of a body of several parts [W/(m K)]
+
+/// h at the Biot number up to which a body is a lump [W/(m² K)]; without end for one that is cut into cells.
+double strongest_film(std::string const& body, thermal::Geometry const& geometry) {
+  auto const found = std::find_if(geometry.begin(), geometry.end(), [&](auto const& b) { return b.name == body; });
+  if (found == geometry.end() || found->cells.size() != 1) return INFINITY;
+  return lump_limit * conductivity / (std::cbrt(thermal::volume(found->cells[0])) / 6.0);
+}
+
+}  // namespace
+
+void Finding::take(double of_largest, double error, thermal::Geometry const& geometry) {
+  double const unit = hypothesis.trial->largest;
+  amplitude = of_largest * unit;
+  standard_error = std::hypot(fit_share * error, form_share * of_largest) * unit;
+  at_least = hypothesis.dimension() == thermal::dimension::film_coefficient &&
+             amplitude > strongest_film(hypothesis.body, geometry);
+}
+
+double Finding::low() const { return amplitude - two_sided_95 * standard_error; }
+
+double Finding::high() const {
+  return at_least ? most_of_largest * hypothesis.trial->largest : amplitude + two_sided_95 * standard_error;
+}
+
+std::string Finding::interval_text(std::string const& unit) const {
+  return at_least ? "or more, at least " + written_value(low(), unit, 2) : written_interval(standard_error, unit);
+}
+
+}  // namespace thermotwin::twin

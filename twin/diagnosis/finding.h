@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "thermal/geometry.h"
+#include "twin/diagnosis/hypothesis.h"
+
+namespace thermotwin::twin {
+
+/// An effect at a site as fitted.
+struct Finding {
+  Hypothesis hypothesis;
+  double amplitude = 0.0;       ///< [SI]
+  double standard_error = 0.0;  ///< [SI]
+  /// A film on a lump, as strong as what the lump itself conducts or nearly so: what was fitted is both, one behind the
+  /// other, and the film alone may be anything above.
+  bool at_least = false;
+  double strength = 0.0;  ///< 2 ln of the evidence against a machine without it
+  double weight = 0.0;    ///< among its alternatives
+
+  /// Takes an amplitude of the fit and its standard error there, in units of the trial's largest. To that error comes a
+  /// tenth of the amplitude: what a machine of some ten nodes gets wrong by its form, however clear the data are
+  /// (docs/diagnosis.md). Beyond a Biot number h L/k of 0.1, with L = V^(1/3)/6 as of a cube and k = 20 W/(m K) as of a
+  /// body of several parts, a lump is none (Incropera, Fundamentals of Heat and Mass Transfer, 5.2).
+  void take(double of_largest, double error, thermal::Geometry const& geometry);
+
+  /// Ends of the 95 % interval [SI].
+  [[nodiscard]] double low() const;
+  [[nodiscard]] double high() const;
+  /// "± 10 W/(m2 K)" or, without an upper end, "or more, at least 170 W/(m2 K)".
+  [[nodiscard]] std::string interval_text(std::string const& unit) const;
+};
+
+/// One thing that is missing: one effect, or several that the data cannot tell apart, best first.
+struct Explanation {
+  std::vector<Finding> alternatives;
+};
+
+}  // namespace thermotwin::twin
