@@ -34,7 +34,7 @@ std::vector<Tried> const& tried() {
 }
 
 Machine with(Tried const& tried, Hypothesis const& hypothesis, double share) {
-  return Machine::build(with_hypothesis(tried.document, hypothesis, "trial", share * hypothesis.trial->largest));
+  return Machine::build(with_hypothesis(tried.document, hypothesis, "trial", share * hypothesis.largest));
 }
 
 std::vector<double> heat(Tried const& tried, Hypothesis const& hypothesis, double share) {

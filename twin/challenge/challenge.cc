@@ -100,7 +100,7 @@ Json effect_json(HiddenEffect const& effect) {
           {"body", hypothesis.body},
           {"amplitude_key", hypothesis.trial->amplitude},
           {"amplitude", effect.amplitude},
-          {"largest", hypothesis.trial->largest},
+          {"largest", hypothesis.largest},
           {"numbers", hypothesis.effect->numbers},
           {"confusable", hypothesis.effect->confusable},
           {"keys", keys}};

@@ -214,7 +214,7 @@ HiddenEffect EffectDraw::pick(std::vector<Hypothesis const*> const& candidates) 
   for (auto const* candidate : candidates)
     if (candidate->effect->name == *name) of_effect.push_back(candidate);
   Hypothesis const& chosen = *of_effect[std::size_t(stream_.uniform() * double(of_effect.size()))];
-  double amplitude = chosen.trial->largest * stream_.log_uniform(least_amplitude, most_amplitude);
+  double amplitude = chosen.largest * stream_.log_uniform(least_amplitude, most_amplitude);
   if (chosen.trial->either_sign && stream_.uniform() < 0.5) amplitude = -amplitude;
   return {chosen, amplitude};
 }

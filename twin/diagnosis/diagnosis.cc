@@ -144,7 +144,7 @@ void Diagnostician::propose() {
     Rivals rivals;
     for (auto const& finding : explanation.alternatives) {
       rivals.hypotheses.push_back(finding.hypothesis);
-      rivals.amplitudes.push_back(finding.amplitude / finding.hypothesis.trial->largest);
+      rivals.amplitudes.push_back(finding.amplitude / finding.hypothesis.largest);
     }
     diagnosis_.proposals = remedies(document_, runs_, {rivals})[0];
     return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 #include "twin/diagnosis/score.h"
 
@@ -32,22 +33,32 @@ Estimation with_rest(Estimation const& estimation, std::vector<Hypothesis> const
 
 std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit const& calibrated,
                                             std::vector<Hypothesis> const& hypotheses) {
+  auto const is_drift = [](Hypothesis const& h) { return h.effect->name == "sensor_drift"; };
+  auto const is_of_machine = [](Hypothesis const& h) { return h.effect->changes.find("sensor") == std::string::npos; };
   std::vector<Hypothesis> drifts;
-  for (auto const& hypothesis : hypotheses)
-    if (hypothesis.effect->name == "sensor_drift") drifts.push_back(hypothesis);
+  std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(drifts), is_drift);
   if (drifts.empty()) return std::nullopt;
   Estimation const resting = with_rest(estimation, drifts);
   Fit const fit = resting.fit(calibrated.x, 6);
-  Eigen::MatrixXd columns = signatures(resting, fit, drifts);
-  resting.whiten(columns);
-  auto const scores = score(fit, columns, drifts);
+  auto const scores_of = [&](std::vector<Hypothesis> const& tried) {
+    Eigen::MatrixXd columns = signatures(resting, fit, tried);
+    resting.whiten(columns);
+    return score(fit, columns, tried);
+  };
+  auto const scores = scores_of(drifts);
   auto const clearest = std::max_element(scores.begin(), scores.end(),
                                          [](Score const& a, Score const& b) { return a.statistic < b.statistic; });
   auto const drifting =
       std::count_if(scores.begin(), scores.end(), [](Score const& s) { return s.statistic >= least_statistic; });
   if (drifting < 1 || drifting > most_drifting) return std::nullopt;
   auto const& drift = drifts[std::size_t(clearest - scores.begin())];
-  double const unit = drift.trial->largest * seconds_a_day;
+  std::vector<Hypothesis> others;
+  std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(others), is_of_machine);
+  auto const rivals = scores_of(others);
+  double const evidence = evidence_of(*clearest, drift, 0.5);
+  for (std::size_t k = 0; k < others.size(); ++k)
+    if (evidence_of(rivals[k], others[k], 0.5) > evidence) return std::nullopt;
+  double const unit = drift.largest * seconds_a_day;
   return FaultySensor{drift.body, fmt::format("drifts by {:.2f} ± {:.2f} K a day, which shows where the machine rests",
                                               clearest->amplitude * unit, unit / std::sqrt(clearest->information))};
 }

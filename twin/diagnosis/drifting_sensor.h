@@ -15,7 +15,8 @@ namespace thermotwin::twin {
 /// from where it began (ChannelNoise::way_share), instead of 2 % of its range throughout, times as much as was heard.
 /// With that noise the numbers are fitted again, and every drift among `hypotheses` has its score T = b²/a. The largest
 /// must reach 15, amid the 12 to 20 that physics.md 8.6 expects with correlated errors. Where more than two reach it,
-/// it is no sensor: a room that swings pulls at all of them.
+/// it is no sensor: a room that swings pulls at all of them. Nor is it where an effect of the machine explains more:
+/// slow heat that is too little to be named looks like a drift of the sensor next to it.
 [[nodiscard]] std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit const& calibrated,
                                                           std::vector<Hypothesis> const& hypotheses);
 

@@ -85,7 +85,7 @@ Eigen::VectorXd shorter(Eigen::VectorXd const& x, Eigen::Index gone) {
 /// A fit with one effect more.
 struct EffectSearch::Refit {
   Hypothesis hypothesis;
-  double amplitude = 0.0, standard_error = 0.0;  ///< in units of the trial's largest
+  double amplitude = 0.0, standard_error = 0.0;  ///< in units of its largest
   Eigen::VectorXd x;
   double strength = -INFINITY;
 };

@@ -21,7 +21,7 @@ constexpr double lag_deviation = 25.0;       // [s]
 constexpr double start_deviation = 0.3;      // [K]
 constexpr double air_deviation = 0.2;        // [K]
 constexpr double input_deviation = 0.7;      // of the response to what may have been given instead
-constexpr double amplitude_deviation = 0.5;  // of the trial's largest
+constexpr double amplitude_deviation = 0.5;  // of its largest
 constexpr double relative_step = 1e-4;
 constexpr int start_halvings = 4;
 
@@ -266,8 +266,8 @@ Value Estimation::document_at(Eigen::VectorXd const& x) const {
       set_number(document, {number.path, number.nominal, number.dimension, false}, number.value(x[Eigen::Index(u)]));
     } else if (unknown.kind == Unknown::Kind::amplitude) {
       auto const& effect = effects_[unknown.index];
-      document = with_hypothesis(std::move(document), effect, table_name(unknown.index),
-                                 x[Eigen::Index(u)] * effect.trial->largest);
+      document =
+          with_hypothesis(std::move(document), effect, table_name(unknown.index), x[Eigen::Index(u)] * effect.largest);
     }
   }
   return document;

@@ -39,8 +39,7 @@ bool is_excited(Hypothesis const& hypothesis, Value const& document, Machine con
                 std::vector<BinnedRun> const& runs) {
   if (hypothesis.site != "machine") return true;
   auto const before = followed(machine);
-  auto const after =
-      followed(Machine::build(with_hypothesis(document, hypothesis, "trial", hypothesis.trial->largest)));
+  auto const after = followed(Machine::build(with_hypothesis(document, hypothesis, "trial", hypothesis.largest)));
   bool follows = false;
   for (auto const& name : after) {
     if (before.contains(name)) continue;

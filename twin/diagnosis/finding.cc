@@ -22,7 +22,7 @@ double strongest_film(std::string const& body, thermal::Geometry const& geometry
 }  // namespace
 
 void Finding::take(double of_largest, double error, thermal::Geometry const& geometry) {
-  double const unit = hypothesis.trial->largest;
+  double const unit = hypothesis.largest;
   amplitude = of_largest * unit;
   standard_error = std::hypot(fit_share * error, form_share * of_largest) * unit;
   at_least = hypothesis.dimension() == thermal::dimension::film_coefficient &&
@@ -32,7 +32,7 @@ void Finding::take(double of_largest, double error, thermal::Geometry const& geo
 double Finding::low() const { return amplitude - two_sided_95 * standard_error; }
 
 double Finding::high() const {
-  return at_least ? most_of_largest * hypothesis.trial->largest : amplitude + two_sided_95 * standard_error;
+  return at_least ? most_of_largest * hypothesis.largest : amplitude + two_sided_95 * standard_error;
 }
 
 std::string Finding::interval_text(std::string const& unit) const {

@@ -19,7 +19,7 @@ struct Finding {
   double strength = 0.0;  ///< 2 ln of the evidence against a machine without it
   double weight = 0.0;    ///< among its alternatives
 
-  /// Takes an amplitude of the fit and its standard error there, in units of the trial's largest. To that error comes a
+  /// Takes an amplitude of the fit and its standard error there, in units of its largest. To that error comes a
   /// tenth of the amplitude: what a machine of some ten nodes gets wrong by its form, however clear the data are
   /// (docs/diagnosis.md). Beyond a Biot number h L/k of 0.1, with L = V^(1/3)/6 as of a cube and k = 20 W/(m K) as of a
   /// body of several parts, a lump is none (Incropera, Fundamentals of Heat and Mass Transfer, 5.2).

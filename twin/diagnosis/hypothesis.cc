@@ -1,10 +1,12 @@
 #include "twin/diagnosis/hypothesis.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "thermal/error.h"
@@ -196,6 +198,25 @@ std::vector<Spot> spots_of(Trial const& trial, Sites const& sites) {
   return combined;
 }
 
+/// Of a box around its cells, or of the cylinder that its rings make [m²].
+double outer_surface(thermal::BodyGeometry const& body) {
+  Eigen::AlignedBox3d box;
+  double mantle = 0.0, end = 0.0;
+  for (auto const& cell : body.cells) {
+    if (auto const* brick = std::get_if<thermal::BoxCell>(&cell)) {
+      box.extend(brick->corner);
+      box.extend(brick->corner + brick->edges.rowwise().sum());
+    } else {
+      auto const& ring = std::get<thermal::RingCell>(cell);
+      mantle += 2.0 * std::numbers::pi * ring.outer_radius * ring.height;
+      end = std::max(end, std::numbers::pi * ring.outer_radius * ring.outer_radius);
+    }
+  }
+  if (box.isEmpty()) return mantle + 2.0 * end;
+  Eigen::Vector3d const a = box.sizes();
+  return 2.0 * (a[0] * a[1] + a[1] * a[2] + a[2] * a[0]);
+}
+
 /// A table of the file that does the same at the same place.
 bool stands_already(Value const& document, Hypothesis const& hypothesis) {
   Value const* tables = document.find(hypothesis.effect->name);
@@ -222,6 +243,8 @@ thermal::Dimension Hypothesis::dimension() const { return field(*effect, trial->
 std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine,
                                    std::vector<std::string> const& without) {
   Sites const sites(document, machine);
+  std::map<std::string, double> surfaces;
+  for (auto const& body : machine.geometry) surfaces[body.name] = outer_surface(body);
   std::vector<Hypothesis> result;
   for (auto const& entry : effect_catalogue()) {
     if (std::find(without.begin(), without.end(), entry.name) != without.end()) continue;
@@ -231,6 +254,11 @@ std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine
         for (auto const& shape : shapes) {
           Hypothesis hypothesis{&entry, &trial, spot.site, spot.body, spot.keys};
           hypothesis.keys.insert(hypothesis.keys.end(), shape.begin(), shape.end());
+          hypothesis.largest = trial.largest;
+          if (hypothesis.dimension() == thermal::dimension::area)
+            for (auto const& [key, place] : spot.keys)
+              if (auto const body = surfaces.find(body_of(place)); body != surfaces.end() && body->second > 0.0)
+                hypothesis.largest = std::min(hypothesis.largest, body->second);
           if (!stands_already(document, hypothesis)) result.push_back(std::move(hypothesis));
         }
       }

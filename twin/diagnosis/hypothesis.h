@@ -22,6 +22,8 @@ struct Hypothesis {
   /// 2 ln of the number of sites and shapes that the effect has in this machine: effects are equally likely beforehand,
   /// and so are the sites of one. Among a hundred sites, one fits by chance.
   double choice = 0.0;
+  /// Largest plausible amplitude here [SI]: the trial's; of an area, no more than the body has, and the other one.
+  double largest = 0.0;
 
   /// What is compared: entries that differ in their shape only are one effect at one place.
   [[nodiscard]] std::string label() const { return effect->name + " at " + site; }

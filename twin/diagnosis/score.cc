@@ -54,8 +54,7 @@ class SharedNetwork {
 Machine SharedNetwork::with_all(Value document, std::vector<Hypothesis> const& hypotheses,
                                 std::vector<std::size_t> const& shared, double amplitude) {
   for (std::size_t const h : shared)
-    document =
-        with_hypothesis(std::move(document), hypotheses[h], trial_table(h), amplitude * hypotheses[h].trial->largest);
+    document = with_hypothesis(std::move(document), hypotheses[h], trial_table(h), amplitude * hypotheses[h].largest);
   return Machine::build(document);
 }
 
@@ -94,7 +93,7 @@ std::vector<thermal::NetworkDerivative const*> SharedNetwork::derivatives() cons
 /// One hypothesis alone, where it changes readings, displacements or the air.
 void add_alone(Estimation const& estimation, Value const& document, Hypothesis const& hypothesis, std::size_t index,
                std::vector<std::optional<LinearisedRun>> const& twins, Eigen::MatrixXd& columns) {
-  double const unit = hypothesis.trial->largest;
+  double const unit = hypothesis.largest;
   auto const at = [&](double amplitude) {
     Machine machine = Machine::build(with_hypothesis(document, hypothesis, trial_table(index), amplitude * unit));
     auto const& fitted = twins[0]->machine().sensors;

@@ -11,11 +11,11 @@ namespace thermotwin::twin {
 ///
 ///   T = b²/a,  ψ̂ = b/a,  a = s⊥ᵀ s⊥,  b = s⊥ᵀ r,   s⊥ = s − J (JᵀJ)⁻¹ Jᵀ s,
 ///
-/// s: whitened response to the amplitude in units of the trial's `largest`; r, J: residual and Jacobian of a fit,
+/// s: whitened response to the amplitude in units of its `largest`; r, J: residual and Jacobian of a fit,
 /// priors included. Under "nothing is missing" T is χ² with one degree of freedom.
 struct Score {
   double statistic = 0.0;    ///< T; 0 where the sign is not allowed
-  double amplitude = 0.0;    ///< ψ̂, in units of the trial's largest
+  double amplitude = 0.0;    ///< ψ̂, in units of its largest
   double information = 0.0;  ///< a
   double kept = 0.0;         ///< |s⊥|/|s|: what nuisance parameters leave of the signature
 };

@@ -102,7 +102,7 @@ EffectSignatures effect_signatures(Value const& document, std::vector<CandidateS
   in_parallel(effects.size(), options.progress, nullptr, [&](std::size_t e) {
     try {
       auto const& effect = effects[e];
-      auto const changed = with_hypothesis(with_sites, effect, "tried", share_of_largest * effect.trial->largest);
+      auto const changed = with_hypothesis(with_sites, effect, "tried", share_of_largest * effect.largest);
       differences[e] = readings(Machine::build(changed)) - without;
     } catch (thermal::InputError const&) {  // it cannot act there
     } catch (thermal::IntegrationError const&) {

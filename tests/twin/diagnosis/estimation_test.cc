@@ -217,7 +217,7 @@ TEST(Estimation, FindsTheAmplitudeOfAnAddedEffect) {
   start << before.x, 0.01;
   Fit const after = with.fit(start);
   Index const last = after.x.size() - 1;
-  double const error = std::sqrt(after.covariance(last, last)), unit = heat[0].trial->largest;
+  double const error = std::sqrt(after.covariance(last, last)), unit = heat[0].largest;
   EXPECT_NEAR(after.x[last] * unit, 60.0, 3.0 * error * unit);
   EXPECT_LT(error * unit, 15.0);
   EXPECT_LT(after.evidence, before.evidence - 20.0);
