@@ -154,7 +154,7 @@ fs::path ReductionStore::file(std::string const& key) const { return folder_ / (
 std::optional<Reduction> ReductionStore::find(std::string const& key) const {
   std::ifstream stream(file(key), std::ios::binary);
   std::string head;
-  if (!std::getline(stream, head)) return {};
+  if (!std::getline(stream, head) || stream.eof()) return {};
   std::string bytes(std::size_t(fs::file_size(file(key))) - head.size() - 1, '\0');
   stream.read(bytes.data(), std::streamsize(bytes.size()));
   if (head + '\n' != first_line(key, bytes)) return {};

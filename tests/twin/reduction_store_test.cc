@@ -72,7 +72,8 @@ TEST(ReductionStore, WhatIsDamagedIsMadeAnewAndKeptWhole) {
   (void)store.find_or_make("one", [&] { return made; });
   auto const path = store.file("one");
   auto const whole = contents(path);
-  std::vector<std::string> damaged = {"", "\n", "not ours\n" + whole, whole + "x", whole.substr(0, whole.size() / 2)};
+  std::vector<std::string> damaged = {
+      "", "\n", "not ours", "not ours\n" + whole, whole + "x", whole.substr(0, whole.size() / 2)};
   for (std::size_t i = 0; i < whole.size(); i += whole.size() / 23) {
     damaged.push_back(whole);
     damaged.back()[i] = char(damaged.back()[i] ^ 4);

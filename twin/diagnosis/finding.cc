@@ -36,7 +36,9 @@ double Finding::high() const {
 }
 
 std::string Finding::interval_text(std::string const& unit) const {
-  return at_least ? "or more, at least " + written_value(low(), unit, 2) : written_interval(standard_error, unit);
+  if (at_least) return "or more, at least " + written_value(low(), unit, 2);
+  bool const at_end = std::abs(amplitude) > 0.999 * most_of_largest * hypothesis.largest;
+  return written_interval(standard_error, unit) + (at_end ? ", as much as is plausible here" : "");
 }
 
 }  // namespace thermotwin::twin

@@ -28,7 +28,8 @@ struct Finding {
   /// Ends of the 95 % interval [SI].
   [[nodiscard]] double low() const;
   [[nodiscard]] double high() const;
-  /// "± 10 W/(m2 K)" or, without an upper end, "or more, at least 170 W/(m2 K)".
+  /// "± 10 W/(m2 K)"; without an upper end "or more, at least 170 W/(m2 K)"; at the end of what is plausible with a
+  /// word that it is.
   [[nodiscard]] std::string interval_text(std::string const& unit) const;
 };
 

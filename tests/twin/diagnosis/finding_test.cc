@@ -6,15 +6,15 @@
 namespace thermotwin::twin {
 namespace {
 
-/// Of v450, as a fit says that half of its largest size is there, known to a twentieth of that size.
-Finding half_of(std::string const& effect, std::string const& body) {
+/// Of v450, as a fit says that half of its largest size is there, or so much, known to a twentieth of that size.
+Finding half_of(std::string const& effect, std::string const& body, double of_largest = 0.5) {
   Value const document = read_toml(machine_file("v450"));
   Machine const machine = Machine::build(document);
   auto const all = hypotheses(document, machine);
   auto const one =
       std::find_if(all.begin(), all.end(), [&](auto const& h) { return h.effect->name == effect && h.body == body; });
   Finding finding{.hypothesis = *one};
-  finding.take(0.5, 0.05, machine.geometry);
+  finding.take(of_largest, 0.05, machine.geometry);
   return finding;
 }
 
@@ -26,6 +26,10 @@ TEST(Finding, HasAnInterval) {
   EXPECT_NEAR(heat.low(), 150.0 - half, 1e-9);
   EXPECT_NEAR(heat.high(), 150.0 + half, 1e-9);
   EXPECT_EQ(heat.interval_text("W"), "± 46 W");
+}
+
+TEST(Finding, SaysWhereItStandsAtTheEndOfWhatIsPlausible) {
+  EXPECT_EQ(half_of("heat", "bed", -1.25).interval_text("W"), "± 82 W, as much as is plausible here");
 }
 
 /// 1 kW/(m² K) on 300 mm of iron: a film that is as strong as what lies behind it.
