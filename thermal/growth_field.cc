@@ -1,7 +1,8 @@
 #include "thermal/growth_field.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+
+#include "thermal/bounding_box.h"
 
 namespace thermotwin::thermal {
 namespace {
@@ -146,39 +147,23 @@ void Growth::add_sections(int d, std::span<double const> rise) {
   sections_.push_back(std::move(sections));
 }
 
-Eigen::AlignedBox3d box_of(Body const& body) {
-  Eigen::AlignedBox3d box;
-  for (auto const& cell : body.cells) {
-    if (auto const* brick = std::get_if<BoxCell>(&cell)) {
-      box.extend(brick->corner);
-      box.extend(brick->corner + brick->edges.rowwise().sum());
-    } else {
-      auto const& ring = std::get<RingCell>(cell);
-      Vector3d const reach = ring.outer_radius * (Vector3d::Ones() - ring.axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
-      for (double const height : {0.0, ring.height})
-        for (double const side : {-1.0, 1.0}) box.extend(ring.origin + height * ring.axis + side * reach);
-    }
-  }
-  return box;
-}
-
 }  // namespace
 
 GrowingBody growing_body(Body const& body, int first_node, double expansion) {
   GrowingBody growing{body.shape, body.origin, body.axis, body.stations, body.capacities, first_node,
                       expansion,  -1,          {}};
   if (body.shape == Body::Shape::lump)
-    for (int d = 0; d < 3; ++d) growing.stations[std::size_t(d)] = {0.5 * box_of(body).sizes()[d]};
+    for (int d = 0; d < 3; ++d) growing.stations[std::size_t(d)] = {0.5 * bounding_box(body.cells).sizes()[d]};
   return growing;
 }
 
 Vector3d lower_face(Body const& body, Vector3d const& up) {
-  auto const box = box_of(body);
+  auto const box = bounding_box(body.cells);
   return box.center() - 0.5 * box.sizes().dot(up) * up;
 }
 
 Vector3d contact_centre(Body const& body, Body const& carrier) {
-  auto const own = box_of(body), other = box_of(carrier);
+  auto const own = bounding_box(body.cells), other = bounding_box(carrier.cells);
   Vector3d const low = own.min().cwiseMax(other.min()), high = own.max().cwiseMin(other.max());
   Vector3d centre = 0.5 * (low + high);
   for (int d = 0; d < 3; ++d)

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <numeric>
 
+#include "thermal/bounding_box.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
 #include "twin/assembly.h"
@@ -30,25 +31,6 @@ std::string body_of(std::string const& place) { return place.substr(0, place.fin
 bool plain(std::string const& place) { return place.find_first_of("[.") == std::string::npos; }
 std::string mm(double metres) { return fmt::format("{:.9g} mm", metres * 1e3); }
 std::string stretch(double low, double high) { return mm(low) + " .. " + mm(high); }
-
-Box box_of(thermal::Body const& body) {
-  Box box;
-  for (auto const& cell : body.cells) {
-    if (auto const* brick = std::get_if<thermal::BoxCell>(&cell)) {
-      box.extend(brick->corner);
-      box.extend(brick->corner + brick->edges.rowwise().sum());
-    } else {
-      auto const& ring = std::get<thermal::RingCell>(cell);
-      Eigen::Vector3d const across =
-          ring.outer_radius * (Eigen::Vector3d::Ones() - ring.axis.cwiseAbs()).cwiseMax(Eigen::Vector3d::Zero());
-      for (double end : {0.0, ring.height}) {
-        box.extend(ring.origin + end * ring.axis - across);
-        box.extend(ring.origin + end * ring.axis + across);
-      }
-    }
-  }
-  return box;
-}
 
 double overlap(Box const& a, Box const& b, int d) {
   return std::min(a.max()[d], b.max()[d]) - std::max(a.min()[d], b.min()[d]);
@@ -202,7 +184,8 @@ void RefinedForm::read_solids() {
   for (auto const& kind : {"lump", "bar", "hollow_cylinder", "block"})
     for (auto const* table : tables_of(document_, kind)) {
       auto const name = name_in(*table);
-      solids_[name] = {box_of(bodies.at(name)), std::string(kind) == "block", std::string(kind) == "bar"};
+      solids_[name] = {thermal::bounding_box(bodies.at(name).cells), std::string(kind) == "block",
+                       std::string(kind) == "bar"};
     }
 }
 

@@ -1,6 +1,5 @@
 #include "twin/diagnosis/hypothesis.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "thermal/bounding_box.h"
 #include "thermal/error.h"
 #include "twin/file/document.h"
 
@@ -198,22 +198,16 @@ std::vector<Spot> spots_of(Trial const& trial, Sites const& sites) {
   return combined;
 }
 
-/// Of a box around its cells, or of the cylinder that its rings make [m²].
+/// Of the cylinder that its rings make, or of a box around its cells [m²].
 double outer_surface(thermal::BodyGeometry const& body) {
-  Eigen::AlignedBox3d box;
   double mantle = 0.0, end = 0.0;
-  for (auto const& cell : body.cells) {
-    if (auto const* brick = std::get_if<thermal::BoxCell>(&cell)) {
-      box.extend(brick->corner);
-      box.extend(brick->corner + brick->edges.rowwise().sum());
-    } else {
-      auto const& ring = std::get<thermal::RingCell>(cell);
-      mantle += 2.0 * std::numbers::pi * ring.outer_radius * ring.height;
-      end = std::max(end, std::numbers::pi * ring.outer_radius * ring.outer_radius);
+  for (auto const& cell : body.cells)
+    if (auto const* ring = std::get_if<thermal::RingCell>(&cell)) {
+      mantle += 2.0 * std::numbers::pi * ring->outer_radius * ring->height;
+      end = std::max(end, std::numbers::pi * ring->outer_radius * ring->outer_radius);
     }
-  }
-  if (box.isEmpty()) return mantle + 2.0 * end;
-  Eigen::Vector3d const a = box.sizes();
+  if (mantle > 0.0) return mantle + 2.0 * end;
+  Eigen::Vector3d const a = thermal::bounding_box(body.cells).sizes();
   return 2.0 * (a[0] * a[1] + a[1] * a[2] + a[2] * a[0]);
 }
 
