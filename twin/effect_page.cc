@@ -109,7 +109,9 @@ std::string tried(Effect const& effect) {
                                     [&](auto const& f) { return f.key == trial.amplitude; });
     std::string sites;
     for (auto const& site : trial.sites) sites += (sites.empty() ? " at every " : " by ") + site.kind;
-    lines.push_back(fmt::format("{} up to {}{}{}", trial.amplitude, trial.either_sign ? "± " : "",
+    std::string const from =
+        trial.ordinary > 0.0 ? "beyond " + thermal::format_quantity(trial.ordinary, field->dimension) + " " : "";
+    lines.push_back(fmt::format("{} {}up to {}{}{}", trial.amplitude, from, trial.either_sign ? "± " : "",
                                 thermal::format_quantity(trial.largest, field->dimension), sites));
   }
   return fmt::format("{}", fmt::join(lines, "; "));

@@ -11,7 +11,7 @@ namespace thermotwin::twin {
 namespace {
 
 constexpr double air_slow = 0.02;         // what is not known of the air around a sensor [K]
-constexpr double way_of_range = 0.25;     // of what is expected of a range, for the way from the start
+constexpr double way_of_range = 0.5;      // of what is expected of a range, for the way from the start
 constexpr double least_statistic = 15.0;  // T of a drift
 constexpr int most_drifting = 2;          // beyond, something else pulls at all of them
 constexpr double seconds_a_day = 86400.0;
@@ -55,9 +55,9 @@ std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit co
   std::vector<Hypothesis> others;
   std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(others), is_of_machine);
   auto const rivals = scores_of(others);
-  double const evidence = evidence_of(*clearest, drift, 0.5);
+  double const evidence = evidence_of(*clearest, drift);
   for (std::size_t k = 0; k < others.size(); ++k)
-    if (evidence_of(rivals[k], others[k], 0.5) > evidence) return std::nullopt;
+    if (evidence_of(rivals[k], others[k]) > evidence) return std::nullopt;
   double const unit = drift.largest * seconds_a_day;
   return FaultySensor{drift.body, fmt::format("drifts by {:.2f} ± {:.2f} K a day, which shows where the machine rests",
                                               clearest->amplitude * unit, unit / std::sqrt(clearest->information))};

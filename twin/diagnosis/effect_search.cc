@@ -8,6 +8,7 @@
 #include <set>
 
 #include "twin/diagnosis/expected_noise.h"
+#include "twin/diagnosis/observed_noise.h"
 #include "twin/diagnosis/separation.h"
 #include "twin/parallel.h"
 
@@ -18,50 +19,11 @@ constexpr std::size_t most_refits = 24;
 constexpr std::size_t most_alternatives = 3;
 constexpr double confusable = 0.6;  // cosine of two signatures (physics.md 8.6)
 
-/// −2 ln likelihood of one channel's residuals in all runs.
-double misfit(ChannelNoise const& noise, std::string const& channel, std::vector<BinnedRun> const& runs,
-              std::vector<Eigen::MatrixXd> const& residuals) {
-  double sum = 0.0;
-  for (std::size_t r = 0; r < runs.size(); ++r)
-    for (std::size_t c = 0; c < runs[r].run->channels.size(); ++c) {
-      if (runs[r].run->channels[c].name != channel) continue;
-      Whitening const whitening = whitening_of(noise, runs[r], Eigen::Index(c));
-      Eigen::MatrixXd signal = residuals[r].col(Eigen::Index(c));
-      whitening.apply(signal);
-      sum += signal.squaredNorm() + 2.0 * whitening.log_scale();
-    }
-  return sum;
-}
-
-/// The model error that the residuals of a fit have: how much over minutes, how much over hours. Never below
-/// what was expected: residuals of a fit are smaller than the noise.
-std::vector<ChannelNoise> observed_noise(Estimation const& estimation, Eigen::VectorXd const& x,
-                                         std::vector<ChannelNoise> const& expected) {
-  auto const residuals = estimation.residuals_at(x);
-  std::vector<ChannelNoise> noise = expected;
-  for (std::size_t c = 0; c < noise.size(); ++c) {
-    double best = INFINITY;
-    for (double const fast : {1.0, 1.5, 2.5, 4.0})
-      for (double const slow : {1.0, 2.0, 4.0}) {
-        ChannelNoise trial = expected[c];
-        trial.fast *= fast;
-        trial.slow *= slow;
-        trial.slow_share *= slow;
-        double const value = misfit(trial, estimation.channels()[c], estimation.data(), residuals);
-        if (value < best) {
-          best = value;
-          noise[c] = trial;
-        }
-      }
-  }
-  return noise;
-}
-
 /// The most promising hypotheses, one per effect and site, strongest first: all within `behind` of the strongest.
 std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector<Hypothesis> const& hypotheses,
                                    double least, double behind) {
   std::vector<double> evidence;
-  for (std::size_t k = 0; k < scores.size(); ++k) evidence.push_back(evidence_of(scores[k], hypotheses[k], 0.5));
+  for (std::size_t k = 0; k < scores.size(); ++k) evidence.push_back(evidence_of(scores[k], hypotheses[k]));
   std::vector<std::size_t> order(scores.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return evidence[a] > evidence[b]; });
@@ -153,7 +115,8 @@ std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vec
       refit.x = fit.x;
       refit.amplitude = fit.x[last];
       refit.standard_error = std::sqrt(fit.covariance(last, last));
-      refit.strength = fit_.evidence - fit.evidence;
+      bool const ordinary = refit.hypothesis.is_ordinary(refit.amplitude, refit.standard_error);
+      refit.strength = ordinary ? -INFINITY : fit_.evidence - fit.evidence;
     } catch (std::exception const&) {
       refit.strength = -INFINITY;
     }
@@ -173,13 +136,13 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   Eigen::MatrixXd const columns = whitened_signatures(tried);
   auto const scores = score(about, columns, tried);
   Eigen::VectorXd const alike = cosines(about, columns, columns.cols() - 1);
-  double const own_evidence = evidence_of(scores.back(), own, 0.5);
+  double const own_evidence = evidence_of(scores.back(), own);
   std::vector<Refit> result = {
       {own, fit_.x[own_place], std::sqrt(fit_.covariance(own_place, own_place)), fit_.x, strength}};
   for (std::size_t const k : promising(scores, tried, 0.0, INFINITY)) {
     if (tried[k].label() == own.label() || std::abs(alike[Eigen::Index(k)]) < confusable) continue;
     Refit refit{tried[k], scores[k].amplitude, 1.0 / std::sqrt(scores[k].information), fit_.x,
-                strength + evidence_of(scores[k], tried[k], 0.5) - own_evidence};
+                strength + evidence_of(scores[k], tried[k]) - own_evidence};
     refit.x[own_place] = refit.amplitude;
     result.push_back(std::move(refit));
   }

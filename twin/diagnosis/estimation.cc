@@ -13,15 +13,14 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double offset_deviation = 0.3;     // of a temperature sensor [K]
-constexpr double zero_deviation = 1e-6;      // of a displacement's zero [m]
-constexpr double unread_zero = 200e-6;       // where the run begins before the channel was read
-constexpr double usual_lag = 30.0;           // [s]
-constexpr double lag_deviation = 25.0;       // [s]
-constexpr double start_deviation = 0.3;      // [K]
-constexpr double air_deviation = 0.2;        // [K]
-constexpr double input_deviation = 0.7;      // of the response to what may have been given instead
-constexpr double amplitude_deviation = 0.5;  // of its largest
+constexpr double offset_deviation = 0.3;  // of a temperature sensor [K]
+constexpr double zero_deviation = 1e-6;   // of a displacement's zero [m]
+constexpr double unread_zero = 200e-6;    // where the run begins before the channel was read
+constexpr double usual_lag = 30.0;        // [s]
+constexpr double lag_deviation = 25.0;    // [s]
+constexpr double start_deviation = 0.3;   // [K]
+constexpr double air_deviation = 0.2;     // [K]
+constexpr double input_deviation = 0.7;   // of the response to what may have been given instead
 constexpr double relative_step = 1e-4;
 constexpr int start_halvings = 4;
 

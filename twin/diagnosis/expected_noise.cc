@@ -10,7 +10,7 @@ ChannelNoise expected_noise(Machine const& machine, std::string const& channel, 
     for (auto const& own : run.run->channels)
       if (own.name == channel) displacement = own.displacement;
   ChannelNoise noise;
-  noise.slow_share = 0.02;
+  noise.slow_share = displacement ? 0.015 : 0.01;
   if (displacement) {
     noise.white = 0.2e-6;
     noise.rounding = 0.05e-6;

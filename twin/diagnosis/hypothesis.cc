@@ -10,6 +10,7 @@
 
 #include "thermal/bounding_box.h"
 #include "thermal/error.h"
+#include "twin/diagnosis/estimate_text.h"
 #include "twin/file/document.h"
 
 namespace thermotwin::twin {
@@ -234,6 +235,11 @@ FieldRecord const& field(Effect const& effect, std::string const& key) {
 
 thermal::Dimension Hypothesis::dimension() const { return field(*effect, trial->amplitude).dimension; }
 
+bool Hypothesis::is_ordinary(double amplitude, double standard_error) const {
+  if (trial->ordinary <= 0.0) return false;
+  return std::abs(amplitude) - two_sided_95 * standard_error < trial->ordinary / largest;
+}
+
 std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine,
                                    std::vector<std::string> const& without) {
   Sites const sites(document, machine);
@@ -259,7 +265,8 @@ std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine
   }
   std::map<Effect const*, int> count;
   for (auto const& hypothesis : result) ++count[hypothesis.effect];
-  for (auto& hypothesis : result) hypothesis.choice = 2.0 * std::log(count[hypothesis.effect]);
+  for (auto& hypothesis : result)
+    hypothesis.choice = 2.0 * std::log(count[hypothesis.effect]) + hypothesis.trial->against;
   return result;
 }
 

@@ -12,6 +12,9 @@ namespace thermotwin::twin {
 /// Beyond this share of the largest plausible amplitude it is not that effect.
 inline constexpr double most_of_largest = 1.25;
 
+/// Prior of an amplitude in units of the largest plausible one: N(0, this²).
+inline constexpr double amplitude_deviation = 0.5;
+
 /// One effect that a machine file may lack, at one site: a table that could be appended to it.
 struct Hypothesis {
   Effect const* effect = nullptr;
@@ -19,8 +22,8 @@ struct Hypothesis {
   std::string site;  ///< where, as people read it: "cartridge[0 mm .. 160 mm]", "T4", "motor to column_front"
   std::string body;  ///< body, sensor or displacement channel that it acts on first
   std::vector<std::pair<std::string, std::string>> keys;  ///< of the table, but for its name and amplitude
-  /// 2 ln of the number of sites and shapes that the effect has in this machine: effects are equally likely beforehand,
-  /// and so are the sites of one. Among a hundred sites, one fits by chance.
+  /// 2 ln of the number of sites and shapes that the effect has in this machine, and what is against it beforehand:
+  /// effects are equally likely otherwise, and so are the sites of one. Among a hundred sites, one fits by chance.
   double choice = 0.0;
   /// Largest plausible amplitude here [SI]: the trial's; of an area, no more than the body has, and the other one.
   double largest = 0.0;
@@ -29,6 +32,9 @@ struct Hypothesis {
   [[nodiscard]] std::string label() const { return effect->name + " at " + site; }
   /// Of the amplitude.
   [[nodiscard]] thermal::Dimension dimension() const;
+  /// Whether the 95 % interval of an amplitude (in units of `largest`, as its standard error) reaches down to what the
+  /// best of machines has.
+  [[nodiscard]] bool is_ordinary(double amplitude, double standard_error) const;
 };
 
 /// Every trial of the catalogue at every site that the machine has for it, but for tables that stand in the file

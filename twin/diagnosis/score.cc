@@ -182,13 +182,14 @@ Eigen::VectorXd cosines(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen
   return product.cwiseQuotient((square * square[of]).cwiseSqrt());
 }
 
-double evidence_of(Score const& score, Hypothesis const& hypothesis, double deviation) {
+double evidence_of(Score const& score, Hypothesis const& hypothesis) {
   if (score.statistic <= 0.0) return -hypothesis.choice;
   double const a = score.information, b = score.amplitude * a;
-  double const precision = a + 1.0 / (deviation * deviation);
+  double const variance = amplitude_deviation * amplitude_deviation;
+  double const precision = a + 1.0 / variance;
+  if (hypothesis.is_ordinary(b / precision, 1.0 / std::sqrt(precision))) return -hypothesis.choice;
   double const amplitude = std::clamp(b / precision, -most_of_largest, most_of_largest);
-  double const gain =
-      (2.0 * b - precision * amplitude) * amplitude - std::log1p(a * deviation * deviation) - hypothesis.choice;
+  double const gain = (2.0 * b - precision * amplitude) * amplitude - std::log1p(a * variance) - hypothesis.choice;
   return hypothesis.trial->either_sign ? gain : gain + 2.0 * std::log(2.0);
 }
 

@@ -32,8 +32,8 @@ struct Score {
 /// other.
 [[nodiscard]] Eigen::VectorXd cosines(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen::Index of);
 
-/// 2 ln of the evidence for an effect from its score alone, at the most probable ψ that is plausible: T less what a
-/// prior N(0, deviation²) on ψ and the choice of a site cost.
-[[nodiscard]] double evidence_of(Score const& score, Hypothesis const& hypothesis, double deviation);
+/// 2 ln of the evidence for an effect from its score alone, at the most probable ψ that is plausible: T less what the
+/// prior of ψ and the choice of a site cost. Only the latter where ψ is ordinary.
+[[nodiscard]] double evidence_of(Score const& score, Hypothesis const& hypothesis);
 
 }  // namespace thermotwin::twin

@@ -25,6 +25,9 @@ struct ExtraMass {
   }
 };
 
+/// What is inside a lump lags behind its surface, as such a mass would.
+constexpr double against = 20.0;
+
 }  // namespace
 
 Effect const& extra_mass_effect() {
@@ -42,14 +45,17 @@ Effect const& extra_mass_effect() {
        "a step and a long hold: neighbours answer to a mass, a lag stays in one channel"},
       {{.amplitude = "conductance",
         .largest = 20.0,
+        .against = against,
         .sites = {{"at", "solid"}},
         .proportional = {{"heat_capacity", 600.0}}},
        {.amplitude = "conductance",
         .largest = 20.0,
+        .against = against,
         .sites = {{"at", "solid"}},
         .proportional = {{"heat_capacity", 2400.0}}},
        {.amplitude = "conductance",
         .largest = 7.0,
+        .against = against,
         .sites = {{"at", "solid"}},
         .proportional = {{"heat_capacity", 7200.0}}}});
   return effect;

@@ -7,6 +7,7 @@
 #include "thermal/error.h"
 #include "twin/challenge/hidden_world.h"
 #include "twin/diagnosis/expected_noise.h"
+#include "twin/diagnosis/observed_noise.h"
 #include "twin/diagnosis/prediction.h"
 #include "twin/diagnosis/run_files.h"
 #include "twin/run.h"
@@ -72,7 +73,9 @@ Value calibrated(WorldData const& data, int repetition, Question const& question
   auto const rows = binned(measured);
   Estimation const estimation = expected_estimation(start, rows);
   if (estimation.numbers().empty()) throw InputError("the machine has no number that calibration could change");
-  return estimation.document_at(estimation.fit(estimation.prior_mean(), iterations).x);
+  auto const first = estimation.fit(estimation.prior_mean(), iterations);
+  auto const heard = estimation.with(observed_noise(estimation, first.x, estimation.noise()));
+  return estimation.document_at(heard.fit(first.x, iterations).x);
 }
 
 output::Dataset said_of(Machine const& twin, MeasuredRun const& run, std::optional<double> sampling) {

@@ -22,7 +22,8 @@ struct TwinRuns {
 /// In a simulated world it starts from the file that a user would have: without what the study added to the machine or
 /// set in it, and with coefficients that are 20 %, capacities and weights of the structural loop that are 10 % off
 /// (vary_parameters, drawn anew for each repetition). Where all runs were measured it starts from the file as the study
-/// has it. The estimate is the maximum a posteriori of estimation.h, for all numbers at once.
+/// has it. The estimate is the maximum a posteriori of estimation.h, for all numbers at once, first with the noise that
+/// is expected and then with what is heard in the residuals.
 [[nodiscard]] TwinRuns twin_runs(StudyWorld const& world, WorldData const& data, int repetition,
                                  Question const& question);
 

@@ -27,7 +27,7 @@ std::string const left_on = R"(
   name = "hidden"
   displacement = "E_Z"
   at = "rear_ring"
-  gain = "1 um/K")";
+  gain = "2 um/K")";
 
 TEST(Diagnosis, NamesWhatMovesADisplacement) {
   auto const diagnosis = diagnosed(growth);

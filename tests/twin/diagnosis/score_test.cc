@@ -116,7 +116,7 @@ TEST(Score, WithoutUnknownsIsThatOfAFitThatNeverHadThem) {
 /// T less what the prior takes, from the Gaussian integral over ψ.
 TEST(Score, EvidenceIsAnIntegralOverTheAmplitude) {
   Toy const toy;
-  double const a = 8.0, amplitude = 0.9, deviation = 0.5;
+  double const a = 8.0, amplitude = 0.9, deviation = amplitude_deviation;
   auto const evidence = [&](Trial const& trial, double from) {
     double sum = 0.0, prior = 0.0;
     for (double psi = from; psi < 6.0; psi += 1e-4) {
@@ -124,21 +124,34 @@ TEST(Score, EvidenceIsAnIntegralOverTheAmplitude) {
       prior += weight;
       sum += weight * std::exp(a * psi * amplitude - 0.5 * a * psi * psi);
     }
-    EXPECT_NEAR(evidence_of({a * amplitude * amplitude, amplitude, a, 1.0}, {nullptr, &trial, "", "", {}}, deviation),
+    EXPECT_NEAR(evidence_of({a * amplitude * amplitude, amplitude, a, 1.0}, {nullptr, &trial, "", "", {}}),
                 2.0 * std::log(sum / prior), trial.either_sign ? 1e-6 : 0.1);
   };
   evidence(toy.any, -6.0);
   evidence(toy.positive, 0.0);
-  EXPECT_EQ(evidence_of({}, {nullptr, &toy.any, "", "", {}}, deviation), 0.0);
+  EXPECT_EQ(evidence_of({}, {nullptr, &toy.any, "", "", {}}), 0.0);
 }
 
 /// Nobody believes in an effect of three times its largest size: it explains what it does at 1.25 of it.
 TEST(Score, EvidenceOfAnImplausibleAmplitudeIsThatOfThePlausibleOne) {
   Toy const toy;
-  double const a = 8.0, amplitude = 3.0, deviation = 0.5, most = 1.25;
+  double const a = 8.0, amplitude = 3.0, deviation = amplitude_deviation, most = most_of_largest;
   double const gain = 2.0 * a * amplitude * most - (a + 1.0 / (deviation * deviation)) * most * most;
-  EXPECT_NEAR(evidence_of({a * amplitude * amplitude, amplitude, a, 1.0}, {nullptr, &toy.any, "", "", {}}, deviation),
+  EXPECT_NEAR(evidence_of({a * amplitude * amplitude, amplitude, a, 1.0}, {nullptr, &toy.any, "", "", {}}),
               gain - std::log1p(a * deviation * deviation), 1e-12);
+}
+
+/// The best of sensors reads 3 % of the air: no evidence of a fault where the data allow that, T as ever beyond.
+TEST(Score, AnOrdinaryAmplitudeIsNoEvidence) {
+  Trial const contact{.largest = 0.3, .ordinary = 0.03};
+  Hypothesis const hypothesis{nullptr, &contact, "", "", {}, 4.0, 0.3};
+  auto const evidence = [&](double share, double standard_error) {
+    double const a = std::pow(0.3 / standard_error, 2.0), amplitude = share / 0.3;
+    return evidence_of({a * amplitude * amplitude, amplitude, a, 1.0}, hypothesis);
+  };
+  EXPECT_EQ(evidence(0.04, 0.006), -4.0);  // 0.04 less 1.96 of 0.006 is 0.028
+  EXPECT_GT(evidence(0.04, 0.004), 80.0);  // T is 100
+  EXPECT_EQ(evidence(0.029, 1e-4), -4.0);  // surely ordinary
 }
 
 /// A machine that hides 30 W, and the fit of its twin that does not know of it.
