@@ -126,6 +126,8 @@ Site block_site(Body const& body, PlaceText const& place) {
 
 }  // namespace
 
+std::string body_of(std::string const& place) { return place.substr(0, place.find_first_of("[.")); }
+
 Site site_of(Body const& body, std::string const& text) {
   PlaceText const parsed = parse_place(text);
   if (parsed.extents.empty()) return parsed.face.empty() ? thermal::whole(body) : thermal::face(body, parsed.face);

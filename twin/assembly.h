@@ -30,6 +30,9 @@ struct Place {
   [[nodiscard]] Eigen::Vector3d centre() const;
 };
 
+/// The name of a place's body.
+[[nodiscard]] std::string body_of(std::string const& place);
+
 /// What a place's text means on its body.
 [[nodiscard]] thermal::Site site_of(thermal::Body const& body, std::string const& text);
 

@@ -27,7 +27,6 @@ constexpr double most_added = 0.15;     // of a joint's resistance
 constexpr double most_within = 1.05;    // of it inside the two blocks
 constexpr double most_solid = 0.8;      // denser lumps are round or bored: the box is not their form
 
-std::string body_of(std::string const& place) { return place.substr(0, place.find_first_of("[.")); }
 bool plain(std::string const& place) { return place.find_first_of("[.") == std::string::npos; }
 std::string mm(double metres) { return fmt::format("{:.9g} mm", metres * 1e3); }
 std::string stretch(double low, double high) { return mm(low) + " .. " + mm(high); }

@@ -10,8 +10,10 @@
 
 #include "thermal/bounding_box.h"
 #include "thermal/error.h"
+#include "twin/assembly.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/file/document.h"
+#include "twin/turning_bodies.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -28,8 +30,6 @@ struct Candidate {
   std::string other = {};  ///< second place
   std::string axis = {};   ///< that moves it
 };
-
-std::string body_of(std::string const& place) { return place.substr(0, place.find_first_of("[.")); }
 
 /// The names of a machine that a hypothesis may point to, by kind of site.
 class Sites {
@@ -81,6 +81,11 @@ void Sites::for_tables(std::string_view kind, std::function<void(Value const&)> 
 
 void Sites::add_bodies() {
   constexpr double longest_single = 0.15;
+  auto const turning = turning_bodies(document_);
+  auto const add_solid = [&](std::string const& place, std::string const& body) {
+    add("solid", {place, body});
+    if (std::find(turning.begin(), turning.end(), body) == turning.end()) add("resting solid", {place, body});
+  };
   for (std::string const kind : {"lump", "bar", "hollow_cylinder", "block"})
     for_tables(kind, [&](Value const& table) {
       std::string const name = texts_of(table, "name").at(0);
@@ -88,11 +93,11 @@ void Sites::add_bodies() {
       if (!table.find("carried_by")) add("base", {name, name});
       auto const lengths = texts_of(table, "length");
       double const length = lengths.empty() ? 0.0 : thermal::parse_value(lengths[0], dimension::length);
-      if (kind != "bar" || length <= longest_single) return add("solid", {name, name});
+      if (kind != "bar" || length <= longest_single) return add_solid(name, name);
       for (int third = 0; third < 3; ++third)
-        add("solid", {fmt::format("{}[{:.4g} mm .. {:.4g} mm]", name, 1e3 * length * third / 3.0,
-                                  1e3 * length * (third + 1) / 3.0),
-                      name});
+        add_solid(fmt::format("{}[{:.4g} mm .. {:.4g} mm]", name, 1e3 * length * third / 3.0,
+                              1e3 * length * (third + 1) / 3.0),
+                  name);
     });
 }
 

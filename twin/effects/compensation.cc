@@ -36,7 +36,7 @@ Effect const& compensation_effect() {
                                 {{.amplitude = "gain",
                                   .largest = 5e-6,
                                   .either_sign = true,
-                                  .sites = {{"displacement", "displacement"}, {"at", "solid"}}}});
+                                  .sites = {{"displacement", "displacement"}, {"at", "resting solid"}}}});
   return effect;
 }
 

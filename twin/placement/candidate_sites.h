@@ -59,10 +59,6 @@ struct CandidateRules {
 /// FileError with the place of what is wrong in the file itself; what the machine lacks, candidate_sites finds.
 [[nodiscard]] CandidateRules read_candidate_rules(std::filesystem::path const& path);
 
-/// Bodies that turn, and so carry no sensor: inner rings of bearings, screws, what a film of a rotating surface is on,
-/// and what these carry.
-[[nodiscard]] std::vector<std::string> turning_bodies(Value const& document);
-
 /// The candidates on a machine. Without sites in the rules: the room air, and a mesh on the outer surfaces of the
 /// solids that neither turn nor are forbidden, one site per facet of their cells; if that is more than `most`, those
 /// that farthest-point sampling takes first (Gonzalez 1985), each body having at least one and distances counted in its

@@ -12,6 +12,7 @@
 #include "thermal/error.h"
 #include "twin/machine.h"
 #include "twin/placement/snapshot_moments.h"
+#include "twin/turning_bodies.h"
 
 namespace thermotwin::twin {
 namespace {
