@@ -81,9 +81,7 @@ Diagnosis Diagnostician::operator()() {
 bool Diagnostician::is_unknown_heat() const {
   auto const& found = diagnosis_.explanations;
   auto const& left = found.empty() ? diagnosis_.scan : diagnosis_.left;
-  double strongest = 0.0;
-  for (auto const& explanation : found) strongest = std::max(strongest, explanation.alternatives[0].strength);
-  if (!left.empty() && left[0].gain > std::max(options_.heat_left, options_.least_share * strongest)) return true;
+  if (!left.empty() && left[0].gain > search_.beside_strongest(options_.heat_left)) return true;
   std::map<std::string, std::string> acting;  // on each body, the first
   return std::any_of(found.begin(), found.end(), [&](Explanation const& explanation) {
     auto const& effect = explanation.alternatives[0].hypothesis;

@@ -72,8 +72,10 @@ void EffectSearch::operator()(std::vector<Hypothesis> hypotheses) {
   take_joint_estimates();
 }
 
-double EffectSearch::further_threshold() const {
-  return std::max(options_.further_threshold, options_.least_share * strongest_);
+double EffectSearch::beside_strongest(double threshold) const {
+  double strongest = 0.0;
+  for (auto const& explanation : explanations_) strongest = std::max(strongest, explanation.alternatives[0].strength);
+  return std::max(threshold, options_.least_share * strongest);
 }
 
 /// The noise that the present fit leaves, and the fit with it.
@@ -188,7 +190,7 @@ std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& 
 /// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
 bool EffectSearch::add_effect(int round) {
   say(fmt::format("{} shapes of effects at their sites, round {}", hypotheses_.size(), round));
-  double const threshold = round == 1 ? options_.threshold : further_threshold();
+  double const threshold = round == 1 ? options_.threshold : beside_strongest(options_.further_threshold);
   auto const scores = score(fit_, whitened_signatures(hypotheses_), hypotheses_);
   if (round == 1)
     visible_ = std::size_t(std::count_if(scores.begin(), scores.end(), [](Score const& score) {
@@ -223,7 +225,6 @@ bool EffectSearch::add_effect(int round) {
     fit_ = base;
     return false;
   }
-  strongest_ = std::max(strongest_, best.strength);
   explanations_.push_back(explanation_of(all));
   std::erase_if(hypotheses_, [&](Hypothesis const& h) {
     return h.label() == best.hypothesis.label() && h.trial->amplitude == best.hypothesis.trial->amplitude;
@@ -254,14 +255,13 @@ std::vector<double> EffectSearch::strengths_beside_others() const {
 void EffectSearch::drop_superfluous() {
   while (estimation_->effects().size() > 1) {
     auto const strengths = strengths_beside_others();
-    strongest_ = *std::max_element(strengths.begin(), strengths.end());
     auto const weakest = std::min_element(strengths.begin(), strengths.end()) - strengths.begin();
     for (std::size_t e = 0; e < strengths.size(); ++e) {
       auto& alternatives = explanations_[e].alternatives;
       double const change = strengths[e] - alternatives[0].strength;
       for (auto& alternative : alternatives) alternative.strength += change;
     }
-    if (strengths[std::size_t(weakest)] >= further_threshold()) return;
+    if (strengths[std::size_t(weakest)] >= beside_strongest(options_.further_threshold)) return;
     auto effects = estimation_->effects();
     effects.erase(effects.begin() + weakest);
     explanations_.erase(explanations_.begin() + weakest);

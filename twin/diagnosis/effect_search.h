@@ -46,6 +46,8 @@ class EffectSearch {
   [[nodiscard]] Estimation const& estimation() const { return estimation_.value(); }
   [[nodiscard]] Fit const& fit() const { return fit_; }
   [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
+  /// A threshold for what is evident beside the effects found: no less than `least_share` of the strongest.
+  [[nodiscard]] double beside_strongest(double threshold) const;
   /// How much more model error than expected was heard in each channel; 1: no more.
   [[nodiscard]] std::vector<std::pair<std::string, double>> noise_heard() const;
   /// How many hypotheses would be seen at half of their largest amplitude, as far as `--plan` wants it.
@@ -65,7 +67,6 @@ class EffectSearch {
   [[nodiscard]] Eigen::MatrixXd whitened_signatures(std::vector<Hypothesis> const& hypotheses) const;
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
   void listen_to_noise();
-  [[nodiscard]] double further_threshold() const;
   [[nodiscard]] std::vector<double> strengths_beside_others() const;
   [[nodiscard]] Estimation with_effects(std::vector<Hypothesis> const& effects) const;
   void drop_superfluous();
@@ -79,7 +80,6 @@ class EffectSearch {
   std::optional<Estimation> plain_;
   std::optional<Estimation> estimation_;
   std::size_t visible_ = 0;
-  double strongest_ = 0.0;  ///< of the effects found so far
   Fit calibrated_, fit_;
   std::vector<Explanation> explanations_;
 };

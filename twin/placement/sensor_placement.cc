@@ -12,6 +12,7 @@
 #include "models/quantile.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
+#include "twin/assembly.h"
 #include "twin/file/document.h"
 #include "twin/machine.h"
 #include "twin/placement/effect_signatures.h"
@@ -72,7 +73,7 @@ class Proposal {
   [[nodiscard]] CandidateSite site_of(std::string const& name) const {
     for (auto const& sensor : sensors_)
       if (sensor.name == name) return sensor;
-    if (bodies_.all().contains(name.substr(0, name.find_first_of("[.")))) {
+    if (bodies_.all().contains(body_of(name))) {
       check_place(name, bodies_);
       return {name, {name}};
     }
