@@ -424,8 +424,14 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   std::unique_ptr<Traced const> traced;
   Fit linearised;  // where the Jacobian was asked for last
   problem.evaluate = [&](Eigen::VectorXd const& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    if (!evaluate(x, traced, r, J)) return false;
-    if (J) linearised.x = x, linearised.residual = r, linearised.jacobian = *J;
+    bool const known = linearised.x.size() == x.size() && linearised.x == x;
+    if (!known && !evaluate(x, traced, r, J)) return false;
+    if (known) {
+      r = linearised.residual;
+      if (J) *J = linearised.jacobian;
+    } else if (J) {
+      linearised.x = x, linearised.residual = r, linearised.jacobian = *J;
+    }
     return true;
   };
   auto const count = Eigen::Index(unknowns_.size());

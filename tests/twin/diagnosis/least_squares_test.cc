@@ -1,0 +1,90 @@
+#include "twin/diagnosis/least_squares.h"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace thermotwin::twin {
+namespace {
+
+/// r = A x − b + c (x·x) e: curved a little, as a machine is.
+LeastSquares problem_of(Eigen::MatrixXd const& A, Eigen::VectorXd const& b, double curvature) {
+  LeastSquares problem;
+  problem.evaluate = [=](Eigen::VectorXd const& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+    r = A * x - b;
+    r.array() += curvature * x.squaredNorm();
+    if (J) *J = A + 2.0 * curvature * Eigen::VectorXd::Ones(A.rows()) * x.transpose();
+    return true;
+  };
+  problem.residuals = A.rows();
+  problem.start = Eigen::VectorXd::Ones(A.cols());
+  problem.lower = Eigen::VectorXd::Zero(A.cols());
+  problem.upper = Eigen::VectorXd::Constant(A.cols(), INFINITY);
+  problem.iterations = 20;
+  problem.tolerance = 1e-10;
+  return problem;
+}
+
+/// Columns that nearly say the same, as an effect and the numbers that imitate it.
+Eigen::MatrixXd nearly_alike(Eigen::Index rows, Eigen::Index columns, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd A(rows, columns);
+  for (auto& entry : A.reshaped()) entry = 0.1 * normal(random);
+  for (Eigen::Index i = 0; i < rows; ++i) A.row(i).array() += normal(random);
+  return A;
+}
+
+/// Karush, Kuhn and Tucker: the gradient is zero where an unknown is free, and points out of the range where it is not.
+TEST(LeastSquares, EndsWhereNothingAllowedIsBetter) {
+  int bound = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    auto const A = nearly_alike(40, 6, random);
+    Eigen::VectorXd x(6);
+    for (auto& entry : x) entry = normal(random);
+    auto const problem = problem_of(A, A * x, 1e-3);
+    auto const result = solve(problem);
+    Eigen::VectorXd r;
+    Eigen::MatrixXd J;
+    problem.evaluate(result.x, r, &J);
+    Eigen::VectorXd const gradient = J.transpose() * r;
+    double const scale = J.norm() * std::max(1.0, r.norm());
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      bool const held = result.x[i] == 0.0;
+      bound += held;
+      EXPECT_GE(result.x[i], 0.0);
+      EXPECT_GT(gradient[i], -1e-4 * scale) << "seed " << seed << ", unknown " << i;
+      if (held) continue;
+      EXPECT_LT(gradient[i], 1e-4 * scale) << "seed " << seed << ", unknown " << i;
+    }
+  }
+  EXPECT_GT(bound, 200);
+}
+
+/// Without curvature the other unknowns are those of a regression without what is held.
+TEST(LeastSquares, FitsTheOthersToWhatIsHeld) {
+  std::mt19937_64 random(7);
+  auto const A = nearly_alike(40, 3, random);
+  Eigen::VectorXd const b = A * Eigen::Vector3d(-0.5, 1.0, 2.0);
+  auto const result = solve(problem_of(A, b, 0.0));
+  Eigen::VectorXd const rest = A.rightCols(2).colPivHouseholderQr().solve(b);
+  EXPECT_EQ(result.x[0], 0.0);
+  EXPECT_NEAR(result.x[1], rest[0], 1e-6);
+  EXPECT_NEAR(result.x[2], rest[1], 1e-6);
+  EXPECT_TRUE(result.converged);
+}
+
+/// What begins at a bound leaves it where that is better.
+TEST(LeastSquares, LeavesABoundThatDoesNotPress) {
+  std::mt19937_64 random(8);
+  auto const A = nearly_alike(40, 3, random);
+  Eigen::Vector3d const x(0.5, 1.0, 2.0);
+  auto problem = problem_of(A, A * x, 0.0);
+  problem.start = Eigen::Vector3d(0.0, 0.0, 3.0);
+  EXPECT_LT((solve(problem).x - x).norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
