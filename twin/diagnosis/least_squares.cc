@@ -49,7 +49,7 @@ void solve_holding(std::vector<int> const& held, LeastSquares const& least_squar
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.max_num_iterations = least_squares.iterations;
-  options.max_num_line_search_step_size_iterations = 0;  // a step that a bound cuts off is taken or not
+  options.line_search_interpolation_type = ceres::QUADRATIC;  // a step that is too long asks for no more Jacobians
   options.function_tolerance = least_squares.tolerance;
   options.initial_trust_region_radius = 1e8;  // near Gauss–Newton: the priors keep steps short
   options.num_threads = 1;
