@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t most_refits = 24;
 constexpr std::size_t most_alternatives = 3;
 constexpr double confusable = 0.6;  // cosine of two signatures (physics.md 8.6)
+// What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
+constexpr double hopeful_score = 0.3, hopeful_refit = 0.5;
 
 /// The most promising hypotheses, one per effect and site, strongest first: all within `behind` of the strongest.
 std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector<Hypothesis> const& hypotheses,
@@ -65,10 +67,10 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
 
 void EffectSearch::operator()(std::vector<Hypothesis> hypotheses) {
   hypotheses_ = std::move(hypotheses);
+  linearise();
   for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
-  drop_superfluous();
-  exchange();
-  drop_superfluous();
+  if (drop_superfluous()) linearise();
+  if (exchange()) drop_superfluous();
   take_joint_estimates();
 }
 
@@ -94,8 +96,10 @@ std::vector<std::pair<std::string, double>> EffectSearch::noise_heard() const {
   return times;
 }
 
-Eigen::MatrixXd EffectSearch::whitened_signatures(std::vector<Hypothesis> const& hypotheses) const {
-  Eigen::MatrixXd columns = signatures(*estimation_, fit_, hypotheses);
+void EffectSearch::linearise() { signatures_ = signatures(*estimation_, fit_, hypotheses_); }
+
+Eigen::MatrixXd EffectSearch::whitened_signatures() const {
+  Eigen::MatrixXd columns = signatures_;
   estimation_->whiten(columns);
   return columns;
 }
@@ -135,7 +139,9 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   Fit const about = without(fit_, own_place);
   std::vector<Hypothesis> tried = hypotheses_;
   tried.push_back(own);
-  Eigen::MatrixXd const columns = whitened_signatures(tried);
+  Eigen::MatrixXd columns = whitened_signatures();
+  columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+  columns.rightCols(1) = -fit_.jacobian.col(own_place).head(columns.rows());
   auto const scores = score(about, columns, tried);
   Eigen::VectorXd const alike = cosines(about, columns, columns.cols() - 1);
   double const own_evidence = evidence_of(scores.back(), own);
@@ -171,12 +177,13 @@ Explanation EffectSearch::explanation_of(std::vector<Refit> const& refits) const
 
 /// By the score: the strongest of each of the three strongest effects, and of two more bodies. The linearisation
 /// underrates an effect beside which other numbers change their meaning: a joint through which no heat flowed before.
-std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& scores) const {
+std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& scores, double threshold) const {
   std::vector<std::size_t> chosen;
   std::set<Effect const*> effects;
   std::set<std::string> bodies;
   int elsewhere = 0;
-  for (std::size_t const k : promising(scores, hypotheses_, 0.6 * options_.threshold, INFINITY)) {
+  double const least = std::max(0.6 * options_.threshold, hopeful_score * threshold);
+  for (std::size_t const k : promising(scores, hypotheses_, least, INFINITY)) {
     auto const& hypothesis = hypotheses_[k];
     bool const one_more_effect = effects.size() < 3 && !effects.contains(hypothesis.effect);
     if (!one_more_effect && (bodies.contains(hypothesis.body) || ++elsewhere > 2)) continue;
@@ -191,15 +198,16 @@ std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& 
 bool EffectSearch::add_effect(int round) {
   say(fmt::format("{} shapes of effects at their sites, round {}", hypotheses_.size(), round));
   double const threshold = round == 1 ? options_.threshold : beside_strongest(options_.further_threshold);
-  auto const scores = score(fit_, whitened_signatures(hypotheses_), hypotheses_);
+  auto const scores = score(fit_, whitened_signatures(), hypotheses_);
   if (round == 1)
     visible_ = std::size_t(std::count_if(scores.begin(), scores.end(), [](Score const& score) {
       return 0.5 * std::sqrt(score.information) > wanted_distance;
     }));
-  auto const first = refits(fit_, most_promising(scores), scores);
-  if (first.empty()) return false;
+  auto const first = refits(fit_, most_promising(scores, threshold), scores);
+  if (first.empty() || first[0].strength < hopeful_refit * threshold) return false;
   Estimation const before = *estimation_;
   Fit const base = fit_;
+  Eigen::MatrixXd const base_signatures = signatures_;
   std::vector<Refit> all;
   Refit best = first[0], former;
   Fit former_fit;
@@ -212,6 +220,7 @@ bool EffectSearch::add_effect(int round) {
       fit_ = former_fit;
       estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
     }
+    linearise();
     all = instead_of(estimation_->effects().size() - 1, best.strength);
     auto const strongest = std::max_element(all.begin(), all.end(),
                                             [](Refit const& a, Refit const& b) { return a.strength < b.strength; });
@@ -223,14 +232,26 @@ bool EffectSearch::add_effect(int round) {
   if (best.strength < threshold) {
     estimation_ = before;
     fit_ = base;
+    signatures_ = base_signatures;
     return false;
   }
   explanations_.push_back(explanation_of(all));
-  std::erase_if(hypotheses_, [&](Hypothesis const& h) {
-    return h.label() == best.hypothesis.label() && h.trial->amplitude == best.hypothesis.trial->amplitude;
-  });
+  forget(best.hypothesis);
   listen_to_noise();
   return true;
+}
+
+/// No longer tried, nor any other shape of it there.
+void EffectSearch::forget(Hypothesis const& found) {
+  std::vector<Hypothesis> others;
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
+    auto const& own = hypotheses_[k];
+    if (own.label() == found.label() && own.trial->amplitude == found.trial->amplitude) continue;
+    signatures_.col(Eigen::Index(others.size())) = signatures_.col(Eigen::Index(k));
+    others.push_back(own);
+  }
+  hypotheses_ = std::move(others);
+  signatures_.conservativeResize(Eigen::NoChange, Eigen::Index(hypotheses_.size()));
 }
 
 /// The machine without any effect found, with these instead, and with the noise heard last.
@@ -252,7 +273,9 @@ std::vector<double> EffectSearch::strengths_beside_others() const {
 }
 
 /// Backward check (physics.md 8.6): an effect that those found after it have made superfluous goes, the weakest first.
-void EffectSearch::drop_superfluous() {
+/// Whether any did.
+bool EffectSearch::drop_superfluous() {
+  bool dropped = false;
   while (estimation_->effects().size() > 1) {
     auto const strengths = strengths_beside_others();
     auto const weakest = std::min_element(strengths.begin(), strengths.end()) - strengths.begin();
@@ -261,17 +284,21 @@ void EffectSearch::drop_superfluous() {
       double const change = strengths[e] - alternatives[0].strength;
       for (auto& alternative : alternatives) alternative.strength += change;
     }
-    if (strengths[std::size_t(weakest)] >= beside_strongest(options_.further_threshold)) return;
+    if (strengths[std::size_t(weakest)] >= beside_strongest(options_.further_threshold)) break;
+    dropped = true;
     auto effects = estimation_->effects();
     effects.erase(effects.begin() + weakest);
     explanations_.erase(explanations_.begin() + weakest);
     estimation_ = with_effects(effects);
     fit_ = estimation_->fit(shorter(fit_.x, fit_.x.size() - Eigen::Index(strengths.size()) + weakest), 10);
   }
+  return dropped;
 }
 
 /// What was found first was found without the others: each effect is held anew against what could stand in its place.
-void EffectSearch::exchange() {
+/// Whether any was exchanged.
+bool EffectSearch::exchange() {
+  bool exchanged = false;
   for (std::size_t e = 0; estimation_->effects().size() > 1 && e < estimation_->effects().size(); ++e) {
     auto const& explanation = explanations_[e];
     double strength = explanation.alternatives[0].strength;
@@ -287,11 +314,14 @@ void EffectSearch::exchange() {
         strength += fit_.evidence - fit.evidence;
         estimation_ = changed;
         fit_ = fit;
+        linearise();
+        exchanged = true;
         all = instead_of(e, strength);
       }
     }
     explanations_[e] = explanation_of(all);
   }
+  return exchanged;
 }
 
 /// The best alternative of each explanation as the last fit has it, with all the others.

@@ -62,21 +62,24 @@ class EffectSearch {
   [[nodiscard]] bool add_effect(int round);
   [[nodiscard]] std::vector<Refit> refits(Fit const& about, std::vector<std::size_t> const& chosen,
                                           std::vector<Score> const& scores) const;
-  [[nodiscard]] std::vector<std::size_t> most_promising(std::vector<Score> const& scores) const;
+  [[nodiscard]] std::vector<std::size_t> most_promising(std::vector<Score> const& scores, double threshold) const;
   [[nodiscard]] std::vector<Refit> instead_of(std::size_t effect, double strength) const;
-  [[nodiscard]] Eigen::MatrixXd whitened_signatures(std::vector<Hypothesis> const& hypotheses) const;
+  void linearise();
+  [[nodiscard]] Eigen::MatrixXd whitened_signatures() const;
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
   void listen_to_noise();
+  void forget(Hypothesis const& found);
   [[nodiscard]] std::vector<double> strengths_beside_others() const;
   [[nodiscard]] Estimation with_effects(std::vector<Hypothesis> const& effects) const;
-  void drop_superfluous();
-  void exchange();
+  bool drop_superfluous();
+  bool exchange();
   void take_joint_estimates();
 
   DiagnosisOptions const& options_;
   thermal::Geometry geometry_;
   std::vector<ChannelNoise> expected_;
   std::vector<Hypothesis> hypotheses_;
+  Eigen::MatrixXd signatures_;  ///< of the hypotheses about the fit, or before noise was listened to for the last time
   std::optional<Estimation> plain_;
   std::optional<Estimation> estimation_;
   std::size_t visible_ = 0;

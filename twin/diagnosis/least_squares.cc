@@ -1,9 +1,11 @@
 // The only file that knows Ceres.
 #include "twin/diagnosis/least_squares.h"
 
+#include <Eigen/Cholesky>
 #include <ceres/ceres.h>
 #include <cmath>
 #include <glog/logging.h>
+#include <utility>
 #include <vector>
 
 namespace thermotwin::twin {
@@ -13,7 +15,35 @@ constexpr int most_rounds = 4;  // of holding other unknowns
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-class Cost final : public ceres::CostFunction {
+/// Those that are at a bound, within a thousandth of the way to the other, and would leave the range to make the cost
+/// less.
+std::vector<int> pressed(LeastSquares const& least_squares, Eigen::VectorXd const& x, Eigen::VectorXd const& uphill) {
+  std::vector<int> result;
+  for (int i = 0; i < int(x.size()); ++i) {
+    double const lower = least_squares.lower[i], upper = least_squares.upper[i];
+    double const near = std::isfinite(upper - lower) ? 1e-3 * (upper - lower) : 0.0;
+    if (uphill[i] > 0.0 ? x[i] <= lower + near : x[i] >= upper - near) result.push_back(i);
+  }
+  return result;
+}
+
+/// What a step of Gauss and Newton would gain, of |r|²: gᵀ (JᵀJ)⁻¹ g over what does not press against a bound.
+double expected_gain(LeastSquares const& least_squares, Eigen::VectorXd const& x, Eigen::VectorXd const& r,
+                     Eigen::MatrixXd J) {
+  Eigen::VectorXd uphill = J.transpose() * r;
+  for (int const i : pressed(least_squares, x, uphill)) {
+    J.col(i).setZero();
+    uphill[i] = 0.0;
+  }
+  Eigen::MatrixXd curvature = J.transpose() * J;
+  for (auto& entry : curvature.diagonal())
+    if (entry == 0.0) entry = 1.0;
+  return uphill.dot(curvature.llt().solve(uphill));
+}
+
+/// Residuals and Jacobian for Ceres. It asks for a Jacobian where it has gone to, and is stopped where the next step
+/// would gain too little.
+class Cost final : public ceres::CostFunction, public ceres::IterationCallback {
  public:
   explicit Cost(LeastSquares const& problem) : problem_(problem) {
     mutable_parameter_block_sizes()->push_back(int(problem.start.size()));
@@ -27,18 +57,25 @@ class Cost final : public ceres::CostFunction {
     bool const wanted = jacobians && jacobians[0];
     if (!problem_.evaluate(x, r, wanted ? &J : nullptr)) return false;
     Eigen::Map<Eigen::VectorXd>(residuals, r.size()) = r;
-    if (wanted) Eigen::Map<RowMajor>(jacobians[0], r.size(), n) = J;
+    if (!wanted) return true;
+    Eigen::Map<RowMajor>(jacobians[0], r.size(), n) = J;
+    worth_a_step_ = !(expected_gain(problem_, x, r, std::move(J)) <= problem_.tolerance * r.squaredNorm());
     return true;
+  }
+  ceres::CallbackReturnType operator()(ceres::IterationSummary const&) override {
+    return worth_a_step_ ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
  private:
   LeastSquares const& problem_;
+  mutable bool worth_a_step_ = true;
 };
 
-/// From result.x on, those of the unknowns held that are marked.
+/// From result.x on, those of the unknowns held that are listed.
 void solve_holding(std::vector<int> const& held, LeastSquares const& least_squares, LeastSquaresResult& result) {
   ceres::Problem problem;
-  problem.AddResidualBlock(new Cost(least_squares), nullptr, result.x.data());
+  auto* const cost = new Cost(least_squares);  // the problem's
+  problem.AddResidualBlock(cost, nullptr, result.x.data());
   for (int i = 0; i < int(result.x.size()); ++i) {
     if (std::isfinite(least_squares.lower[i]))
       problem.SetParameterLowerBound(result.x.data(), i, least_squares.lower[i]);
@@ -50,35 +87,29 @@ void solve_holding(std::vector<int> const& held, LeastSquares const& least_squar
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.max_num_iterations = least_squares.iterations;
   options.line_search_interpolation_type = ceres::QUADRATIC;  // a step that is too long asks for no more Jacobians
+  options.max_num_line_search_step_size_iterations = 5;
   options.function_tolerance = least_squares.tolerance;
   options.initial_trust_region_radius = 1e8;  // near Gauss–Newton: the priors keep steps short
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
+  options.callbacks.push_back(cost);
   FLAGS_minloglevel = google::GLOG_FATAL;  // a fit that ends early says so by `converged`
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   result.cost = summary.final_cost;
   result.iterations += int(summary.iterations.size());
-  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  result.converged = summary.termination_type == ceres::CONVERGENCE || summary.termination_type == ceres::USER_SUCCESS;
 }
 
-/// Those that are at a bound, within a thousandth of the way to the other, and would leave the range to make the cost
-/// less. They are moved onto it.
-std::vector<int> pressed_to_bounds(LeastSquares const& least_squares, Eigen::VectorXd& x) {
+/// Moves what presses against a bound onto it, and tells which it is.
+std::vector<int> pressed_onto_bounds(LeastSquares const& least_squares, Eigen::VectorXd& x) {
   Eigen::VectorXd r;
   Eigen::MatrixXd J;
   if (!least_squares.evaluate(x, r, &J)) return {};
   Eigen::VectorXd const uphill = J.transpose() * r;
-  std::vector<int> pressed;
-  for (int i = 0; i < int(x.size()); ++i) {
-    double const lower = least_squares.lower[i], upper = least_squares.upper[i];
-    double const near = std::isfinite(upper - lower) ? 1e-3 * (upper - lower) : 0.0;
-    bool const below = x[i] <= lower + near && uphill[i] > 0.0;
-    if (!below && (x[i] < upper - near || uphill[i] > 0.0)) continue;
-    x[i] = below ? lower : upper;
-    pressed.push_back(i);
-  }
-  return pressed;
+  auto const result = pressed(least_squares, x, uphill);
+  for (int const i : result) x[i] = uphill[i] > 0.0 ? least_squares.lower[i] : least_squares.upper[i];
+  return result;
 }
 
 }  // namespace
@@ -88,12 +119,12 @@ std::vector<int> pressed_to_bounds(LeastSquares const& least_squares, Eigen::Vec
 LeastSquaresResult solve(LeastSquares const& least_squares) {
   LeastSquaresResult result;
   result.x = least_squares.start;
-  auto held = pressed_to_bounds(least_squares, result.x);
+  auto held = pressed_onto_bounds(least_squares, result.x);
   for (int round = 0; round < most_rounds; ++round) {
     solve_holding(held, least_squares, result);
-    auto const pressed = pressed_to_bounds(least_squares, result.x);
-    if (pressed == held) break;
-    held = pressed;
+    auto const now = pressed_onto_bounds(least_squares, result.x);
+    if (now == held) break;
+    held = now;
   }
   return result;
 }

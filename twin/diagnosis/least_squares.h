@@ -12,7 +12,7 @@ struct LeastSquares {
   Eigen::Index residuals = 0;
   Eigen::VectorXd start, lower, upper;
   int iterations = 12;
-  double tolerance = 1e-4;  ///< relative change of the cost at which it stops
+  double tolerance = 1e-4;  ///< of the cost: it stops where a step gains less, or would by the linearisation
 };
 
 struct LeastSquaresResult {

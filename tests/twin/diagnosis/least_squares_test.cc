@@ -4,6 +4,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
+#include <set>
+#include <vector>
 
 namespace thermotwin::twin {
 namespace {
@@ -74,6 +76,26 @@ TEST(LeastSquares, FitsTheOthersToWhatIsHeld) {
   EXPECT_NEAR(result.x[1], rest[0], 1e-6);
   EXPECT_NEAR(result.x[2], rest[1], 1e-6);
   EXPECT_TRUE(result.converged);
+}
+
+/// A linear problem takes one step: Jacobians are asked for where it begins and where it ends.
+TEST(LeastSquares, EndsWhereTheLinearisationHasNothingToGain) {
+  std::mt19937_64 random(9);
+  auto const A = nearly_alike(40, 3, random);
+  Eigen::VectorXd const noise = Eigen::VectorXd::LinSpaced(40, -1.0, 1.0);
+  Eigen::VectorXd const left = noise - A * A.colPivHouseholderQr().solve(noise);
+  auto problem = problem_of(A, A * Eigen::Vector3d(0.5, 1.0, 2.0) + left, 0.0);
+  std::set<std::vector<double>> places, linearised;
+  problem.evaluate = [&, evaluate = problem.evaluate](auto const& x, auto& r, auto* J) {
+    std::vector<double> const place(x.begin(), x.end());
+    places.insert(place);
+    if (J) linearised.insert(place);
+    return evaluate(x, r, J);
+  };
+  problem.tolerance = 1e-6;
+  EXPECT_TRUE(solve(problem).converged);
+  EXPECT_EQ(places.size(), 2);
+  EXPECT_EQ(linearised, places);
 }
 
 /// What begins at a bound leaves it where that is better.
