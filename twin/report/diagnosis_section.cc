@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "thermal/error.h"
-#include "thermal/units.h"
+#include "twin/diagnosis/estimate_text.h"
 #include "twin/effect.h"
 
 namespace thermotwin::twin {
@@ -18,15 +18,11 @@ using output::Json;
 std::string amplitude_text(Json const& finding, Effect const& effect) {
   auto const parameter = std::find_if(effect.parameters.begin(), effect.parameters.end(),
                                       [&](auto const& p) { return p.key == finding["parameter"]; });
+  auto const amplitude = finding["amplitude"].get<double>();
   if (parameter == effect.parameters.end())
-    return fmt::format("{:.4g} {}", finding["amplitude"].get<double>(), finding["unit"].get<std::string>());
-  auto const three_digits = std::stod(fmt::format("{:.3g}", finding["amplitude"].get<double>()));
-  auto const whole = thermal::format_quantity(three_digits, parameter->dimension);
-  auto const unit = whole.substr(std::min(whole.find(' '), whole.size()));  // " um", or nothing
-  auto const text = [&](char const* key) {
-    double const si = finding[key].get<double>();
-    return fmt::format("{:.3g}{}", unit.empty() ? si : thermal::to_unit(si, unit.substr(1)), unit);
-  };
+    return fmt::format("{:.4g} {}", amplitude, finding["unit"].get<std::string>());
+  std::string const unit = readable_unit(amplitude, parameter->dimension);
+  auto const text = [&](char const* key) { return written_value(finding[key].get<double>(), unit, 3); };
   return fmt::format("{} ({} to {})", text("amplitude"), text("low"), text("high"));
 }
 
