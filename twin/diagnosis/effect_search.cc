@@ -69,7 +69,7 @@ void EffectSearch::operator()(std::vector<Hypothesis> hypotheses) {
   hypotheses_ = std::move(hypotheses);
   linearise();
   for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
-  if (drop_superfluous()) linearise();
+  if (drop_superfluous() && estimation_->effects().size() > 1) linearise();
   if (exchange()) drop_superfluous();
   take_joint_estimates();
 }

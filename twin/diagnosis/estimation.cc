@@ -424,14 +424,13 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   std::unique_ptr<Traced const> traced;
   Fit linearised;  // where the Jacobian was asked for last
   problem.evaluate = [&](Eigen::VectorXd const& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    bool const known = linearised.x.size() == x.size() && linearised.x == x;
-    if (!known && !evaluate(x, traced, r, J)) return false;
-    if (known) {
+    if (linearised.x.size() == x.size() && linearised.x == x) {
       r = linearised.residual;
       if (J) *J = linearised.jacobian;
-    } else if (J) {
-      linearised.x = x, linearised.residual = r, linearised.jacobian = *J;
+      return true;
     }
+    if (!evaluate(x, traced, r, J)) return false;
+    if (J) linearised.x = x, linearised.residual = r, linearised.jacobian = *J;
     return true;
   };
   auto const count = Eigen::Index(unknowns_.size());
@@ -451,12 +450,8 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   Fit fit;
   fit.x = solved.x;
   fit.converged = solved.converged;
-  if (linearised.x.size() == fit.x.size() && linearised.x == fit.x) {
-    fit.residual = std::move(linearised.residual);
-    fit.jacobian = std::move(linearised.jacobian);
-  } else if (!evaluate(fit.x, traced, fit.residual, &fit.jacobian)) {
+  if (!problem.evaluate(fit.x, fit.residual, &fit.jacobian))
     throw thermal::InputError("the machine cannot be run with its nominal values on these data");
-  }
   fit.cost = fit.residual.squaredNorm();
   Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());
   fit.covariance = information.solve(Eigen::MatrixXd::Identity(count, count));
