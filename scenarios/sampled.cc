@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/noisy_record.h"
 #include "thermal/error.h"
 
 namespace thermotwin::scenarios {
@@ -101,8 +102,9 @@ Course means(Course const& samples, double width) {
 }  // namespace
 
 DrivenChannel driven_channel(SampledInput const& input) {
-  Course const samples = finite_part(input);
+  Course samples = finite_part(input);
   bool const held = is_held(input, samples.values);
+  if (!held && input.absolute_temperature) samples.values = without_noise(samples.times, samples.values);
   Course const course = held ? blocks(samples) : means(samples, input.average);
   Interpolation const between = held ? Interpolation::step : Interpolation::linear;
   return {{input.name, input.unit, "measured"}, Signal(course.times, course.values, between)};
