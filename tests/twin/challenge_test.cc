@@ -17,6 +17,7 @@
 #include "twin/challenge/challenge_runs.h"
 #include "twin/challenge/hidden_heat.h"
 #include "twin/challenge/refined_form.h"
+#include "twin/experiment_file.h"
 #include "twin/file/document.h"
 #include "twin/run.h"
 
@@ -213,6 +214,31 @@ TEST_F(ChallengeFolder, GivesAwayNothingButWhatWasMeasured) {
     EXPECT_EQ(text_of(folder / file).find("plate"), std::string::npos) << file;
     EXPECT_GE(data.time_s[data.time_s.size() - 1], 12.0 * 3600.0);
   }
+}
+
+/// Noise that came twice would be taken for what the machine does.
+TEST_F(ChallengeFolder, GivesEveryFurtherRunNoiseOfItsOwn) {
+  auto const folder = write("further", 12, CaseKind::none);
+  auto const experiment = experiment_file("separate_switches");
+  std::vector<output::Dataset> runs;
+  for (std::string const name : {"monday", "tuesday"}) {
+    auto const file = root_ / (name + ".toml");
+    std::filesystem::copy_file(experiment, file);
+    write_challenge({"v450", 12, CaseKind::none, folder, file});
+    runs.push_back(output::read(folder / (name + ".h5")));
+  }
+  auto const alike = [](std::vector<output::Channel> const& a, std::vector<output::Channel> const& b) {
+    double most = 0.0;  // correlation of changes
+    for (std::size_t c = 0; c < a.size(); ++c) {
+      auto const n = a[c].values.size() - 1;
+      Eigen::VectorXd const u = a[c].values.tail(n) - a[c].values.head(n),
+                            v = b[c].values.tail(n) - b[c].values.head(n);
+      most = std::max(most, u.dot(v) / (u.norm() * v.norm()));
+    }
+    return most;
+  };
+  EXPECT_LT(alike(runs[0].readings, runs[1].readings), 0.3);
+  EXPECT_LT(alike(runs[0].displacements, runs[1].displacements), 0.3);
 }
 
 TEST_F(ChallengeFolder, SealsTheUnseenRunWithoutItsNoise) {

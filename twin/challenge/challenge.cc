@@ -13,6 +13,7 @@
 #include "twin/challenge/hidden_heat.h"
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
+#include "twin/instruments/random_stream.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -31,7 +32,7 @@ output::Dataset simulate(Machine const& machine, scenarios::Experiment const& ex
 }
 
 /// What somebody who measures has.
-output::Dataset measured(output::Dataset const& run, HiddenWorld const& world, int index) {
+output::Dataset measured(output::Dataset const& run, HiddenWorld const& world, std::string const& name) {
   output::Dataset data;
   data.title = run.title;
   data.time_s = run.time_s;
@@ -39,7 +40,7 @@ output::Dataset measured(output::Dataset const& run, HiddenWorld const& world, i
   data.readings = run.readings;
   data.displacements = run.displacements;
   data.positioning = run.positioning;
-  disturb(data, world, index);
+  disturb(data, world, name);
   return data;
 }
 
@@ -129,13 +130,15 @@ std::string write_further_run(ChallengeOptions const& options) {
   std::ifstream file(options.folder / "sealed.json");
   Json const truth = Json::parse(file, nullptr, false);
   if (truth.is_discarded()) throw thermal::InputError(fmt::format("'{}' holds no challenge", options.folder.string()));
-  auto const target = options.folder / (options.further_run->stem().string() + ".h5");
+  auto const name = options.further_run->stem().string();
+  auto const target = options.folder / (name + ".h5");
   if (std::filesystem::exists(target))
     throw thermal::InputError(fmt::format("'{}' is there already; a challenge does not overwrite", target.string()));
-  auto const experiment = read_experiment(read_toml(*options.further_run), *options.further_run);
+  auto experiment = read_experiment(read_toml(*options.further_run), *options.further_run);
   auto const world = draw_hidden_world(read_toml(machine_file(options.machine)), truth.at("seed").get<std::uint64_t>(),
                                        case_kind(truth.at("kind").get<std::string>()));
-  output::write(measured(simulate(Machine::build(world.hidden), experiment), world, int(run_names.size())), target);
+  experiment.seed = int(1e9 * RandomStream(world.seed, name).uniform());
+  output::write(measured(simulate(Machine::build(world.hidden), experiment), world, name), target);
   return fmt::format("{}: one more run, {:.0f} h\n", target.string(), experiment.duration / 3600.0);
 }
 
@@ -168,7 +171,7 @@ std::string write_challenge(ChallengeOptions const& options) {
     auto const& experiment = runs[std::size_t(r)];
     auto const& name = run_names[std::size_t(r)];
     auto const data = simulate(hidden, experiment);
-    output::write(measured(data, world, r), options.folder / (name + ".h5"));
+    output::write(measured(data, world, std::to_string(r)), options.folder / (name + ".h5"));
     hours += experiment.duration / 3600.0;
     if (world.effects.empty()) continue;
     json["watts"][name] = heat_json(hidden_heat(hidden, healthy, experiment, data));

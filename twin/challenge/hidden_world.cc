@@ -306,10 +306,10 @@ HiddenFault draw_fault(Value& document, RandomStream& stream) {
   return fault;
 }
 
-void break_sensor(output::Channel& channel, HiddenFault const& fault, std::uint64_t seed, int run) {
+void break_sensor(output::Channel& channel, HiddenFault const& fault, std::uint64_t seed, std::string const& run) {
   Eigen::Index const rows = channel.values.size();
   if (fault.kind == "stuck") {
-    auto const from = run == 0 ? Eigen::Index(fault.from * double(rows)) : 0;
+    auto const from = run == "0" ? Eigen::Index(fault.from * double(rows)) : 0;
     channel.values.tail(rows - from).setConstant(channel.values[from]);
     return;
   }
@@ -377,7 +377,7 @@ HiddenWorld draw_hidden_world(Value const& nominal, std::uint64_t seed, CaseKind
   return world;
 }
 
-void disturb(output::Dataset& dataset, HiddenWorld const& world, int run) {
+void disturb(output::Dataset& dataset, HiddenWorld const& world, std::string const& run) {
   constexpr double correlation_time = 600.0, radians_per_metre = 2.0;
   for (auto& channel : dataset.displacements) {
     double const scale = channel.unit == "urad" ? radians_per_metre : 1.0;
