@@ -9,6 +9,7 @@ namespace thermotwin::twin {
 namespace {
 
 constexpr double least_jump = 0.5;  // [K]
+constexpr double driven = 180.0;    // after a change of the inputs a light body may warm as fast [s]
 constexpr int level = 8;            // samples on each side whose mean is where a reading stands
 
 /// A change from one sample to the next.
@@ -58,7 +59,10 @@ bool stays(std::vector<Change> const& changes, std::size_t jump) {
 
 std::string jump_text(BinnedRun const& run, Eigen::VectorXd const& values) {
   auto const changes = changes_of(run.run->time, values);
-  auto const found = jumps(changes);
+  auto found = jumps(changes);
+  std::erase_if(found, [&](std::size_t jump) {
+    return run.run->course->next_jump(changes[jump].time - driven) <= changes[jump].time;
+  });
   if (found.size() > 1) return "jumps about as no body's temperature does";
   if (found.empty() || !stays(changes, found[0])) return "";
   auto const& change = changes[found[0]];

@@ -15,7 +15,9 @@ namespace {
 namespace dimension = thermal::dimension;
 
 std::optional<double> deviation_of(std::string const& table, std::string const& key, thermal::Dimension const& of) {
-  if (key == "grease_factor" || of == dimension::torque) return 0.25;
+  bool const friction = key == "grease_factor" || (table == "ball_nut" && key == "preload");
+  if (friction || of == dimension::torque) return 0.25;
+  if (of == dimension::volume_flow || key == "resistance") return 0.20;
   if (table == "film" && (key == "area" || key == "coefficient" || key == "factor")) return 0.20;
   if (of == dimension::conductance || of == dimension::film_coefficient) return 0.30;
   if (of == dimension::power) return 0.25;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "scenarios/course.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 
 namespace thermotwin::twin {
@@ -36,6 +37,12 @@ std::optional<FaultySensor> found(std::vector<MeasuredChannel> channels, double 
   run.time = VectorXd::NullaryExpr(channels[0].values.size(),
                                    [&](Eigen::Index i) { return 60.0 * (double(i) + (i < 200 ? 0.0 : missing)); });
   run.channels = std::move(channels);
+  auto const driven = tests::experiment(R"(
+    duration = "10 h"
+    ambient.mean = "22 degC"
+    [spindle]
+    blocks = [{duration = "50 min", speed = "0 rpm"}, {duration = "10 h", speed = "3000 rpm"}])");
+  run.course = std::make_shared<scenarios::ExperimentCourse const>(driven, machine().limits);
   BinnedRun binned;
   binned.run = &run;
   return faulty_sensor(machine(), {binned});
@@ -63,6 +70,13 @@ TEST(FaultySensor, IsOneWhoseReadingsLeapOnceForEver) {
   ASSERT_TRUE(sensor);
   EXPECT_EQ(sensor->name, "T2");
   EXPECT_EQ(sensor->what, "jumps by -1 K at 3.33 h of monday and stays there, as no body's temperature does");
+}
+
+/// A light ring takes up half a kelvin in the minute after the spindle started, and less in the next.
+TEST(FaultySensor, IsNoneWhereTheSpindleStarts) {
+  VectorXd values = warming();
+  values.tail(480 - 51).array() += 1.0;
+  EXPECT_FALSE(found({{"T1", false, warming()}, {"T2", false, values}}));
 }
 
 TEST(FaultySensor, IsNoneThatIsDisturbedForASample) {

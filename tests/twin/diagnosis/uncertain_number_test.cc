@@ -48,6 +48,17 @@ TEST(UncertainNumbers, OfTheLumpedMachineAreItsJointsFilmsLossesMassesAndGrowth)
   }
 }
 
+TEST(UncertainNumbers, OfTheOtherMachinesAreTheNutsPreloadAndTheOilsFlowToo) {
+  auto const of = [](std::string const& name) { return Uncertain(read_toml(machine_file(name))); };
+  auto const axis = of("vmc850"), spindle = of("g200");
+  for (auto const& [numbers, path, deviation] : {std::tuple{&axis, "ball_nut.nut.preload", 0.25},
+                                                 {&axis, "feed_motor.motor.resistance", 0.20},
+                                                 {&spindle, "coolant_flow.jacket.flow", 0.20}}) {
+    ASSERT_TRUE(numbers->find(path)) << path;
+    EXPECT_EQ(numbers->find(path)->deviation, deviation) << path;
+  }
+}
+
 /// What was measured with a rule or a balance, or read from a handbook, is none.
 TEST(UncertainNumbers, DoNotContainWhatIsKnown) {
   Uncertain const v450(tests::v450());
