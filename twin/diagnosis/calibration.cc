@@ -27,7 +27,7 @@ constexpr double far_from_file = 3.0;    // departure
 
 std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machine const& machine) {
   if (unknown.kind == Unknown::Kind::lag) return "s";
-  if (unknown.kind == Unknown::Kind::input) return "1";
+  if (unknown.kind == Unknown::Kind::input || unknown.kind == Unknown::Kind::interior) return "1";
   if (unknown.kind != Unknown::Kind::offset || unknown.run < 0) return "K";
   auto const& channels = estimation.data()[std::size_t(unknown.run)].run->channels;
   auto const of_zero = std::find_if(channels.begin(), channels.end(), [&](auto const& channel) {
@@ -96,7 +96,7 @@ Eigen::VectorXd add_written(Calibration& calibration, Estimation const& estimati
   std::vector<std::size_t> others;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n)
     if (!calibration.numbers[n].identified) others.push_back(n);
-  Eigen::VectorXd x = estimation.knowing(others).fit(estimation.prior_mean(), iterations).x;
+  Eigen::VectorXd x = estimation.with_lumps().knowing(others).fit(estimation.prior_mean(), iterations).x;
   for (std::size_t const n : others) x[Eigen::Index(n)] = 0.0;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n) calibration.numbers[n].written = x[Eigen::Index(n)];
   return x;

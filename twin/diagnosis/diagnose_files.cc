@@ -18,8 +18,8 @@ std::vector<ChangedValue> changes_of(Diagnosis const& diagnosis, Value document)
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
     if (diagnosis.unknowns[u].kind != Unknown::Kind::number) continue;
     auto const i = Eigen::Index(u);
-    changes.push_back(changed_value(numbers[diagnosis.unknowns[u].index], diagnosis.amended.x[i],
-                                    std::sqrt(diagnosis.amended.covariance(i, i))));
+    changes.push_back(changed_value(numbers[diagnosis.unknowns[u].index], diagnosis.written.x[i],
+                                    std::sqrt(diagnosis.written.covariance(i, i))));
   }
   return changes;
 }
@@ -52,9 +52,9 @@ AddedTable table_of(Diagnosis const& diagnosis, std::size_t u, RunFiles const& d
   auto const number = diagnosis.unknowns[u].index;
   auto const& effect = diagnosis.effects[number];
   auto const i = Eigen::Index(u);
-  double const amplitude = diagnosis.amended.x[i] * effect.largest;
+  double const amplitude = diagnosis.written.x[i] * effect.largest;
   Explanation const* explanation = explanation_of(diagnosis, effect);
-  double const error = std::sqrt(diagnosis.amended.covariance(i, i)) * effect.largest;
+  double const error = std::sqrt(diagnosis.written.covariance(i, i)) * effect.largest;
   std::string const unit = readable_unit(amplitude, effect.dimension());
   AddedTable table{effect.effect->name, {}, origin_of(diagnosis, effect, data)};
   for (auto const& [key, text] : table_of(effect, fmt::format("diagnosed_{}", number + 1), amplitude))

@@ -30,6 +30,7 @@ class Diagnostician {
     if (options_.progress) options_.progress(what);
   }
   [[nodiscard]] FreeHeat unknown_heat() const;
+  void write_down();
   void find_where();
   using HeatAt = std::map<std::pair<std::string, std::string>, double>;  ///< body and regime, watts
   void tell_where(HeatAt const& heat);
@@ -59,8 +60,7 @@ Diagnosis Diagnostician::operator()() {
   d.amended = search_.fit();
   d.effects = amended.effects();
   d.unknowns = amended.unknowns();
-  d.document = amended.document_at(d.amended.x);
-  d.calibrated_document = search_.plain().document_at(d.calibrated.x);
+  write_down();
   d.visible = search_.visible();
   d.noise_heard = search_.noise_heard();
   if (!d.effects.empty()) d.left = scan_for_free_heat(amended, d.amended);
@@ -76,12 +76,26 @@ Diagnosis Diagnostician::operator()() {
   return d;
 }
 
+/// What files get, whose lumps are lumps, and the amplitudes that are right there.
+void Diagnostician::write_down() {
+  auto& d = diagnosis_;
+  auto const& amended = search_.estimation();
+  d.written = amended.with_lumps().fit(d.amended.x);
+  d.document = amended.document_at(d.written.x);
+  d.calibrated_document = search_.plain().document_at(search_.plain().with_lumps().fit(d.calibrated.x).x);
+  auto const first = d.amended.x.size() - Eigen::Index(d.effects.size());
+  for (std::size_t e = 0; e < d.effects.size(); ++e) {
+    auto const u = first + Eigen::Index(e);
+    d.explanations[e].alternatives[0].take(d.written.x[u], std::sqrt(d.amended.covariance(u, u)), machine_.geometry);
+  }
+}
+
 /// Heat of free course is still evident, or it took two effects on one body that are about heat: the catalogue does not
 /// have what acts there.
 bool Diagnostician::is_unknown_heat() const {
   auto const& found = diagnosis_.explanations;
-  auto const& left = found.empty() ? diagnosis_.scan : diagnosis_.left;
-  if (!left.empty() && left[0].gain > search_.beside_strongest(options_.heat_left)) return true;
+  auto const& left = diagnosis_.left;
+  if (!left.empty() && left[0].gain > search_.beside_strongest(options_.further_threshold)) return true;
   std::map<std::string, std::string> acting;  // on each body, the first
   return std::any_of(found.begin(), found.end(), [&](Explanation const& explanation) {
     auto const& effect = explanation.alternatives[0].hypothesis;

@@ -36,10 +36,11 @@ struct Diagnosis {
   std::vector<Hypothesis> hypotheses;  ///< those that were tried
   Fit calibrated;                      ///< without any effect
   Fit amended;                         ///< with those found, the best alternative of each
-  std::vector<Hypothesis> effects;     ///< of `amended`
-  std::vector<Unknown> unknowns;       ///< of `amended`
-  Value document;                      ///< the machine as amended: calibrated values and the effects
-  Value calibrated_document;           ///< with calibrated values alone
+  Fit written;  ///< the same where lumps are lumps, as they are in a file: what the amended file gets
+  std::vector<Hypothesis> effects;  ///< of `amended`
+  std::vector<Unknown> unknowns;    ///< of `amended`
+  Value document;                   ///< the machine as amended: calibrated values and the effects
+  Value calibrated_document;        ///< with calibrated values alone
   std::vector<std::pair<std::string, double>> noise_heard;  ///< of every channel, over what was expected
   std::size_t visible = 0;  ///< hypotheses that would have been seen at half of their largest amplitude
 };

@@ -17,13 +17,10 @@ struct DiagnosisOptions {
   int most_effects = 8;
   /// 2 ln of the evidence that an effect must have; see docs/diagnosis.md for how often chance alone reaches it.
   double threshold = 20.0;
-  /// What a further effect must have, and its share of the strongest, which heat of free course must have, too: what is
-  /// left of an effect whose shape is not quite right looks like others.
+  /// What a further effect must have beside those found, and heat of free course, and its share of the strongest: what
+  /// is left of an effect whose shape is not quite right looks like others.
   double further_threshold = 40.0;
   double least_share = 0.04;
-  /// 2 ln of the evidence for heat of free course anywhere, beside the effects found: beyond it, they are not what is
-  /// missing.
-  double heat_left = 20.0;
   double indistinct = 9.0;  ///< alternatives within this of the best are told as well
   std::function<void(std::string const&)> progress;
 };

@@ -13,14 +13,15 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double offset_deviation = 0.3;  // of a temperature sensor [K]
-constexpr double zero_deviation = 1e-6;   // of a displacement's zero [m]
-constexpr double unread_zero = 200e-6;    // where the run begins before the channel was read
-constexpr double usual_lag = 30.0;        // [s]
-constexpr double lag_deviation = 25.0;    // [s]
-constexpr double start_deviation = 0.3;   // [K]
-constexpr double air_deviation = 0.2;     // [K]
-constexpr double input_deviation = 0.7;   // of the response to what may have been given instead
+constexpr double offset_deviation = 0.3;    // of a temperature sensor [K]
+constexpr double zero_deviation = 1e-6;     // of a displacement's zero [m]
+constexpr double unread_zero = 200e-6;      // where the run begins before the channel was read
+constexpr double usual_lag = 30.0;          // [s]
+constexpr double lag_deviation = 25.0;      // [s]
+constexpr double start_deviation = 0.3;     // [K]
+constexpr double air_deviation = 0.2;       // [K]
+constexpr double input_deviation = 0.7;     // of the response to what may have been given instead
+constexpr double interior_deviation = 0.5;  // of a lump: half of a slab
 constexpr double relative_step = 1e-4;
 constexpr int start_halvings = 4;
 
@@ -130,12 +131,13 @@ Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::
     first_rows_.push_back(rows_);
     rows_ += run.values.size();
   }
-  add_unknowns();
+  LumpInteriors const interiors(document_);
+  add_unknowns(interiors);
   make_whitenings();
-  find_linear_columns();
+  find_linear_columns(interiors);
 }
 
-void Estimation::add_unknowns() {
+void Estimation::add_unknowns(LumpInteriors const& interiors) {
   using Kind = Unknown::Kind;
   auto const sensors = Machine::build(document_).sensors;
   for (std::size_t i = 0; i < numbers_.size(); ++i)
@@ -165,6 +167,9 @@ void Estimation::add_unknowns() {
       unknowns_.push_back({Kind::input, fmt::format("{}, run {}", alternatives[a].name, r + 1), 0.0, input_deviation,
                            -INFINITY, INFINITY, a, int(r)});
   }
+  for (std::size_t i = 0; i < interiors.unknowns().size(); ++i)
+    unknowns_.push_back(
+        {Kind::interior, interiors.unknowns()[i].name, 0.0, interior_deviation, -INFINITY, INFINITY, i, -1});
 }
 
 void Estimation::make_whitenings() {
@@ -186,13 +191,15 @@ void Estimation::whiten(Eigen::Ref<Eigen::MatrixXd> signals) const {
   }
 }
 
-/// Offsets, the start and the air: small, so that their response at the prior machine serves throughout. And what was
-/// given in gaps, of which a share is estimated: in proportion to its heat, of which only what is stored is seen.
-void Estimation::find_linear_columns() {
+/// Offsets, the start, the air and what lumps hide: small, so that their response at the prior machine serves
+/// throughout. And what was given in gaps, of which a share is estimated: in proportion to its heat, of which only what
+/// is stored is seen.
+void Estimation::find_linear_columns(LumpInteriors const& interiors) {
   linear_.clear();
   for (std::size_t u = 0; u < unknowns_.size(); ++u)
     if (unknowns_[u].kind == Unknown::Kind::offset || unknowns_[u].kind == Unknown::Kind::start ||
-        unknowns_[u].kind == Unknown::Kind::air || unknowns_[u].kind == Unknown::Kind::input)
+        unknowns_[u].kind == Unknown::Kind::air || unknowns_[u].kind == Unknown::Kind::input ||
+        unknowns_[u].kind == Unknown::Kind::interior)
       linear_.push_back(u);
   linear_columns_.setZero(rows_, Eigen::Index(linear_.size()));
   Machine const machine = Machine::build(document_);
@@ -205,6 +212,7 @@ void Estimation::find_linear_columns() {
     auto const& run = (*data_)[r];
     LinearisedRun const twin(machine, run);
     Eigen::MatrixXd const response = twin.response(both, initial), prediction = twin.prediction();
+    Eigen::MatrixXd const within = interiors.responses(run);
     auto const rows = run.time.size();
     for (std::size_t l = 0; l < linear_.size(); ++l) {
       auto const& unknown = unknowns_[linear_[l]];
@@ -212,6 +220,7 @@ void Estimation::find_linear_columns() {
       auto column = linear_columns_.col(Eigen::Index(l)).segment(first_rows_[r], run.values.size());
       if (unknown.kind == Unknown::Kind::start) column = response.col(0);
       if (unknown.kind == Unknown::Kind::air) column = response.col(1);
+      if (unknown.kind == Unknown::Kind::interior) column = within.col(Eigen::Index(unknown.index));
       if (unknown.kind == Unknown::Kind::input)
         column = response_to(run.run->alternatives[unknown.index].course, machine, run, prediction);
       if (unknown.kind != Unknown::Kind::offset) continue;
@@ -248,6 +257,13 @@ Estimation Estimation::knowing(std::vector<std::size_t> const& unknowns) const {
   Estimation other = *this;
   for (std::size_t const u : unknowns) other.unknowns_[u].deviation *= 1e-4;
   return other;
+}
+
+Estimation Estimation::with_lumps() const {
+  std::vector<std::size_t> hidden;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    if (unknowns_[u].kind == Unknown::Kind::interior) hidden.push_back(u);
+  return knowing(hidden);
 }
 
 Eigen::VectorXd Estimation::prior_mean() const {

@@ -10,6 +10,7 @@
 #include "twin/diagnosis/binned_run.h"
 #include "twin/diagnosis/hypothesis.h"
 #include "twin/diagnosis/linearised_run.h"
+#include "twin/diagnosis/lump_interiors.h"
 #include "twin/diagnosis/noise_model.h"
 #include "twin/diagnosis/uncertain_number.h"
 #include "twin/sensitivity.h"
@@ -26,12 +27,13 @@ struct Unknown {
     start,      ///< deviation of the whole machine's temperature at the start of a run [K]
     air,        ///< deviation of the room air from its record, in one run [K]
     input,      ///< share of what a run may have been given instead in a gap of its record
+    interior,   ///< of what a lump hides, in units of a slab's (lump_interiors.h)
   };
   Kind kind = Kind::number;
   std::string name;
   double mean = 0.0, deviation = 1.0;
   double lower = -INFINITY, upper = INFINITY;
-  std::size_t index = 0;  ///< of the number, the effect, the channel or the run's alternative
+  std::size_t index = 0;  ///< of the number, the effect, the channel, the run's alternative or the interior
   int run = -1;           ///< −1: all
 };
 
@@ -71,6 +73,8 @@ class Estimation {
   [[nodiscard]] Estimation with(std::vector<ChannelNoise> const& noise) const;
   /// The same question with some of the unknowns as good as known: to a hundredth of a per cent of their priors.
   [[nodiscard]] Estimation knowing(std::vector<std::size_t> const& unknowns) const;
+  /// The same question to a machine whose lumps hide nothing: all that a file can say.
+  [[nodiscard]] Estimation with_lumps() const;
 
   [[nodiscard]] std::vector<Unknown> const& unknowns() const { return unknowns_; }
   [[nodiscard]] std::vector<Hypothesis> const& effects() const { return effects_; }
@@ -97,9 +101,9 @@ class Estimation {
   [[nodiscard]] Eigen::Index first_row(std::size_t run) const { return first_rows_[run]; }
 
  private:
-  void add_unknowns();
+  void add_unknowns(LumpInteriors const& interiors);
   void make_whitenings();
-  void find_linear_columns();
+  void find_linear_columns(LumpInteriors const& interiors);
   struct Traced;
   [[nodiscard]] std::unique_ptr<Traced const> trace(Eigen::VectorXd const& x) const;
   [[nodiscard]] bool evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const>& traced,

@@ -26,7 +26,7 @@ struct ExtraMass {
 };
 
 /// What is inside a lump lags behind its surface, as such a mass would.
-constexpr double against = 20.0;
+constexpr double against = 30.0;
 
 }  // namespace
 
