@@ -27,7 +27,7 @@ constexpr double far_from_file = 3.0;    // departure
 
 std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machine const& machine) {
   if (unknown.kind == Unknown::Kind::lag) return "s";
-  if (unknown.kind == Unknown::Kind::input || unknown.kind == Unknown::Kind::interior) return "1";
+  if (unknown.kind == Unknown::Kind::input) return "1";
   if (unknown.kind != Unknown::Kind::offset || unknown.run < 0) return "K";
   auto const& channels = estimation.data()[std::size_t(unknown.run)].run->channels;
   auto const of_zero = std::find_if(channels.begin(), channels.end(), [&](auto const& channel) {
@@ -39,6 +39,7 @@ std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machin
 void add_estimates(Calibration& calibration, Estimation const& estimation, Fit const& fit, Machine const& machine) {
   auto const& unknowns = estimation.unknowns();
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
+    if (unknowns[u].kind == Unknown::Kind::interior) continue;
     auto const i = Eigen::Index(u);
     double const deviation = std::sqrt(fit.covariance(i, i));
     if (unknowns[u].kind != Unknown::Kind::number) {
@@ -96,7 +97,7 @@ Eigen::VectorXd add_written(Calibration& calibration, Estimation const& estimati
   std::vector<std::size_t> others;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n)
     if (!calibration.numbers[n].identified) others.push_back(n);
-  Eigen::VectorXd x = estimation.with_lumps().knowing(others).fit(estimation.prior_mean(), iterations).x;
+  Eigen::VectorXd x = estimation.knowing(others).fit(estimation.prior_mean(), iterations).x;
   for (std::size_t const n : others) x[Eigen::Index(n)] = 0.0;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n) calibration.numbers[n].written = x[Eigen::Index(n)];
   return x;
@@ -127,7 +128,7 @@ bool Calibration::falls_short() const {
 }
 
 Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) {
-  Estimation const estimation = expected_estimation(machine, runs);
+  Estimation const estimation = expected_estimation(machine, runs).with_lumps();
   if (estimation.numbers().empty())
     throw thermal::InputError(
         "the machine has no number that calibration could change: no conductance, film, friction, loss, mass or step "

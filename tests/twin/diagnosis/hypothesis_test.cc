@@ -83,7 +83,7 @@ TEST_P(HypothesesOf, ShareTheProbabilityOfTheirEffect) {
   for (auto const& hypothesis : subject.all) probability[hypothesis.effect->name] += std::exp(-0.5 * hypothesis.choice);
   EXPECT_GT(probability.size(), 10U);
   for (auto const& [effect, sum] : probability)
-    EXPECT_NEAR(sum, effect == "extra_mass" ? std::exp(-10.0) : 1.0, 1e-12) << effect;
+    EXPECT_NEAR(sum, effect == "extra_mass" ? std::exp(-15.0) : 1.0, 1e-12) << effect;
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, HypothesesOf, testing::Values("v450", "vmc850", "g200"),
