@@ -60,8 +60,8 @@ struct HiddenWorld {
                                     std::map<std::string, double>& drawn);
 
 /// Adds what instruments and records do that no machine file says: noise of displacements (AR(1) of 10 min and 0.3 µm,
-/// white 0.1 µm), of the recorded speed (0.5 %) and air temperature (0.1 K), a stuck or jumping sensor. Each run, by its
-/// name, has noise of its own.
+/// white 0.1 µm), of the recorded speed (0.5 %) and air temperature (0.1 K), a stuck or jumping sensor. Each run, by
+/// its name, has noise of its own.
 void disturb(output::Dataset& dataset, HiddenWorld const& world, std::string const& run);
 
 }  // namespace thermotwin::twin
