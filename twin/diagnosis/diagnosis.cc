@@ -76,13 +76,15 @@ Diagnosis Diagnostician::operator()() {
   return d;
 }
 
-/// What files get, whose lumps are lumps, and the amplitudes that are right there.
+/// What files get: the fit for lumps that hide nothing, and its amplitudes. Their errors are those of the fit that
+/// knows what lumps may hide.
 void Diagnostician::write_down() {
   auto& d = diagnosis_;
   auto const& amended = search_.estimation();
   d.written = amended.with_lumps().fit(d.amended.x);
   d.document = amended.document_at(d.written.x);
-  d.calibrated_document = search_.plain().document_at(search_.plain().with_lumps().fit(d.calibrated.x).x);
+  auto const& plain = search_.plain();
+  d.calibrated_document = d.effects.empty() ? d.document : plain.document_at(plain.with_lumps().fit(d.calibrated.x).x);
   auto const first = d.amended.x.size() - Eigen::Index(d.effects.size());
   for (std::size_t e = 0; e < d.effects.size(); ++e) {
     auto const u = first + Eigen::Index(e);

@@ -71,7 +71,6 @@ void EffectSearch::operator()(std::vector<Hypothesis> hypotheses) {
   for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
   if (drop_superfluous() && estimation_->effects().size() > 1) linearise();
   if (exchange()) drop_superfluous();
-  take_joint_estimates();
 }
 
 double EffectSearch::beside_strongest(double threshold) const {
@@ -322,15 +321,6 @@ bool EffectSearch::exchange() {
     explanations_[e] = explanation_of(all);
   }
   return exchanged;
-}
-
-/// The best alternative of each explanation as the last fit has it, with all the others.
-void EffectSearch::take_joint_estimates() {
-  auto const first = calibrated_.x.size();
-  for (std::size_t e = 0; e < explanations_.size(); ++e) {
-    auto const u = first + Eigen::Index(e);
-    explanations_[e].alternatives[0].take(fit_.x[u], std::sqrt(fit_.covariance(u, u)), geometry_);
-  }
 }
 
 }  // namespace thermotwin::twin

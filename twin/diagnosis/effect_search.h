@@ -42,6 +42,7 @@ class EffectSearch {
   /// With the effects found; the fit has the best alternative of each explanation.
   [[nodiscard]] Estimation const& estimation() const { return estimation_.value(); }
   [[nodiscard]] Fit const& fit() const { return fit_; }
+  /// Amplitudes as they were when each was found.
   [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
   /// A threshold for what is evident beside the effects found: no less than `least_share` of the strongest.
   [[nodiscard]] double beside_strongest(double threshold) const;
@@ -70,7 +71,6 @@ class EffectSearch {
   [[nodiscard]] Estimation with_effects(std::vector<Hypothesis> const& effects) const;
   bool drop_superfluous();
   bool exchange();
-  void take_joint_estimates();
 
   DiagnosisOptions const& options_;
   thermal::Geometry geometry_;
