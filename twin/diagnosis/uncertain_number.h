@@ -30,9 +30,11 @@ struct UncertainNumber {
 /// | number                                   | deviation |
 /// |------------------------------------------|-----------|
 /// | conductance, film coefficient of contact | 0.30      |
-/// | friction: grease_factor, torque          | 0.25      |
+/// | friction: grease_factor, torque, preload |           |
+/// | of a ball nut                            | 0.25      |
 /// | power of a loss                          | 0.25      |
 /// | area of a film, film coefficient         | 0.20      |
+/// | flow, resistance of a winding            | 0.20      |
 /// | mass, heat capacity                      | 0.10      |
 /// | growth of a segment of the loop          | 0.10      |
 ///

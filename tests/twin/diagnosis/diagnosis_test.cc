@@ -1,6 +1,7 @@
 #include "twin/diagnosis/diagnosis.h"
 
 #include <gtest/gtest.h>
+#include <random>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 
@@ -34,6 +35,28 @@ TEST(Diagnosis, NamesWhatMovesADisplacement) {
   EXPECT_EQ(name_of(diagnosis.verdict), "effect");
   ASSERT_EQ(diagnosis.effects.size(), 1);
   EXPECT_EQ(diagnosis.effects[0].effect->name, "centrifugal_growth");
+}
+
+/// In a room where nothing happens a sensor that lags reads a smooth version of a noisy record.
+TEST(Diagnosis, TakesNoiseInTheRecordOfTheRoomForNoLagOfItsSensor) {
+  Machine const machine = Machine::build(tests::v450());
+  auto dataset = run(machine, tests::experiment(R"(
+    duration = "24 h"
+    ambient.mean = "22 degC"
+    ambient.daily_cycle.amplitude = "1.5 K"
+    [spindle]
+    blocks = [{duration = "12 h", speed = "3000 rpm"}])"),
+                     {})
+                     .dataset;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  for (auto& input : dataset.inputs)
+    if (input.name == "ambient.temperature")
+      for (double& value : input.values) value += 0.1 * normal(random);
+  auto measured = measured_run(dataset, machine, "quiet");
+  tests::add_noise(measured, 0.02, 0.05e-6, 7);
+  auto const diagnosis = diagnose(tests::v450(), {bin(measured, 300.0)}, {});
+  EXPECT_EQ(name_of(diagnosis.verdict), "nothing");
 }
 
 /// Two at once on one displacement are likelier one thing that the catalogue does not have. It is no heat.
