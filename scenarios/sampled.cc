@@ -11,6 +11,8 @@ namespace {
 
 constexpr double same_block = 0.02;           // of the largest magnitude
 constexpr double deviations = 5.0;            // of the noise
+constexpr double surely_still = 0.002;        // of the largest magnitude
+constexpr double least_of_motion = 3.0;       // times the noise of neighbours
 constexpr double deviation_of_median = 1.05;  // σ = 1.4826/√2 · median |Δ| of white noise
 
 struct Course {
@@ -55,30 +57,44 @@ double largest_magnitude(std::vector<double> const& values) {
   return largest;
 }
 
+/// Noise about zero, rather than a slow motion: it changes its sign, or comes close to zero.
+bool is_about_zero(std::vector<double> const& values) {
+  auto const [least, most] = std::minmax_element(values.begin(), values.end());
+  if (values.size() < 2 || *least * *most <= 0.0) return true;
+  return std::min(std::abs(*least), std::abs(*most)) <= least_of_motion * median_step(values);
+}
+
+/// The value of a block of samples that differ by noise only.
+double held(std::vector<double> const& values, double mean, double largest) {
+  double const share = std::abs(mean) / largest;
+  bool const still = share < surely_still || (share < same_block && is_about_zero(values));
+  return still ? 0.0 : mean;
+}
+
 /// Samples that differ by noise only become one breakpoint with their mean.
 Course blocks(Course const& samples) {
   double const step = median_step(samples.values);
   double const largest = largest_magnitude(samples.values);
   double const tolerance = step == 0.0 ? 0.0 : std::max(same_block * largest, deviations * deviation_of_median * step);
   Course result;
-  double sum = 0.0;
-  int count = 0;
+  std::vector<double> block;
+  double mean = 0.0;
+  auto const end_block = [&] {
+    if (!block.empty()) result.values.push_back(tolerance > 0.0 ? held(block, mean, largest) : block.front());
+    block.clear();
+  };
   for (std::size_t i = 0; i < samples.times.size(); ++i) {
     double const value = samples.values[i];
-    bool const same = count > 0 && std::abs(value - result.values.back()) <= tolerance;
-    if (!same) {
+    double const reference = tolerance > 0.0 || block.empty() ? mean : block.front();
+    if (block.empty() || std::abs(value - reference) > tolerance) {
+      end_block();
       result.times.push_back(samples.times[i]);
-      result.values.push_back(value);
-      sum = 0.0;
-      count = 0;
+      mean = 0.0;
     }
-    sum += value;
-    ++count;
-    if (tolerance > 0.0) result.values.back() = sum / count;
+    block.push_back(value);
+    mean += (value - mean) / double(block.size());
   }
-  if (tolerance > 0.0)
-    for (double& value : result.values)
-      if (std::abs(value) < same_block * largest) value = 0.0;
+  end_block();
   return result;
 }
 
