@@ -1,8 +1,14 @@
 #include "twin/diagnosis/expected_noise.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace thermotwin::twin {
+namespace {
+
+constexpr double per_base = 2.0;  // a tilt is that of two probes 0.7 m apart: √2/0.7 [1/m]
+
+}  // namespace
 
 ChannelNoise expected_noise(Machine const& machine, std::string const& channel, std::vector<BinnedRun> const& runs) {
   bool displacement = false;
@@ -12,9 +18,12 @@ ChannelNoise expected_noise(Machine const& machine, std::string const& channel, 
   ChannelNoise noise;
   noise.slow_share = displacement ? 0.015 : 0.01;
   if (displacement) {
-    noise.white = 0.2e-6;
-    noise.rounding = 0.05e-6;
-    noise.fast = 0.3e-6;
+    bool const rotation = std::any_of(machine.displacements.begin(), machine.displacements.end(),
+                                      [&](auto const& d) { return d.name == channel && d.rotation; });
+    double const scale = rotation ? per_base : 1.0;
+    noise.white = 0.2e-6 * scale;
+    noise.rounding = 0.05e-6 * scale;
+    noise.fast = 0.3e-6 * scale;
     return noise;
   }
   noise.white = 0.03;

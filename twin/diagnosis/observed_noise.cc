@@ -5,6 +5,8 @@
 namespace thermotwin::twin {
 namespace {
 
+constexpr double reluctance = 10.0;  // 2 ln of the likelihood by which more noise must be the better
+
 /// −2 ln likelihood of one channel's residuals in all runs.
 double misfit(ChannelNoise const& noise, std::string const& channel, std::vector<BinnedRun> const& runs,
               std::vector<Eigen::MatrixXd> const& residuals) {
@@ -34,7 +36,8 @@ std::vector<ChannelNoise> observed_noise(Estimation const& estimation, Eigen::Ve
         trial.fast *= fast;
         trial.slow *= slow;
         trial.slow_share *= slow;
-        double const value = misfit(trial, estimation.channels()[c], estimation.data(), residuals);
+        double const value = misfit(trial, estimation.channels()[c], estimation.data(), residuals) +
+                             reluctance * (int(fast > 1.0) + int(slow > 1.0));
         if (value < best) {
           best = value;
           noise[c] = trial;

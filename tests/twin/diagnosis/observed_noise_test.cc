@@ -30,7 +30,7 @@ TEST(ObservedNoise, IsThatOfTheChannelWhichWanders) {
       EXPECT_GE(times, 4.0);
     else
       EXPECT_EQ(times, 1.0) << estimation.channels()[c];
-    EXPECT_GE(heard[c].fast, expected[c].fast);
+    EXPECT_EQ(heard[c].fast, expected[c].fast) << estimation.channels()[c];
   }
 }
 
