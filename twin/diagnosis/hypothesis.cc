@@ -18,6 +18,9 @@
 namespace thermotwin::twin {
 namespace {
 
+/// 2 ln of the odds against an effect that says otherwise than the file in so many words.
+constexpr double against_statement = 30.0;
+
 /// Values for keys, and what they act on first.
 struct Spot {
   std::vector<std::pair<std::string, std::string>> keys;
@@ -236,6 +239,14 @@ FieldRecord const& field(Effect const& effect, std::string const& key) {
   throw thermal::InputError(fmt::format("the effect '{}' has no parameter '{}'", effect.name, key));
 }
 
+/// Another lag of a sensor whose lag the file states.
+bool contradicts(Machine const& machine, Hypothesis const& hypothesis) {
+  return hypothesis.effect->name == "sensor_lag" &&
+         std::any_of(machine.sensors.begin(), machine.sensors.end(), [&](Sensor const& sensor) {
+           return sensor.description.name == hypothesis.site && sensor.description.lag.has_value();
+         });
+}
+
 }  // namespace
 
 thermal::Dimension Hypothesis::dimension() const { return field(*effect, trial->amplitude).dimension; }
@@ -270,8 +281,10 @@ std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine
   }
   std::map<Effect const*, int> count;
   for (auto const& hypothesis : result) ++count[hypothesis.effect];
-  for (auto& hypothesis : result)
+  for (auto& hypothesis : result) {
     hypothesis.choice = 2.0 * std::log(count[hypothesis.effect]) + hypothesis.trial->against;
+    if (contradicts(machine, hypothesis)) hypothesis.choice += against_statement;
+  }
   return result;
 }
 

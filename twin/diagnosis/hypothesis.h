@@ -23,7 +23,8 @@ struct Hypothesis {
   std::string body;  ///< body, sensor or displacement channel that it acts on first
   std::vector<std::pair<std::string, std::string>> keys;  ///< of the table, but for its name and amplitude
   /// 2 ln of the number of sites and shapes that the effect has in this machine, and what is against it beforehand:
-  /// effects are equally likely otherwise, and so are the sites of one. Among a hundred sites, one fits by chance.
+  /// effects are equally likely otherwise, and so are the sites of one. Among a hundred sites, one fits by chance. A
+  /// lag where the file states the sensor's has odds of e^-15 against it.
   double choice = 0.0;
   /// Largest plausible amplitude here [SI]: the trial's; of an area, no more than the body has, and the other one.
   double largest = 0.0;
