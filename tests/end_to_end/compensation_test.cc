@@ -138,11 +138,11 @@ TEST_F(LiveCompensation, IsNeverWorseThanNothingWithASilentSensor) {
   output::write(others, at("others.h5"));
   output::write(alone, at("alone.h5"));
   auto const player = [&](std::string const& run) {
-    return std::vector<std::string>{program, "play", at(run), "-q", "--speed", "3000", "--broker", broker_.url()};
+    return std::vector<std::string>{program, "play", at(run), "-q", "--speed", "1500", "--broker", broker_.url()};
   };
   Child sensor(player("alone.h5"), at("sensor")), machine(player("others.h5"), at("machine"));
   std::this_thread::sleep_for(500ms);  // both wait for somebody who compensates
-  Child compensate(compensation({"--model", at("model.toml")}, "3000"), at("compensate"));
+  Child compensate(compensation({"--model", at("model.toml")}, "1500"), at("compensate"));
   EXPECT_EQ(machine.wait(), 0);
   EXPECT_EQ(sensor.wait(), 0);
   EXPECT_EQ(compensate.end(SIGINT), 0);
