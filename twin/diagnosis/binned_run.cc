@@ -13,6 +13,12 @@ struct Stretch {
   bool after_jump;
 };
 
+/// Whether the inputs may have been others than the course has.
+bool is_doubtful(MeasuredRun const& run, double t) {
+  return std::any_of(run.changes.begin(), run.changes.end(),
+                     [&](InputChange const& change) { return change.time - change.earlier < t && t <= change.time; });
+}
+
 /// Of the course or of what may have been given instead.
 double next_jump(MeasuredRun const& run, double t) {
   double next = run.course->next_jump(t);
@@ -39,10 +45,24 @@ void add_steps(BinnedRun& binned, Stretch const& row, int index, double first_st
   for (double at = row.begin; at < row.end - 1e-6;) {
     double const left = row.end - at;
     double const taken = left < 1.5 * step ? left : step;
-    binned.steps.push_back({at, at + taken, index, 0.0, 0.0});
+    binned.steps.push_back({.begin = at, .end = at + taken, .row = index});
     at += taken;
     step *= 2.0;
   }
+}
+
+void add_sample(BinStep& step, double t) {
+  double const share = (t - step.begin) / step.length(), rest = 1.0 - share;
+  step.at_begin += rest;
+  step.at_end += share;
+  step.bend_at_begin += step.length() * share * rest * rest;
+  step.bend_at_end -= step.length() * share * share * rest;
+  step.samples.push_back(t - step.begin);
+}
+
+void divide(BinStep& step, int samples) {
+  for (double* weight : {&step.at_begin, &step.at_end, &step.bend_at_begin, &step.bend_at_end}) *weight /= samples;
+  step.share = 1.0 / samples;
 }
 
 }  // namespace
@@ -62,12 +82,12 @@ BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
     bool const last = r + 1 == rows.size();
     int count = 0;
     std::size_t step = first_of_row;
-    for (; sample < run.time.size() && (run.time[sample] < rows[r].end || last); ++sample, ++count) {
+    for (; sample < run.time.size() && (run.time[sample] < rows[r].end || last); ++sample) {
       double const t = run.time[sample];
+      if (is_doubtful(run, t)) continue;
+      ++count;
       while (step + 1 < binned.steps.size() && binned.steps[step].end <= t) ++step;
-      double const share = (t - binned.steps[step].begin) / (binned.steps[step].end - binned.steps[step].begin);
-      binned.steps[step].at_begin += 1.0 - share;
-      binned.steps[step].at_end += share;
+      add_sample(binned.steps[step], t);
       binned.time[row] += t;
       for (Eigen::Index c = 0; c < channels; ++c)
         if (double const value = run.channels[std::size_t(c)].values[sample]; !std::isnan(value)) {
@@ -76,14 +96,11 @@ BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
         }
     }
     if (count == 0) {  // between two samples: the row has no data
-      binned.steps[first_of_row].at_begin = 1.0;
+      add_sample(binned.steps[first_of_row], rows[r].begin);
       binned.time[row] = rows[r].begin;
       count = 1;
     }
-    for (std::size_t s = first_of_row; s < binned.steps.size(); ++s) {
-      binned.steps[s].at_begin /= count;
-      binned.steps[s].at_end /= count;
-    }
+    for (std::size_t s = first_of_row; s < binned.steps.size(); ++s) divide(binned.steps[s], count);
     binned.time[row] /= count;
     first_of_row = binned.steps.size();
   }

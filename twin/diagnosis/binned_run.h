@@ -9,18 +9,24 @@
 
 namespace thermotwin::twin {
 
-/// One step of the twin's linearisation; none crosses a jump of the input. A row's prediction is the sum over its steps
-/// of `at_begin` times the value at the begin and `at_end` times that at the end: the mean over the row's samples, each
-/// interpolated in its step.
+/// One step of the twin's linearisation; none crosses a jump of the input. A row's prediction is the mean over its
+/// samples, each interpolated in its step by Hermite's cubic: `at_begin` and `at_end` times the values there, and
+/// `bend_at_begin` and `bend_at_end` times the slopes there beyond that of the straight line.
 struct BinStep {
   double begin = 0.0, end = 0.0;  ///< [s]
   int row = 0;
   double at_begin = 0.0, at_end = 0.0;
+  double bend_at_begin = 0.0, bend_at_end = 0.0;  ///< [s]
+  std::vector<double> samples = {};               ///< of the row, in this step [s after its begin]
+  double share = 0.0;                             ///< of each in the row's mean
+
+  [[nodiscard]] double length() const { return end - begin; }
 };
 
 /// A measured run averaged to rows of some minutes, none of which crosses a jump of the input, or of what may have been
 /// given instead. What differs within such a row is noise; and a row in place of its samples makes a diagnosis ten
-/// times as fast.
+/// times as fast. Samples that may have been taken between a change of the input and the sample that shows it are left
+/// out.
 struct BinnedRun {
   MeasuredRun const* run = nullptr;
   std::vector<BinStep> steps;

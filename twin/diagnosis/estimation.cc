@@ -13,15 +13,8 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double offset_deviation = 0.3;    // of a temperature sensor [K]
-constexpr double zero_deviation = 1e-6;     // of a displacement's zero [m]
-constexpr double unread_zero = 200e-6;      // where the run begins before the channel was read
-constexpr double usual_lag = 30.0;          // [s]
-constexpr double lag_deviation = 25.0;      // [s]
-constexpr double start_deviation = 0.3;     // [K]
-constexpr double air_deviation = 0.2;       // [K]
-constexpr double input_deviation = 0.7;     // of the response to what may have been given instead
-constexpr double interior_deviation = 0.5;  // of a lump: half of a slab
+constexpr double usual_lag = 30.0;      // [s]
+constexpr double lag_deviation = 25.0;  // [s]
 constexpr double relative_step = 1e-4;
 constexpr int start_halvings = 4;
 
@@ -33,16 +26,6 @@ void scale(thermal::NetworkDerivative& d, double factor) {
   times(d.boundary_offset);
   for (auto& group : d.coefficients) times(group);
   for (auto& weights : d.boundary_weights) times(weights);
-}
-
-/// The room air, wherever the machine meets it, one kelvin warmer.
-thermal::NetworkDerivative warmer_air(thermal::Network const& network) {
-  thermal::NetworkDerivative d = thermal::lengthened({}, network);
-  auto const& names = network.channel_names();
-  for (std::size_t b = 0; b < network.boundaries().size(); ++b)
-    for (auto const& term : network.boundaries()[b].terms)
-      if (names[std::size_t(term.channel)] == "ambient.floor_temperature") d.boundary_offset[b] = 1.0;
-  return d;
 }
 
 bool moves_tool(MachineDerivative const& derivative) {
@@ -78,31 +61,6 @@ Unknown lag_unknown(std::vector<Sensor> const& sensors, std::string const& chann
   return unknown;
 }
 
-/// A probe's zero is anywhere: where it stood when it was first read, the machine had not moved yet, unless it has a
-/// past.
-Unknown zero_unknown(MeasuredChannel const& channel, std::size_t index, std::size_t run) {
-  auto const& values = channel.values;
-  auto const first = std::find_if(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
-  return {Unknown::Kind::offset,
-          fmt::format("zero of {}, run {}", channel.name, run + 1),
-          first == values.end() ? 0.0 : *first,
-          first == values.begin() ? zero_deviation : unread_zero,
-          -INFINITY,
-          INFINITY,
-          index,
-          int(run)};
-}
-
-/// What the channels show more where this course is the machine's.
-Eigen::VectorXd response_to(std::shared_ptr<thermal::Course const> const& course, Machine const& machine,
-                            BinnedRun const& data, Eigen::MatrixXd const& prediction) {
-  MeasuredRun run = *data.run;
-  run.course = course;
-  BinnedRun other = data;
-  other.run = &run;
-  return (LinearisedRun(machine, other).prediction() - prediction).reshaped();
-}
-
 std::string table_name(std::size_t effect) { return fmt::format("diagnosed_{}", effect + 1); }
 
 /// What people see of an added effect acts through sensors or displacements, not through heat alone.
@@ -131,48 +89,31 @@ Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::
     first_rows_.push_back(rows_);
     rows_ += run.values.size();
   }
-  LumpInteriors const interiors(document_);
-  add_unknowns(interiors);
-  make_whitenings();
-  find_linear_columns(interiors);
+  add_numbers_and_lags();
+  linear_ = std::make_shared<LinearUnknowns const>(document_, data, channels);
+  first_linear_ = Eigen::Index(unknowns_.size());
+  unknowns_.insert(unknowns_.end(), linear_->all().begin(), linear_->all().end());
+  hear(noise);
 }
 
-void Estimation::add_unknowns(LumpInteriors const& interiors) {
-  using Kind = Unknown::Kind;
-  auto const sensors = Machine::build(document_).sensors;
+void Estimation::add_numbers_and_lags() {
   for (std::size_t i = 0; i < numbers_.size(); ++i)
-    unknowns_.push_back(
-        {Kind::number, numbers_[i].path, 0.0, numbers_[i].deviation, numbers_[i].lower, numbers_[i].upper, i, -1});
+    unknowns_.push_back({Unknown::Kind::number, numbers_[i].path, 0.0, numbers_[i].deviation, numbers_[i].lower,
+                         numbers_[i].upper, i, -1});
+  auto const sensors = Machine::build(document_).sensors;
   for (std::size_t c = 0; c < channels_.size(); ++c) {
-    auto const holds = [&](MeasuredChannel const& channel) { return channel.name == channels_[c]; };
-    bool sensor = false;
-    for (std::size_t r = 0; r < data_->size(); ++r) {
-      auto const& all = (*data_)[r].run->channels;
-      auto const it = std::find_if(all.begin(), all.end(), holds);
-      if (it == all.end()) continue;
-      sensor = sensor || !it->displacement;
-      if (it->displacement) unknowns_.push_back(zero_unknown(*it, c, r));
-    }
-    if (!sensor) continue;
-    unknowns_.push_back({Kind::offset, "offset of " + channels_[c], 0.0, offset_deviation, -INFINITY, INFINITY, c, -1});
-    unknowns_.push_back(lag_unknown(sensors, channels_[c], c));
+    bool const sensor = std::any_of(data_->begin(), data_->end(), [&](BinnedRun const& run) {
+      auto const& all = run.run->channels;
+      return std::any_of(all.begin(), all.end(),
+                         [&](auto const& own) { return own.name == channels_[c] && !own.displacement; });
+    });
+    if (sensor) unknowns_.push_back(lag_unknown(sensors, channels_[c], c));
   }
-  for (std::size_t r = 0; r < data_->size(); ++r) {
-    unknowns_.push_back({Kind::start, fmt::format("warm start of run {}", r + 1), 0.0, start_deviation, -INFINITY,
-                         INFINITY, 0, int(r)});
-    unknowns_.push_back(
-        {Kind::air, fmt::format("air in run {}", r + 1), 0.0, air_deviation, -INFINITY, INFINITY, 0, int(r)});
-    auto const& alternatives = (*data_)[r].run->alternatives;
-    for (std::size_t a = 0; a < alternatives.size(); ++a)
-      unknowns_.push_back({Kind::input, fmt::format("{}, run {}", alternatives[a].name, r + 1), 0.0, input_deviation,
-                           -INFINITY, INFINITY, a, int(r)});
-  }
-  for (std::size_t i = 0; i < interiors.unknowns().size(); ++i)
-    unknowns_.push_back(
-        {Kind::interior, interiors.unknowns()[i].name, 0.0, interior_deviation, -INFINITY, INFINITY, i, -1});
 }
 
-void Estimation::make_whitenings() {
+/// Whitens with this noise from now on.
+void Estimation::hear(std::vector<ChannelNoise> const& noise) {
+  noise_ = noise;
   whitenings_.clear();
   for (auto const& run : *data_) {
     auto& own = whitenings_.emplace_back();
@@ -181,6 +122,20 @@ void Estimation::make_whitenings() {
       own.push_back(whitening_of(noise_[std::size_t(it - channels_.begin())], run, Eigen::Index(c)));
     }
   }
+  Eigen::MatrixXd columns = linear_->columns();
+  whiten(columns);
+  eliminate(std::move(columns));
+}
+
+void Estimation::eliminate(Eigen::MatrixXd whitened_columns) {
+  auto const count = whitened_columns.cols();
+  Eigen::VectorXd mean(count), deviation(count);
+  for (Eigen::Index l = 0; l < count; ++l) {
+    auto const& unknown = unknowns_[std::size_t(first_linear_ + l)];
+    mean[l] = unknown.mean;
+    deviation[l] = unknown.deviation;
+  }
+  elimination_ = std::make_shared<Elimination const>(std::move(whitened_columns), mean, deviation);
 }
 
 void Estimation::whiten(Eigen::Ref<Eigen::MatrixXd> signals) const {
@@ -191,54 +146,9 @@ void Estimation::whiten(Eigen::Ref<Eigen::MatrixXd> signals) const {
   }
 }
 
-/// Offsets, the start, the air and what lumps hide: small, so that their response at the prior machine serves
-/// throughout. And what was given in gaps, of which a share is estimated: in proportion to its heat, of which only what
-/// is stored is seen.
-void Estimation::find_linear_columns(LumpInteriors const& interiors) {
-  linear_.clear();
-  for (std::size_t u = 0; u < unknowns_.size(); ++u)
-    if (unknowns_[u].kind == Unknown::Kind::offset || unknowns_[u].kind == Unknown::Kind::start ||
-        unknowns_[u].kind == Unknown::Kind::air || unknowns_[u].kind == Unknown::Kind::input ||
-        unknowns_[u].kind == Unknown::Kind::interior)
-      linear_.push_back(u);
-  linear_columns_.setZero(rows_, Eigen::Index(linear_.size()));
-  Machine const machine = Machine::build(document_);
-  auto const air = warmer_air(machine.network());
-  auto const none = thermal::lengthened({}, machine.network());
-  thermal::ParameterColumns const both(machine.network(), {&none, &air});
-  Eigen::MatrixXd initial = Eigen::MatrixXd::Zero(machine.network().nodes(), 2);
-  initial.col(0).setOnes();
-  for (std::size_t r = 0; r < data_->size(); ++r) {
-    auto const& run = (*data_)[r];
-    LinearisedRun const twin(machine, run);
-    Eigen::MatrixXd const response = twin.response(both, initial), prediction = twin.prediction();
-    Eigen::MatrixXd const within = interiors.responses(run);
-    auto const rows = run.time.size();
-    for (std::size_t l = 0; l < linear_.size(); ++l) {
-      auto const& unknown = unknowns_[linear_[l]];
-      if (unknown.run >= 0 && unknown.run != int(r)) continue;
-      auto column = linear_columns_.col(Eigen::Index(l)).segment(first_rows_[r], run.values.size());
-      if (unknown.kind == Unknown::Kind::start) column = response.col(0);
-      if (unknown.kind == Unknown::Kind::air) column = response.col(1);
-      if (unknown.kind == Unknown::Kind::interior) column = within.col(Eigen::Index(unknown.index));
-      if (unknown.kind == Unknown::Kind::input)
-        column = response_to(run.run->alternatives[unknown.index].course, machine, run, prediction);
-      if (unknown.kind != Unknown::Kind::offset) continue;
-      for (std::size_t c = 0; c < run.run->channels.size(); ++c)
-        if (run.run->channels[c].name == channels_[unknown.index])
-          column.segment(Eigen::Index(c) * rows, rows).setOnes();
-    }
-  }
-  whitened_linear_columns_ = linear_columns_;
-  whiten(whitened_linear_columns_);
-}
-
 Estimation Estimation::with(std::vector<ChannelNoise> const& noise) const {
   Estimation other = *this;
-  other.noise_ = noise;
-  other.make_whitenings();
-  other.whitened_linear_columns_ = linear_columns_;
-  other.whiten(other.whitened_linear_columns_);
+  other.hear(noise);
   return other;
 }
 
@@ -256,6 +166,7 @@ Estimation Estimation::with(std::vector<Hypothesis> const& effects) const {
 Estimation Estimation::knowing(std::vector<std::size_t> const& unknowns) const {
   Estimation other = *this;
   for (std::size_t const u : unknowns) other.unknowns_[u].deviation *= 1e-4;
+  other.eliminate(elimination_->columns());
   return other;
 }
 
@@ -314,9 +225,7 @@ std::vector<MachineDerivative> Estimation::amplitude_derivatives(Eigen::VectorXd
 
 std::vector<Eigen::MatrixXd> Estimation::residuals_at(Eigen::VectorXd const& x) const {
   Machine const machine = machine_at(x);
-  Eigen::VectorXd explained = Eigen::VectorXd::Zero(rows_);
-  for (std::size_t l = 0; l < linear_.size(); ++l)
-    explained += x[Eigen::Index(linear_[l])] * linear_columns_.col(Eigen::Index(l));
+  Eigen::VectorXd const explained = linear_->columns() * x.segment(first_linear_, linear_->columns().cols());
   std::vector<Eigen::MatrixXd> residuals;
   for (std::size_t r = 0; r < data_->size(); ++r) {
     auto const& run = (*data_)[r];
@@ -351,123 +260,161 @@ std::unique_ptr<Estimation::Traced const> Estimation::trace(Eigen::VectorXd cons
   return traced;
 }
 
-bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const>& traced, Eigen::VectorXd& residual,
-                          Eigen::MatrixXd* jacobian) const {
-  auto const unknowns = Eigen::Index(unknowns_.size());
+/// Of what is searched: the whitened difference between data and twin, before what is linear, and its derivative.
+struct Estimation::Linearisation {
+  Eigen::VectorXd x;  ///< of all unknowns; empty where nothing was linearised
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd jacobian;  ///< residual × searched
+
+  [[nodiscard]] bool is_at(Eigen::VectorXd const& other) const { return x.size() == other.size() && x == other; }
+};
+
+std::vector<Eigen::Index> Estimation::searched() const {
+  std::vector<Eigen::Index> result;
+  auto const linear = linear_->columns().cols();
+  for (Eigen::Index u = 0; u < Eigen::Index(unknowns_.size()); ++u)
+    if (u < first_linear_ || u >= first_linear_ + linear) result.push_back(u);
+  return result;
+}
+
+/// One run's part of a linearisation, not whitened.
+void Estimation::add_run(std::size_t run, Traced const& traced, thermal::ParameterColumns const& heat,
+                         std::vector<Eigen::Index> const& heated, Linearisation& at) const {
+  auto const& data = (*data_)[run];
+  LinearisedRun const& twin = *traced.runs[run];
+  auto const first = first_rows_[run], rows = data.time.size();
+  auto jacobian = at.jacobian.middleRows(first, data.values.size());
+  Eigen::MatrixXd const response = twin.response(heat);
+  for (std::size_t k = 0; k < heated.size(); ++k) jacobian.col(heated[k]) -= response.col(Eigen::Index(k));
+  Eigen::MatrixXd const prediction = twin.prediction(), slower = twin.prediction_of(later(traced.machine));
+  auto const unknowns = searched();
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    auto const& unknown = unknowns_[std::size_t(unknowns[k])];
+    double const value = traced.x[unknowns[k]];
+    auto column = jacobian.col(Eigen::Index(k));
+    if (unknown.kind == Unknown::Kind::lag)
+      for (std::size_t c = 0; c < data.run->channels.size(); ++c)
+        if (data.run->channels[c].name == channels_[unknown.index])
+          column.segment(Eigen::Index(c) * rows, rows) = (prediction - slower).col(Eigen::Index(c));
+    if (unknown.kind == Unknown::Kind::number && moves_tool(number_derivatives_[unknown.index]))
+      column -= numbers_[unknown.index].slope(value) *
+                twin.growth(number_derivatives_[unknown.index].displacements).reshaped();
+    if (unknown.kind == Unknown::Kind::amplitude && is_read_directly(effects_[unknown.index])) {
+      double const step = relative_step * std::max(std::abs(value), 1e-3);
+      Eigen::VectorXd plus = traced.x;
+      plus[unknowns[k]] += step;
+      column -= ((twin.prediction_of(machine_at(plus)) - prediction) / step).reshaped();
+    }
+  }
+}
+
+bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const>& traced, bool linearised,
+                          Linearisation& at) const {
+  at.x.resize(0);
   if (!traced || traced->x != x) traced = trace(x);
   if (!traced) return false;
-  Machine const& machine = traced->machine;
-  auto const& network = machine.network();
+  at.residual.resize(rows_);
+  for (std::size_t r = 0; r < data_->size(); ++r)
+    at.residual.segment(first_rows_[r], (*data_)[r].values.size()) =
+        ((*data_)[r].values - traced->runs[r]->prediction()).reshaped();
+  at.residual = at.residual.array().isNaN().select(0.0, at.residual);
+  whiten(at.residual);
+  if (!linearised) return true;
+  auto const& network = traced->machine.network();
+  auto const unknowns = searched();
+  auto const amplitudes = amplitude_derivatives(x);
   std::vector<thermal::NetworkDerivative> heat;
-  std::vector<MachineDerivative> amplitudes;
-  std::vector<Eigen::Index> columns;
-  if (jacobian) {
-    amplitudes = amplitude_derivatives(x);
-    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-      auto const& unknown = unknowns_[u];
-      bool const number = unknown.kind == Unknown::Kind::number;
-      if (!number && unknown.kind != Unknown::Kind::amplitude) continue;
-      auto const& own = number ? number_derivatives_[unknown.index].network : amplitudes[unknown.index].network;
-      if (!changes_heat(own)) continue;
-      heat.push_back(thermal::lengthened(own, network));
-      if (number) scale(heat.back(), numbers_[unknown.index].slope(x[Eigen::Index(u)]));
-      columns.push_back(Eigen::Index(u));
-    }
-    jacobian->setZero(rows_ + unknowns, unknowns);
+  std::vector<Eigen::Index> heated;
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    auto const& unknown = unknowns_[std::size_t(unknowns[k])];
+    if (unknown.kind == Unknown::Kind::lag) continue;
+    bool const number = unknown.kind == Unknown::Kind::number;
+    auto const& own = number ? number_derivatives_[unknown.index].network : amplitudes[unknown.index].network;
+    if (!changes_heat(own)) continue;
+    heat.push_back(thermal::lengthened(own, network));
+    if (number) scale(heat.back(), numbers_[unknown.index].slope(x[unknowns[k]]));
+    heated.push_back(Eigen::Index(k));
   }
   std::vector<thermal::NetworkDerivative const*> pointers;
   for (auto const& derivative : heat) pointers.push_back(&derivative);
-  std::optional<thermal::ParameterColumns> parameters;
-  if (jacobian) parameters.emplace(network, pointers);
-  residual.setZero(rows_ + unknowns);
-  auto const add_run = [&](std::size_t r) {
-    auto const& run = (*data_)[r];
-    LinearisedRun const& twin = *traced->runs[r];
-    auto const first = first_rows_[r];
-    auto const count = run.values.size();
-    Eigen::MatrixXd const difference = run.values - twin.prediction();
-    residual.segment(first, count) = difference.reshaped();
-    if (!jacobian) return;
-    Eigen::MatrixXd const slower = twin.prediction_of(later(machine));
-    Eigen::MatrixXd const response = twin.response(*parameters);
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      jacobian->col(columns[k]).segment(first, count) -= response.col(Eigen::Index(k));
-    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-      auto const& unknown = unknowns_[u];
-      auto column = jacobian->col(Eigen::Index(u)).segment(first, count);
-      if (unknown.kind == Unknown::Kind::lag)
-        for (std::size_t c = 0; c < run.run->channels.size(); ++c)
-          if (run.run->channels[c].name == channels_[unknown.index]) {
-            auto const rows = run.time.size();
-            column.segment(Eigen::Index(c) * rows, rows) =
-                (difference - (run.values - slower)).col(Eigen::Index(c)) * -1.0;
-          }
-      if (unknown.kind == Unknown::Kind::number && moves_tool(number_derivatives_[unknown.index]))
-        column -= numbers_[unknown.index].slope(x[Eigen::Index(u)]) *
-                  twin.growth(number_derivatives_[unknown.index].displacements).reshaped();
-      if (unknown.kind == Unknown::Kind::amplitude && is_read_directly(effects_[unknown.index])) {
-        double const step = relative_step * std::max(std::abs(x[Eigen::Index(u)]), 1e-3);
-        Eigen::VectorXd plus = x;
-        plus[Eigen::Index(u)] += step;
-        column -= ((twin.prediction_of(machine_at(plus)) - twin.prediction()) / step).reshaped();
-      }
-    }
-  };
+  thermal::ParameterColumns const parameters(network, pointers);
+  at.jacobian.setZero(rows_, Eigen::Index(unknowns.size()));
   try {
-    in_parallel(data_->size(), add_run);
+    in_parallel(data_->size(), [&](std::size_t r) { add_run(r, *traced, parameters, heated, at); });
   } catch (std::exception const&) {
     return false;
   }
-  for (Eigen::Index i = 0; i < rows_; ++i)
-    if (std::isnan(residual[i])) residual[i] = 0.0;
-  whiten(residual.head(rows_));
-  for (std::size_t l = 0; l < linear_.size(); ++l)
-    residual.head(rows_) -= x[Eigen::Index(linear_[l])] * whitened_linear_columns_.col(Eigen::Index(l));
-  for (Eigen::Index u = 0; u < unknowns; ++u) {
-    auto const& unknown = unknowns_[std::size_t(u)];
-    residual[rows_ + u] = (x[u] - unknown.mean) / unknown.deviation;
-    if (jacobian) (*jacobian)(rows_ + u, u) = 1.0 / unknown.deviation;
-  }
-  if (!jacobian) return true;
-  whiten(jacobian->topRows(rows_));
-  for (std::size_t l = 0; l < linear_.size(); ++l)
-    jacobian->col(Eigen::Index(linear_[l])).head(rows_) = -whitened_linear_columns_.col(Eigen::Index(l));
+  whiten(at.jacobian);
+  at.x = x;
   return true;
 }
 
 Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
-  LeastSquares problem;
+  auto const unknowns = searched();
+  auto const count = Eigen::Index(unknowns.size());
+  LeastSquares problem{.evaluate = {},
+                       .start = start(unknowns),
+                       .lower = Eigen::VectorXd(count),
+                       .upper = Eigen::VectorXd(count),
+                       .iterations = iterations};
+  Eigen::VectorXd mean(count), precision(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    auto const& unknown = unknowns_[std::size_t(unknowns[std::size_t(k)])];
+    problem.lower[k] = unknown.lower;
+    problem.upper[k] = unknown.upper;
+    mean[k] = unknown.mean;
+    precision[k] = 1.0 / (unknown.deviation * unknown.deviation);
+  }
+  auto const whole = [&](Eigen::VectorXd const& values) {
+    Eigen::VectorXd x = prior_mean();
+    x(unknowns) = values;
+    return x;
+  };
   std::unique_ptr<Traced const> traced;
-  Fit linearised;  // where the Jacobian was asked for last
-  problem.evaluate = [&](Eigen::VectorXd const& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    if (linearised.x.size() == x.size() && linearised.x == x) {
-      r = linearised.residual;
-      if (J) *J = linearised.jacobian;
-      return true;
-    }
-    if (!evaluate(x, traced, r, J)) return false;
-    if (J) linearised.x = x, linearised.residual = r, linearised.jacobian = *J;
+  Linearisation last, trial;
+  problem.evaluate = [&](Eigen::VectorXd const& values, bool linearised, NormalEquations& at) {
+    Eigen::VectorXd const x = whole(values);
+    Linearisation& here = linearised || last.is_at(x) ? last : trial;
+    if (!last.is_at(x) && !evaluate(x, traced, linearised, here)) return false;
+    Eigen::VectorXd const linear = elimination_->best(here.residual), from_mean = values - mean;
+    Eigen::VectorXd const left = here.residual - elimination_->columns() * linear;
+    at.cost = left.squaredNorm() + elimination_->prior_cost(linear) + from_mean.cwiseAbs2().dot(precision);
+    if (!linearised) return true;
+    at.gradient = here.jacobian.transpose() * left + precision.cwiseProduct(from_mean);
+    at.curvature = elimination_->curvature(here.jacobian);
+    at.curvature.diagonal() += precision;
     return true;
   };
-  auto const count = Eigen::Index(unknowns_.size());
-  problem.residuals = rows_ + count;
-  problem.start = start;
   // So much of an effect may be more than a machine endures.
-  for (int i = 0; i < start_halvings && !(traced = trace(problem.start)); ++i)
+  for (int i = 0; i < start_halvings && !(traced = trace(whole(problem.start))); ++i)
     problem.start.tail(Eigen::Index(effects_.size())) *= 0.5;
-  problem.lower.resize(count);
-  problem.upper.resize(count);
-  for (Eigen::Index u = 0; u < count; ++u) {
-    problem.lower[u] = unknowns_[std::size_t(u)].lower;
-    problem.upper[u] = unknowns_[std::size_t(u)].upper;
-  }
-  problem.iterations = iterations;
   auto const solved = solve(problem);
-  Fit fit;
-  fit.x = solved.x;
-  fit.converged = solved.converged;
-  if (!problem.evaluate(fit.x, fit.residual, &fit.jacobian))
+  Eigen::VectorXd const x = whole(solved.x);
+  if (!last.is_at(x) && !evaluate(x, traced, true, last))
     throw thermal::InputError("the machine cannot be run with its nominal values on these data");
+  Fit fit = fit_at(x, last);
+  fit.converged = solved.converged;
+  return fit;
+}
+
+/// With all unknowns.
+Fit Estimation::fit_at(Eigen::VectorXd const& x, Linearisation const& at) const {
+  auto const count = Eigen::Index(unknowns_.size());
+  auto const& columns = elimination_->columns();
+  Fit fit;
+  fit.x = x;
+  auto linear = fit.x.segment(first_linear_, columns.cols());
+  linear = elimination_->best(at.residual);
+  fit.residual.resize(rows_ + count);
+  fit.residual.head(rows_) = at.residual - columns * linear;
+  fit.jacobian.setZero(rows_ + count, count);
+  fit.jacobian.topRows(rows_)(Eigen::all, searched()) = at.jacobian;
+  fit.jacobian.block(0, first_linear_, rows_, columns.cols()) = -columns;
+  for (Eigen::Index u = 0; u < count; ++u) {
+    auto const& unknown = unknowns_[std::size_t(u)];
+    fit.residual[rows_ + u] = (fit.x[u] - unknown.mean) / unknown.deviation;
+    fit.jacobian(rows_ + u, u) = 1.0 / unknown.deviation;
+  }
   fit.cost = fit.residual.squaredNorm();
   Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());
   fit.covariance = information.solve(Eigen::MatrixXd::Identity(count, count));

@@ -8,34 +8,16 @@
 #include <vector>
 
 #include "twin/diagnosis/binned_run.h"
+#include "twin/diagnosis/elimination.h"
 #include "twin/diagnosis/hypothesis.h"
+#include "twin/diagnosis/linear_unknowns.h"
 #include "twin/diagnosis/linearised_run.h"
-#include "twin/diagnosis/lump_interiors.h"
 #include "twin/diagnosis/noise_model.h"
 #include "twin/diagnosis/uncertain_number.h"
+#include "twin/diagnosis/unknown.h"
 #include "twin/sensitivity.h"
 
 namespace thermotwin::twin {
-
-/// What is estimated from the data, with its prior N(mean, deviation²).
-struct Unknown {
-  enum class Kind {
-    number,     ///< ln(value/nominal) of a number of the file
-    amplitude,  ///< of an effect that was added, in units of its trial's `largest`
-    offset,     ///< of a channel [K, m]: of a sensor in all runs, of a displacement in one
-    lag,        ///< of a sensor [s]
-    start,      ///< deviation of the whole machine's temperature at the start of a run [K]
-    air,        ///< deviation of the room air from its record, in one run [K]
-    input,      ///< share of what a run may have been given instead in a gap of its record
-    interior,   ///< of what a lump hides, in units of a slab's (lump_interiors.h)
-  };
-  Kind kind = Kind::number;
-  std::string name;
-  double mean = 0.0, deviation = 1.0;
-  double lower = -INFINITY, upper = INFINITY;
-  std::size_t index = 0;  ///< of the number, the effect, the channel, the run's alternative or the interior
-  int run = -1;           ///< −1: all
-};
 
 /// A fit: the estimates, and what the data and the priors say of them together.
 struct Fit {
@@ -60,7 +42,8 @@ struct Fit {
 ///
 ///   min Σ |L (z_measured − z(x))|² + Σ ((x − mean)/deviation)²,
 ///
-/// L: the whitening of each channel's noise. The Jacobian is the tangent-linear response (linearised_run.h).
+/// L: the whitening of each channel's noise. The Jacobian is the tangent-linear response (linearised_run.h). Searched
+/// are numbers, lags and amplitudes; the unknowns that are linear (linear_unknowns.h) are at their best for these.
 class Estimation {
  public:
   /// `data` and their runs must outlive this.
@@ -83,6 +66,7 @@ class Estimation {
   [[nodiscard]] std::vector<BinnedRun> const& data() const { return *data_; }
   [[nodiscard]] std::vector<ChannelNoise> const& noise() const { return noise_; }
 
+  /// From there on; what is linear needs no start.
   [[nodiscard]] Fit fit(Eigen::VectorXd const& start, int iterations = 10) const;
   [[nodiscard]] Eigen::VectorXd prior_mean() const;
 
@@ -101,14 +85,19 @@ class Estimation {
   [[nodiscard]] Eigen::Index first_row(std::size_t run) const { return first_rows_[run]; }
 
  private:
-  void add_unknowns(LumpInteriors const& interiors);
-  void make_whitenings();
-  void find_linear_columns(LumpInteriors const& interiors);
+  void add_numbers_and_lags();
+  void hear(std::vector<ChannelNoise> const& noise);
+  void eliminate(Eigen::MatrixXd whitened_columns);
+  [[nodiscard]] std::vector<Eigen::Index> searched() const;
   struct Traced;
   [[nodiscard]] std::unique_ptr<Traced const> trace(Eigen::VectorXd const& x) const;
-  [[nodiscard]] bool evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const>& traced,
-                              Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;
+  struct Linearisation;
+  [[nodiscard]] bool evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const>& traced, bool linearised,
+                              Linearisation& at) const;
+  void add_run(std::size_t run, Traced const& traced, thermal::ParameterColumns const& heat,
+               std::vector<Eigen::Index> const& heated, Linearisation& at) const;
   [[nodiscard]] std::vector<MachineDerivative> amplitude_derivatives(Eigen::VectorXd const& x) const;
+  [[nodiscard]] Fit fit_at(Eigen::VectorXd const& x, Linearisation const& at) const;
 
   Value document_;
   std::vector<BinnedRun> const* data_;
@@ -117,13 +106,13 @@ class Estimation {
   std::vector<UncertainNumber> numbers_;
   std::vector<MachineDerivative> number_derivatives_;  ///< at the nominal values
   std::vector<Hypothesis> effects_;
-  std::vector<Unknown> unknowns_;
+  std::vector<Unknown> unknowns_;  ///< numbers and lags, what is linear, amplitudes
+  std::shared_ptr<LinearUnknowns const> linear_;
+  Eigen::Index first_linear_ = 0;
   std::vector<std::vector<Whitening>> whitenings_;  ///< per run, per channel
   std::vector<Eigen::Index> first_rows_;
   Eigen::Index rows_ = 0;
-  Eigen::MatrixXd linear_columns_;  ///< of the unknowns that need no new run of the twin
-  Eigen::MatrixXd whitened_linear_columns_;
-  std::vector<std::size_t> linear_;
+  std::shared_ptr<Elimination const> elimination_;  ///< of what is linear, whitened
 };
 
 }  // namespace thermotwin::twin

@@ -2,6 +2,7 @@
 #include "twin/diagnosis/least_squares.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <ceres/ceres.h>
 #include <cmath>
 #include <glog/logging.h>
@@ -28,38 +29,45 @@ std::vector<int> pressed(LeastSquares const& least_squares, Eigen::VectorXd cons
 }
 
 /// What a step of Gauss and Newton would gain, of |r|²: gᵀ (JᵀJ)⁻¹ g over what does not press against a bound.
-double expected_gain(LeastSquares const& least_squares, Eigen::VectorXd const& x, Eigen::VectorXd const& r,
-                     Eigen::MatrixXd J) {
-  Eigen::VectorXd uphill = J.transpose() * r;
-  for (int const i : pressed(least_squares, x, uphill)) {
-    J.col(i).setZero();
-    uphill[i] = 0.0;
+double expected_gain(LeastSquares const& least_squares, Eigen::VectorXd const& x, NormalEquations at) {
+  for (int const i : pressed(least_squares, x, at.gradient)) {
+    at.gradient[i] = 0.0;
+    at.curvature.row(i).setZero();
+    at.curvature.col(i).setZero();
+    at.curvature(i, i) = 1.0;
   }
-  Eigen::MatrixXd curvature = J.transpose() * J;
-  for (auto& entry : curvature.diagonal())
-    if (entry == 0.0) entry = 1.0;
-  return uphill.dot(curvature.llt().solve(uphill));
+  return at.gradient.dot(at.curvature.llt().solve(at.gradient));
 }
 
-/// Residuals and Jacobian for Ceres. It asks for a Jacobian where it has gone to, and is stopped where the next step
-/// would gain too little.
+/// Residuals and Jacobian for Ceres: n + 1 of them with the same |r|², Jᵀr and JᵀJ,
+///
+///   LLᵀ = JᵀJ,   J' = (Lᵀ; 0),   r' = (L⁻¹ Jᵀr; √(|r|² − |L⁻¹ Jᵀr|²)).
+///
+/// It asks for a Jacobian where it has gone to, and is stopped where the next step would gain too little.
 class Cost final : public ceres::CostFunction, public ceres::IterationCallback {
  public:
   explicit Cost(LeastSquares const& problem) : problem_(problem) {
     mutable_parameter_block_sizes()->push_back(int(problem.start.size()));
-    set_num_residuals(int(problem.residuals));
+    set_num_residuals(int(problem.start.size()) + 1);
   }
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     auto const n = problem_.start.size();
     Eigen::VectorXd const x = Eigen::Map<Eigen::VectorXd const>(parameters[0], n);
-    Eigen::VectorXd r;
-    Eigen::MatrixXd J;
+    Eigen::Map<Eigen::VectorXd> r(residuals, n + 1);
     bool const wanted = jacobians && jacobians[0];
-    if (!problem_.evaluate(x, r, wanted ? &J : nullptr)) return false;
-    Eigen::Map<Eigen::VectorXd>(residuals, r.size()) = r;
-    if (!wanted) return true;
-    Eigen::Map<RowMajor>(jacobians[0], r.size(), n) = J;
-    worth_a_step_ = !(expected_gain(problem_, x, r, std::move(J)) <= problem_.tolerance * r.squaredNorm());
+    NormalEquations at;
+    if (!problem_.evaluate(x, wanted, at)) return false;
+    r.setZero();
+    if (wanted) {
+      Eigen::LLT<Eigen::MatrixXd> const information(at.curvature);
+      if (information.info() != Eigen::Success) return false;
+      r.head(n) = information.matrixL().solve(at.gradient);
+      Eigen::Map<RowMajor> J(jacobians[0], n + 1, n);
+      J.topRows(n) = information.matrixU();
+      J.row(n).setZero();
+      worth_a_step_ = !(expected_gain(problem_, x, at) <= problem_.tolerance * at.cost);
+    }
+    r[n] = std::sqrt(std::max(0.0, at.cost - r.squaredNorm()));
     return true;
   }
   ceres::CallbackReturnType operator()(ceres::IterationSummary const&) override {
@@ -97,19 +105,15 @@ void solve_holding(std::vector<int> const& held, LeastSquares const& least_squar
   FLAGS_minloglevel = google::GLOG_FATAL;  // a fit that ends early says so by `converged`
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  result.cost = summary.final_cost;
-  result.iterations += int(summary.iterations.size());
   result.converged = summary.termination_type == ceres::CONVERGENCE || summary.termination_type == ceres::USER_SUCCESS;
 }
 
 /// Moves what presses against a bound onto it, and tells which it is.
 std::vector<int> pressed_onto_bounds(LeastSquares const& least_squares, Eigen::VectorXd& x) {
-  Eigen::VectorXd r;
-  Eigen::MatrixXd J;
-  if (!least_squares.evaluate(x, r, &J)) return {};
-  Eigen::VectorXd const uphill = J.transpose() * r;
-  auto const result = pressed(least_squares, x, uphill);
-  for (int const i : result) x[i] = uphill[i] > 0.0 ? least_squares.lower[i] : least_squares.upper[i];
+  NormalEquations at;
+  if (!least_squares.evaluate(x, true, at)) return {};
+  auto const result = pressed(least_squares, x, at.gradient);
+  for (int const i : result) x[i] = at.gradient[i] > 0.0 ? least_squares.lower[i] : least_squares.upper[i];
   return result;
 }
 

@@ -5,11 +5,17 @@
 
 namespace thermotwin::twin {
 
-/// min ½ |r(x)|² with lower ≤ x ≤ upper.
+/// |r(x)|² and, of its linearisation, the normal equations: all that a fit needs of r, however long it is.
+struct NormalEquations {
+  double cost = 0.0;          ///< |r|²
+  Eigen::VectorXd gradient;   ///< Jᵀr, J = ∂r/∂x
+  Eigen::MatrixXd curvature;  ///< JᵀJ, positive definite
+};
+
+/// min |r(x)|² with lower ≤ x ≤ upper.
 struct LeastSquares {
-  /// r(x), and ∂r/∂x if asked for. False where x has no answer.
-  std::function<bool(Eigen::VectorXd const& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian)> evaluate;
-  Eigen::Index residuals = 0;
+  /// The cost, and the rest if asked for. False where x has no answer.
+  std::function<bool(Eigen::VectorXd const& x, bool linearised, NormalEquations& at)> evaluate;
   Eigen::VectorXd start, lower, upper;
   int iterations = 12;
   double tolerance = 1e-4;  ///< of the cost: it stops where a step gains less, or would by the linearisation
@@ -17,8 +23,6 @@ struct LeastSquares {
 
 struct LeastSquaresResult {
   Eigen::VectorXd x;
-  double cost = 0.0;  ///< ½ |r|²
-  int iterations = 0;
   bool converged = false;
 };
 

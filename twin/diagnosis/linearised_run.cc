@@ -13,13 +13,7 @@ namespace thermotwin::twin {
 namespace {
 
 constexpr double gamma = 1.0 - 0.70710678118654752440;
-
-/// A first-order lag, exactly for an input that is linear within a step.
-double lagged(double before, double from, double to, double lag, double step) {
-  if (lag <= 0.0) return to;
-  double const slope = (to - from) / step, decay = std::exp(-step / lag);
-  return to - slope * lag + (before - from + slope * lag) * decay;
-}
+constexpr double steepest = 3.0;  // slope at an end of a step, of the straight line's
 
 double value_of(std::vector<double> const& course, int channel) {
   return channel < 0 ? 0.0 : course[std::size_t(channel)];
@@ -44,9 +38,10 @@ class LinearisedRun::View : public ChannelReading {
     return views;
   }
   /// Before its lag.
-  [[nodiscard]] double shown(LinearisedRun const& run, End const& end) const;
+  [[nodiscard]] Piece along(LinearisedRun const& run, std::size_t step) const;
 
  private:
+  [[nodiscard]] double shown(LinearisedRun const& run, End const& end) const;
   [[nodiscard]] double air(End const& end, double height) const;
 
   double height_ = 0.0;
@@ -91,6 +86,17 @@ double LinearisedRun::View::shown(LinearisedRun const& run, End const& end) cons
   return per_air == 0.0 ? value : value + per_air * (air(end, 0.0) - air(start, 0.0));
 }
 
+LinearisedRun::Piece LinearisedRun::View::along(LinearisedRun const& run, std::size_t step) const {
+  Piece piece;
+  if (sensor) piece = run.along(sensor->weights, step);
+  if (displacement) piece = run.along(displacement->weights, step);
+  piece.bend_from *= 1.0 - air_share;
+  piece.bend_to *= 1.0 - air_share;
+  piece.from = shown(run, run.begins_[step]);
+  piece.to = shown(run, run.ends_[step]);
+  return piece;
+}
+
 LinearisedRun::LinearisedRun(Machine const& machine, BinnedRun const& data) : machine_(&machine), data_(&data) {
   trace();
 }
@@ -111,78 +117,123 @@ void LinearisedRun::trace() {
                        states.emplace_back(sample.state.begin(), sample.state.end());
                        inputs.emplace_back(sample.input.begin(), sample.input.end());
                      });
-  auto const& names = machine_->network().channel_names();
-  std::vector<int> from(std::size_t(machine_->network().external_channels()));
+  auto const& network = machine_->network();
+  auto const& names = network.channel_names();
+  std::vector<int> from(std::size_t(network.external_channels()));
   for (std::size_t i = 0; i < from.size(); ++i) from[i] = channel_index(course, names[i]);
   auto const end_of = [&](double time, std::vector<double> const& state, std::vector<double> input) {
     std::vector<double> values(course.channels().size());
     course.evaluate(time, values);
     for (std::size_t i = 0; i < from.size(); ++i) input[i] = values[std::size_t(from[i])];
-    return End{time, state, std::move(input), std::move(values)};
+    return End{time, state, std::move(input), std::move(values), {}};
   };
+  thermal::Evaluation evaluation(network);
   for (std::size_t s = 0; s < steps.size(); ++s) {
     auto const& [begin, end] = std::pair(steps[s].begin, steps[s].end);
     bool const jumps = course.next_jump(begin) <= end;
     begins_.push_back(end_of(begin, states[s], inputs[s]));
     ends_.push_back(end_of(jumps ? end - 1e-6 * (end - begin) : end, states[s + 1], inputs[s]));
+    bend(evaluation, begins_.back(), ends_.back());
   }
 }
 
-/// The rows of the data from the values at both ends of every step, channel by channel, each behind its lag.
-void LinearisedRun::average(std::vector<double> const& lags, Eigen::MatrixXd const& begins, Eigen::MatrixXd const& ends,
-                            Eigen::MatrixXd& rows) const {
-  auto const& steps = data_->steps;
-  rows.setZero(data_->time.size(), begins.cols());
-  for (Eigen::Index c = 0; c < begins.cols(); ++c) {
-    double const lag = lags[std::size_t(c)];
-    double shown = begins(0, c);
-    for (std::size_t s = 0; s < steps.size(); ++s) {
-      auto const step = Eigen::Index(s);
-      double const begin = lag > 0.0 ? shown : begins(step, c);
-      shown = lagged(shown, begins(step, c), ends(step, c), lag, steps[s].end - steps[s].begin);
-      rows(steps[s].row, c) += steps[s].at_begin * begin + steps[s].at_end * shown;
+/// The slopes of the nodes at the ends of a step, beyond those of straight lines. A cubic does not overshoot with them
+/// (Fritsch & Carlson, SIAM J. Numer. Anal. 17 (1980) 238): what follows its input within seconds has slopes that say
+/// nothing of the rest of the step.
+void LinearisedRun::bend(thermal::Evaluation& evaluation, End& begin, End& end) const {
+  auto const& network = machine_->network();
+  auto const temperature = [&](std::size_t node, double state) {
+    return network.temperature_of_state(int(node), state);
+  };
+  std::vector<double> rate(begin.state.size());
+  for (End* at : {&begin, &end}) {
+    evaluation.rate(at->state.data(), at->input.data(), rate.data());
+    at->bend.resize(rate.size());
+    for (std::size_t i = 0; i < rate.size(); ++i) {
+      double const straight = (temperature(i, end.state[i]) - temperature(i, begin.state[i])) / (end.time - begin.time);
+      double const slope = temperature(i, at->state[i] + rate[i]) - temperature(i, at->state[i]);
+      at->bend[i] = straight == 0.0 ? 0.0 : straight * (std::clamp(slope / straight, 0.0, steepest) - 1.0);
     }
   }
+}
+
+/// Σ wᵢ Tᵢ.
+LinearisedRun::Piece LinearisedRun::along(NodeWeights const& weights, std::size_t step) const {
+  auto const& network = machine_->network();
+  auto const &begin = begins_[step], &end = ends_[step];
+  Piece piece;
+  for (auto const& [node, weight] : weights) {
+    auto const i = std::size_t(node);
+    piece.from += weight * network.temperature_of_state(node, begin.state[i]);
+    piece.to += weight * network.temperature_of_state(node, end.state[i]);
+    piece.bend_from += weight * begin.bend[i];
+    piece.bend_to += weight * end.bend[i];
+  }
+  return piece;
+}
+
+/// x − τx' + τ²x'' − τ³x''' of the cubic, from what the channel shows at the begin.
+LinearisedRun::Lagged LinearisedRun::lagged(double shown, Piece const& piece, double lag, double length) {
+  double const slope = (piece.to - piece.from) / length;
+  double const second = -2.0 * (2.0 * piece.bend_from + piece.bend_to) / length;  // x'' at the begin
+  double const third = 6.0 * (piece.bend_from + piece.bend_to) / (length * length);
+  auto const later = [&](double curvature) { return -lag * (curvature - lag * third); };  // its slope beyond x'
+  auto const followed = [&](double x, double first, double curvature) { return x - lag * (first + later(curvature)); };
+  Lagged result;
+  double const second_at_end = second + third * length;
+  result.piece.from = followed(piece.from, slope + piece.bend_from, second);
+  result.piece.to = followed(piece.to, slope + piece.bend_to, second_at_end);
+  double const own_slope = (result.piece.to - result.piece.from) / length;
+  result.piece.bend_from = slope + piece.bend_from + later(second) - own_slope;
+  result.piece.bend_to = slope + piece.bend_to + later(second_at_end) - own_slope;
+  result.decaying = shown - result.piece.from;
+  return result;
+}
+
+/// The rows of one channel from its pieces, behind its lag.
+Eigen::VectorXd LinearisedRun::rows_of(std::function<Piece(std::size_t step)> const& pieces, double lag) const {
+  auto const& steps = data_->steps;
+  Eigen::VectorXd rows = Eigen::VectorXd::Zero(data_->time.size());
+  double shown = 0.0;
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    auto const& step = steps[s];
+    Piece piece = pieces(s);
+    if (lag > 0.0) {
+      if (s == 0) shown = piece.from;
+      auto const behind = lagged(shown, piece, lag, step.length());
+      piece = behind.piece;
+      shown = piece.to + behind.decaying * std::exp(-step.length() / lag);
+      for (double const sample : step.samples) rows[step.row] += step.share * behind.decaying * std::exp(-sample / lag);
+    }
+    rows[step.row] += step.at_begin * piece.from + step.at_end * piece.to + step.bend_at_begin * piece.bend_from +
+                      step.bend_at_end * piece.bend_to;
+  }
+  return rows;
 }
 
 Eigen::MatrixXd LinearisedRun::prediction_of(Machine const& other) const {
-  auto const& steps = data_->steps;
   auto const views = View::of(other, *data_->run);
-  auto const count = Eigen::Index(views.size());
-  Eigen::MatrixXd begins(Eigen::Index(steps.size()), count), ends = begins, rows;
-  std::vector<double> lags;
-  for (Eigen::Index c = 0; c < count; ++c) {
-    auto const& view = views[std::size_t(c)];
-    lags.push_back(view.lag);
-    for (std::size_t s = 0; s < steps.size(); ++s) {
-      begins(Eigen::Index(s), c) = view.shown(*this, begins_[s]);
-      ends(Eigen::Index(s), c) = view.shown(*this, ends_[s]);
-    }
-  }
-  average(lags, begins, ends, rows);
+  Eigen::MatrixXd rows(data_->time.size(), Eigen::Index(views.size()));
+  for (std::size_t c = 0; c < views.size(); ++c)
+    rows.col(Eigen::Index(c)) = rows_of([&](std::size_t step) { return views[c].along(*this, step); }, views[c].lag);
   return rows;
 }
 
 Eigen::MatrixXd LinearisedRun::growth(std::vector<NodeWeights> const& displacements) const {
-  auto const& steps = data_->steps;
-  auto const& network = machine_->network();
   auto const views = View::of(*machine_, *data_->run);
-  Eigen::MatrixXd begins = Eigen::MatrixXd::Zero(Eigen::Index(steps.size()), Eigen::Index(views.size())), ends = begins;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(data_->time.size(), Eigen::Index(views.size()));
   for (std::size_t c = 0; c < views.size(); ++c) {
     if (!views[c].displacement) continue;
-    for (auto const& [node, weight] :
-         displacements[std::size_t(views[c].displacement - machine_->displacements.data())])
-      for (std::size_t s = 0; s < steps.size(); ++s) {
-        auto const rise = [&, i = node](End const& end) {
-          return network.temperature_of_state(i, end.state[std::size_t(i)]) -
-                 network.temperature_of_state(i, begins_[0].state[std::size_t(i)]);
-        };
-        begins(Eigen::Index(s), Eigen::Index(c)) += weight * rise(begins_[s]);
-        ends(Eigen::Index(s), Eigen::Index(c)) += weight * rise(ends_[s]);
-      }
+    auto const& weights = displacements[std::size_t(views[c].displacement - machine_->displacements.data())];
+    double const start = along(weights, 0).from;
+    auto const since_start = [&](std::size_t step) {
+      Piece piece = along(weights, step);
+      piece.from -= start;
+      piece.to -= start;
+      return piece;
+    };
+    rows.col(Eigen::Index(c)) = rows_of(since_start, 0.0);
   }
-  Eigen::MatrixXd rows;
-  average(std::vector<double>(views.size(), 0.0), begins, ends, rows);
   return rows;
 }
 
@@ -212,7 +263,8 @@ Eigen::MatrixXd LinearisedRun::response(thermal::ParameterColumns const& paramet
       start);
 }
 
-Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd const& initial) const {
+Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd const& initial,
+                                        Leap const& leap) const {
   auto const& network = machine_->network();
   auto const n = Eigen::Index(network.nodes());
   auto const m = initial.cols();
@@ -228,7 +280,9 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
   thermal::NodeByParameter result = thermal::NodeByParameter::Zero(rows * H.rows(), m);
   std::vector<double> middle(static_cast<std::size_t>(n)), input;
   for (std::size_t s = 0; s < steps.size(); ++s) {
-    double const h = steps[s].end - steps[s].begin;
+    double const h = steps[s].length();
+    leap(evaluation, s, S);
+    from.noalias() = H * S;
     for (Eigen::Index i = 0; i < n; ++i)
       middle[std::size_t(i)] = 0.5 * (begins_[s].state[std::size_t(i)] + ends_[s].state[std::size_t(i)]);
     input = begins_[s].input;
@@ -260,9 +314,25 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
       target += steps[s].at_end * (lag > 0.0 ? shown.row(c) : to.row(c));
       if (relative) target -= (steps[s].at_begin + steps[s].at_end) * at_start.row(c);
     }
-    from.swap(to);
   }
   return result;
+}
+
+Eigen::MatrixXd LinearisedRun::response_to_earlier(std::vector<double> const& jumps) const {
+  Eigen::Index const nodes = machine_->network().nodes(), count = Eigen::Index(jumps.size());
+  Eigen::VectorXd after(nodes), before(nodes);
+  auto const leap = [&](thermal::Evaluation& evaluation, std::size_t step, thermal::NodeByParameter& s) {
+    auto const jump = std::find(jumps.begin(), jumps.end(), begins_[step].time) - jumps.begin();
+    if (jump == count || step == 0) return;
+    double const* const state = begins_[step].state.data();
+    evaluation.rate(state, begins_[step].input.data(), after.data());
+    evaluation.rate(state, ends_[step - 1].input.data(), before.data());
+    s.col(jump) += after - before;
+  };
+  auto const unforced = [](thermal::Evaluation&, double, auto const&, auto const&, thermal::NodeByParameter& forcing) {
+    forcing.setZero();
+  };
+  return response(unforced, Eigen::MatrixXd::Zero(nodes, count), leap);
 }
 
 std::map<std::string, LinearisedRun::MeanHeat> LinearisedRun::more_heat_than(Machine const& other) const {
@@ -272,7 +342,7 @@ std::map<std::string, LinearisedRun::MeanHeat> LinearisedRun::more_heat_than(Mac
   std::map<std::string, MeanHeat> heat;
   double moving = 0.0, standing = 0.0;
   for (std::size_t s = 0; s < begins_.size(); ++s) {
-    double const length = data_->steps[s].end - data_->steps[s].begin;
+    double const length = data_->steps[s].length();
     bool const moves = is_moving(*data_->run->course, begins_[s].time);
     (moves ? moving : standing) += length;
     with.rate(begins_[s].state.data(), begins_[s].input.data(), rate.data());

@@ -34,11 +34,16 @@ class LinearisedRun {
                                      std::vector<double> const& input, thermal::NodeByParameter& forcing)>;
 
   /// ∂z/∂θ, (channel · rows + row) × parameter. `initial`: node × parameter, dy(0)/dθ.
-  [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial) const;
+  [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial) const {
+    return response(forcing, initial, [](thermal::Evaluation&, std::size_t, thermal::NodeByParameter&) {});
+  }
   /// The same for numbers of the machine. `forced_nodes`: nodes from there on have no forcing, −1: all have. A mass
   /// that a hypothesis brings along does not depend on its amplitude, as that goes to nothing.
   [[nodiscard]] Eigen::MatrixXd response(thermal::ParameterColumns const& parameters,
                                          Eigen::MatrixXd const& initial = {}, int forced_nodes = -1) const;
+  /// What the channels show more for every second that the inputs jumped earlier, at each of these times: f there with
+  /// the inputs after the jump, less f with those before it, stored at once. (channel · rows + row) × jump.
+  [[nodiscard]] Eigen::MatrixXd response_to_earlier(std::vector<double> const& jumps) const;
   /// Σ wᵢ (Tᵢ(t) − Tᵢ(0)) with other weights for the machine's displacements, row × channel: ∂z/∂θ of what moves the
   /// tool and no temperature.
   [[nodiscard]] Eigen::MatrixXd growth(std::vector<NodeWeights> const& displacements) const;
@@ -58,11 +63,27 @@ class LinearisedRun {
     double time;
     std::vector<double> state, input;
     std::vector<double> course;  ///< all channels of the data
+    std::vector<double> bend;    ///< slope of the nodes' temperatures beyond that of the straight line [K/s]
+  };
+  /// Something along a step: its values at the ends, and its slopes there beyond that of the straight line.
+  struct Piece {
+    double from = 0.0, to = 0.0, bend_from = 0.0, bend_to = 0.0;
   };
   class View;
   void trace();
-  void average(std::vector<double> const& lags, Eigen::MatrixXd const& begins, Eigen::MatrixXd const& ends,
-               Eigen::MatrixXd& rows) const;
+  void bend(thermal::Evaluation& evaluation, End& begin, End& end) const;
+  /// By which s jumps where a step begins.
+  using Leap = std::function<void(thermal::Evaluation&, std::size_t step, thermal::NodeByParameter& s)>;
+  [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial,
+                                         Leap const& leap) const;
+  /// Behind a first-order lag, exactly: a cubic, and what decays from the begin on.
+  struct Lagged {
+    Piece piece;
+    double decaying = 0.0;  ///< at the begin
+  };
+  static Lagged lagged(double shown, Piece const& piece, double lag, double length);
+  [[nodiscard]] Piece along(NodeWeights const& weights, std::size_t step) const;
+  [[nodiscard]] Eigen::VectorXd rows_of(std::function<Piece(std::size_t step)> const& pieces, double lag) const;
   [[nodiscard]] Eigen::MatrixXd weights() const;
 
   Machine const* machine_;

@@ -111,6 +111,7 @@ Machine LumpInteriors::seeing_mean(Unknown const& unknown) const {
 }
 
 Eigen::MatrixXd LumpInteriors::responses(BinnedRun const& run) const {
+  if (unknowns_.empty()) return {};
   std::vector<thermal::NetworkDerivative const*> pointers;
   for (auto const& derivative : derivatives_) pointers.push_back(&derivative);
   LinearisedRun const twin(machine_, run);

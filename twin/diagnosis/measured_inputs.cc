@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <iterator>
 #include <numbers>
 
 #include "scenarios/course.h"
@@ -162,7 +163,13 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
     if (is_derived(input, data)) continue;
     experiment.driven.push_back(scenarios::driven_channel(input));
     gaps.push_back(gaps_of(input, data.max_gap, experiment.duration));
+    auto const changes = changes_of(input, experiment.driven.back().signal);
+    std::copy_if(changes.begin(), changes.end(), std::back_inserter(run.changes), [&](auto const& change) {
+      return std::none_of(gaps.back().begin(), gaps.back().end(),
+                          [&](RecordGap const& gap) { return gap.to == change.time; });
+    });
   }
+  run.changes = merged(std::move(run.changes));
   remark_gaps(gaps, experiment, run.remarks);
   run.course = std::make_shared<scenarios::ExperimentCourse const>(experiment, machine.limits);
   add_alternatives(run, gaps, experiment, machine.limits);

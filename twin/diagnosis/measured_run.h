@@ -10,6 +10,7 @@
 
 #include "output/dataset.h"
 #include "thermal/operating_point.h"
+#include "twin/diagnosis/input_change.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -32,6 +33,7 @@ struct MeasuredRun {
   std::string name;
   std::shared_ptr<thermal::Course const> course;
   std::vector<AlternativeCourse> alternatives;  ///< two of each gap in what is held between rows: one of each half
+  std::vector<InputChange> changes;             ///< when its inputs changed, as far as the record tells
   Eigen::VectorXd time;                         ///< [s], strictly increasing
   std::vector<MeasuredChannel> channels;        ///< those of the machine that the data have, in the machine's order
   std::optional<double> initial_temperature;    ///< of the whole machine [K]; default: that of the air around each part

@@ -99,6 +99,24 @@ TEST_P(Binned, MeanOfALinearSignalIsExact) {
   }
 }
 
+/// And so has one that is cubic within each step, by its slopes at the ends.
+TEST_P(Binned, MeanOfACubicSignalIsExact) {
+  auto const cubic = [](double t) { return 20.0 + std::pow(t / 1000.0 - 2.0, 3); };
+  auto const slope = [](double t) { return 3e-3 * std::pow(t / 1000.0 - 2.0, 2); };
+  auto const curved =
+      bin(run_of(GetParam().duration, GetParam().sampling, GetParam().jumps, cubic), GetParam().interval);
+  VectorXd rows = predicted(curved, cubic);
+  for (auto const& step : curved.steps) {
+    double const straight = (cubic(step.end) - cubic(step.begin)) / step.length();
+    rows[step.row] +=
+        step.bend_at_begin * (slope(step.begin) - straight) + step.bend_at_end * (slope(step.end) - straight);
+  }
+  for (Index r = 0; r < rows.size(); ++r) {
+    if (curved.samples(r, 0) == 0.0) continue;
+    EXPECT_NEAR(curved.values(r, 0), rows[r], 1e-8);
+  }
+}
+
 TEST_P(Binned, EverySampleIsInOneRow) {
   EXPECT_EQ(binned.samples.col(0).sum(), double(run.time.size()));
   EXPECT_NEAR((binned.samples.col(0).array() * binned.time.array()).sum(), run.time.sum(), 1e-6 * run.time.sum());
@@ -161,6 +179,16 @@ TEST(BinnedRun, FittingIntervalKeepsTheNumberOfRows) {
     EXPECT_LE(rows, 200) << hours;
     EXPECT_GE(interval, hours > 5.0 ? 300.0 : 60.0);
   }
+}
+
+/// The programme changed at some time between 3540 s and 3600 s, so that the sample at 3600 s may be of before or
+/// after.
+TEST(Binned, LeavesOutTheSampleThatShowsAChangeFirst) {
+  auto run = run_of(7200.0, 60.0, {3600.0}, [](double t) { return t == 3600.0 ? 1e6 : line(t); });
+  run.changes = {{3600.0, 60.0, 1.0}};
+  auto const binned = bin(run, 600.0);
+  EXPECT_EQ(binned.samples.col(0).sum(), double(run.time.size() - 1));
+  EXPECT_LT((predicted(binned, line) - binned.values.col(0)).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 }  // namespace

@@ -10,16 +10,20 @@
 namespace thermotwin::twin {
 namespace {
 
+/// Of residuals r with the Jacobian J.
+NormalEquations normal_equations(Eigen::VectorXd const& r, Eigen::MatrixXd const& J) {
+  return {r.squaredNorm(), J.transpose() * r, J.transpose() * J};
+}
+
 /// r = A x − b + c (x·x) e: curved a little, as a machine is.
 LeastSquares problem_of(Eigen::MatrixXd const& A, Eigen::VectorXd const& b, double curvature) {
   LeastSquares problem;
-  problem.evaluate = [=](Eigen::VectorXd const& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    r = A * x - b;
+  problem.evaluate = [=](Eigen::VectorXd const& x, bool, NormalEquations& at) {
+    Eigen::VectorXd r = A * x - b;
     r.array() += curvature * x.squaredNorm();
-    if (J) *J = A + 2.0 * curvature * Eigen::VectorXd::Ones(A.rows()) * x.transpose();
+    at = normal_equations(r, A + 2.0 * curvature * Eigen::VectorXd::Ones(A.rows()) * x.transpose());
     return true;
   };
-  problem.residuals = A.rows();
   problem.start = Eigen::VectorXd::Ones(A.cols());
   problem.lower = Eigen::VectorXd::Zero(A.cols());
   problem.upper = Eigen::VectorXd::Constant(A.cols(), INFINITY);
@@ -48,11 +52,10 @@ TEST(LeastSquares, EndsWhereNothingAllowedIsBetter) {
     for (auto& entry : x) entry = normal(random);
     auto const problem = problem_of(A, A * x, 1e-3);
     auto const result = solve(problem);
-    Eigen::VectorXd r;
-    Eigen::MatrixXd J;
-    problem.evaluate(result.x, r, &J);
-    Eigen::VectorXd const gradient = J.transpose() * r;
-    double const scale = J.norm() * std::max(1.0, r.norm());
+    NormalEquations at;
+    problem.evaluate(result.x, true, at);
+    Eigen::VectorXd const& gradient = at.gradient;
+    double const scale = std::sqrt(at.curvature.trace() * std::max(1.0, at.cost));
     for (Eigen::Index i = 0; i < 6; ++i) {
       bool const held = result.x[i] == 0.0;
       bound += held;
@@ -86,11 +89,11 @@ TEST(LeastSquares, EndsWhereTheLinearisationHasNothingToGain) {
   Eigen::VectorXd const left = noise - A * A.colPivHouseholderQr().solve(noise);
   auto problem = problem_of(A, A * Eigen::Vector3d(0.5, 1.0, 2.0) + left, 0.0);
   std::set<std::vector<double>> places, linearised;
-  problem.evaluate = [&, evaluate = problem.evaluate](auto const& x, auto& r, auto* J) {
+  problem.evaluate = [&, evaluate = problem.evaluate](auto const& x, bool wanted, auto& at) {
     std::vector<double> const place(x.begin(), x.end());
     places.insert(place);
-    if (J) linearised.insert(place);
-    return evaluate(x, r, J);
+    if (wanted) linearised.insert(place);
+    return evaluate(x, wanted, at);
   };
   problem.tolerance = 1e-6;
   EXPECT_TRUE(solve(problem).converged);

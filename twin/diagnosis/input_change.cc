@@ -1,0 +1,46 @@
+#include "twin/diagnosis/input_change.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thermotwin::twin {
+
+std::vector<InputChange> changes_of(scenarios::SampledInput const& input, scenarios::Signal const& signal) {
+  std::vector<double> samples;
+  for (std::size_t i = 0; i < input.times.size(); ++i)
+    if (std::isfinite(input.values[i])) samples.push_back(input.times[i]);
+  auto const jumps = signal.jumps();
+  if (2 * jumps.size() > samples.size()) return {};
+  double largest = 0.0;
+  for (double const value : signal.values()) largest = std::max(largest, std::abs(value));
+  std::vector<InputChange> changes;
+  for (double const time : jumps) {
+    auto const shown = std::lower_bound(samples.begin(), samples.end(), time);
+    if (shown == samples.begin() || shown == samples.end()) continue;
+    double const before = *(shown - 1);
+    changes.push_back({time, time - before, std::abs(signal.at(time) - signal.at(before)) / largest});
+  }
+  return changes;
+}
+
+std::vector<InputChange> merged(std::vector<InputChange> changes, std::size_t most) {
+  auto const sooner = [](InputChange const& a, InputChange const& b) { return a.time < b.time; };
+  std::stable_sort(changes.begin(), changes.end(), sooner);
+  std::vector<InputChange> result;
+  for (auto const& change : changes) {
+    if (result.empty() || result.back().time != change.time) {
+      result.push_back(change);
+      continue;
+    }
+    result.back().earlier = std::max(result.back().earlier, change.earlier);
+    result.back().size += change.size;
+  }
+  if (result.size() <= most) return result;
+  std::stable_sort(result.begin(), result.end(),
+                   [](auto const& a, auto const& b) { return a.size * a.earlier > b.size * b.earlier; });
+  result.resize(most);
+  std::sort(result.begin(), result.end(), sooner);
+  return result;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,159 @@
+#include "twin/diagnosis/linear_unknowns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+#include "twin/diagnosis/linearised_run.h"
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double offset_deviation = 0.3;    // of a temperature sensor [K]
+constexpr double zero_deviation = 1e-6;     // of a displacement's zero [m]
+constexpr double unread_zero = 200e-6;      // where the run begins before the channel was read
+constexpr double start_deviation = 0.3;     // [K]
+constexpr double air_deviation = 0.2;       // [K]
+constexpr double input_deviation = 0.7;     // of the response to what may have been given instead
+constexpr double moment_deviation = 0.577;  // about the sample that shows it, of any moment since the one before: 1/√3
+constexpr double interior_deviation = 0.5;  // of a lump: half of a slab
+
+/// A probe's zero is anywhere: where it stood when it was first read, the machine had not moved yet, unless it has a
+/// past.
+Unknown zero_unknown(MeasuredChannel const& channel, std::size_t index, std::size_t run) {
+  auto const& values = channel.values;
+  auto const first = std::find_if(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
+  return {.kind = Unknown::Kind::offset,
+          .name = fmt::format("zero of {}, run {}", channel.name, run + 1),
+          .mean = first == values.end() ? 0.0 : *first,
+          .deviation = first == values.begin() ? zero_deviation : unread_zero,
+          .index = index,
+          .run = int(run)};
+}
+
+/// The room air, wherever the machine meets it, one kelvin warmer.
+thermal::NetworkDerivative warmer_air(thermal::Network const& network) {
+  thermal::NetworkDerivative d = thermal::lengthened({}, network);
+  auto const& names = network.channel_names();
+  for (std::size_t b = 0; b < network.boundaries().size(); ++b)
+    for (auto const& term : network.boundaries()[b].terms)
+      if (names[std::size_t(term.channel)] == "ambient.floor_temperature") d.boundary_offset[b] = 1.0;
+  return d;
+}
+
+/// Of the whole machine warmer by a kelvin at the start, and of warmer air.
+Eigen::MatrixXd response_to_start_and_air(LinearisedRun const& twin) {
+  auto const& network = twin.machine().network();
+  auto const air = warmer_air(network);
+  auto const none = thermal::lengthened({}, network);
+  Eigen::MatrixXd initial = Eigen::MatrixXd::Zero(network.nodes(), 2);
+  initial.col(0).setOnes();
+  return twin.response(thermal::ParameterColumns(network, {&none, &air}), initial);
+}
+
+/// What the channels show more where this course is the machine's.
+Eigen::VectorXd response_to(std::shared_ptr<thermal::Course const> const& course, LinearisedRun const& twin) {
+  MeasuredRun run = *twin.data().run;
+  run.course = course;
+  BinnedRun other = twin.data();
+  other.run = &run;
+  return (LinearisedRun(twin.machine(), other).prediction() - twin.prediction()).reshaped();
+}
+
+Eigen::MatrixXd response_to_earlier_changes(LinearisedRun const& twin) {
+  std::vector<double> times;
+  for (auto const& change : twin.data().run->changes) times.push_back(change.time);
+  return twin.response_to_earlier(times);
+}
+
+}  // namespace
+
+LinearUnknowns::LinearUnknowns(Value const& document, std::vector<BinnedRun> const& data,
+                               std::vector<std::string> const& channels) {
+  add_of_channels(data, channels);
+  for (std::size_t r = 0; r < data.size(); ++r) add_of_run(data[r], int(r));
+  LumpInteriors const interiors(document);
+  for (std::size_t i = 0; i < interiors.unknowns().size(); ++i)
+    unknowns_.push_back({.kind = Unknown::Kind::interior,
+                         .name = interiors.unknowns()[i].name,
+                         .deviation = interior_deviation,
+                         .index = i});
+  Machine const machine = Machine::build(document);
+  Eigen::Index rows = 0;
+  for (auto const& run : data) rows += run.values.size();
+  columns_.setZero(rows, Eigen::Index(unknowns_.size()));
+  Eigen::Index first = 0;
+  for (std::size_t r = 0; r < data.size(); first += data[r++].values.size())
+    columns_.middleRows(first, data[r].values.size()) = columns_of(machine, interiors, data[r], int(r), channels);
+}
+
+void LinearUnknowns::add_of_channels(std::vector<BinnedRun> const& data, std::vector<std::string> const& channels) {
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    bool sensor = false;
+    for (std::size_t r = 0; r < data.size(); ++r) {
+      auto const& all = data[r].run->channels;
+      auto const it = std::find_if(all.begin(), all.end(), [&](auto const& own) { return own.name == channels[c]; });
+      if (it == all.end()) continue;
+      sensor = sensor || !it->displacement;
+      if (it->displacement) unknowns_.push_back(zero_unknown(*it, c, r));
+    }
+    if (sensor)
+      unknowns_.push_back({.kind = Unknown::Kind::offset,
+                           .name = "offset of " + channels[c],
+                           .deviation = offset_deviation,
+                           .index = c});
+  }
+}
+
+void LinearUnknowns::add_of_run(BinnedRun const& data, int run) {
+  using Kind = Unknown::Kind;
+  int const number = run + 1;  // as people count
+  unknowns_.push_back({.kind = Kind::start,
+                       .name = fmt::format("warm start of run {}", number),
+                       .deviation = start_deviation,
+                       .run = run});
+  unknowns_.push_back(
+      {.kind = Kind::air, .name = fmt::format("air in run {}", number), .deviation = air_deviation, .run = run});
+  auto const& alternatives = data.run->alternatives;
+  for (std::size_t a = 0; a < alternatives.size(); ++a)
+    unknowns_.push_back({.kind = Kind::input,
+                         .name = fmt::format("{}, run {}", alternatives[a].name, number),
+                         .deviation = input_deviation,
+                         .index = a,
+                         .run = run});
+  auto const& changes = data.run->changes;
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    unknowns_.push_back({.kind = Kind::moment,
+                         .name = fmt::format("change before {:.2f} h, run {}", changes[i].time / 3600.0, number),
+                         .deviation = moment_deviation * changes[i].earlier,
+                         .index = i,
+                         .run = run});
+}
+
+Eigen::MatrixXd LinearUnknowns::columns_of(Machine const& machine, LumpInteriors const& interiors,
+                                           BinnedRun const& data, int run,
+                                           std::vector<std::string> const& channels) const {
+  LinearisedRun const twin(machine, data);
+  Eigen::MatrixXd const start_and_air = response_to_start_and_air(twin);
+  Eigen::MatrixXd const earlier = response_to_earlier_changes(twin), within = interiors.responses(data);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(data.values.size(), Eigen::Index(unknowns_.size()));
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    auto const& unknown = unknowns_[u];
+    if (unknown.run >= 0 && unknown.run != run) continue;
+    auto const own = Eigen::Index(unknown.index);
+    auto column = columns.col(Eigen::Index(u));
+    if (unknown.kind == Unknown::Kind::start) column = start_and_air.col(0);
+    if (unknown.kind == Unknown::Kind::air) column = start_and_air.col(1);
+    if (unknown.kind == Unknown::Kind::moment) column = earlier.col(own);
+    if (unknown.kind == Unknown::Kind::interior) column = within.col(own);
+    if (unknown.kind == Unknown::Kind::input) column = response_to(data.run->alternatives[unknown.index].course, twin);
+    if (unknown.kind != Unknown::Kind::offset) continue;
+    auto const rows = data.time.size();
+    for (std::size_t c = 0; c < data.run->channels.size(); ++c)
+      if (data.run->channels[c].name == channels[unknown.index]) column.segment(Eigen::Index(c) * rows, rows).setOnes();
+  }
+  return columns;
+}
+
+}  // namespace thermotwin::twin

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "twin/diagnosis/binned_run.h"
+#include "twin/diagnosis/lump_interiors.h"
+#include "twin/diagnosis/unknown.h"
+
+namespace thermotwin::twin {
+
+/// Unknowns that are small, so that their response about the machine of the file serves throughout: offsets of sensors
+/// and zeros of displacements, how warm the machine starts, the air, when the inputs changed, and what lumps hide. And
+/// what was given in gaps, of which a share is estimated: in proportion to its heat, of which only what is stored is
+/// seen.
+class LinearUnknowns {
+ public:
+  LinearUnknowns(Value const& document, std::vector<BinnedRun> const& data, std::vector<std::string> const& channels);
+
+  [[nodiscard]] std::vector<Unknown> const& all() const { return unknowns_; }
+  /// What the channels show more of each: (run; channel · rows + row) × unknown.
+  [[nodiscard]] Eigen::MatrixXd const& columns() const { return columns_; }
+
+ private:
+  void add_of_channels(std::vector<BinnedRun> const& data, std::vector<std::string> const& channels);
+  void add_of_run(BinnedRun const& data, int run);
+  [[nodiscard]] Eigen::MatrixXd columns_of(Machine const& machine, LumpInteriors const& interiors,
+                                           BinnedRun const& data, int run,
+                                           std::vector<std::string> const& channels) const;
+
+  std::vector<Unknown> unknowns_;
+  Eigen::MatrixXd columns_;
+};
+
+}  // namespace thermotwin::twin

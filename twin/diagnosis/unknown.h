@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+namespace thermotwin::twin {
+
+/// What is estimated from the data, with its prior N(mean, deviation²).
+struct Unknown {
+  enum class Kind {
+    number,     ///< ln(value/nominal) of a number of the file
+    amplitude,  ///< of an effect that was added, in units of its trial's `largest`
+    offset,     ///< of a channel [K, m]: of a sensor in all runs, of a displacement in one
+    lag,        ///< of a sensor [s]
+    start,      ///< deviation of the whole machine's temperature at the start of a run [K]
+    air,        ///< deviation of the room air from its record, in one run [K]
+    input,      ///< share of what a run may have been given instead in a gap of its record
+    moment,     ///< by how much an input changed before the sample that shows it [s]
+    interior,   ///< of what a lump hides, in units of a slab's (lump_interiors.h)
+  };
+  Kind kind = Kind::number;
+  std::string name;
+  double mean = 0.0, deviation = 1.0;
+  double lower = -INFINITY, upper = INFINITY;
+  std::size_t index = 0;  ///< of the number, the effect, the channel, the run's alternative or change, the interior
+  int run = -1;           ///< −1: all
+};
+
+}  // namespace thermotwin::twin
