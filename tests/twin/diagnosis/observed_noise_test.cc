@@ -22,7 +22,7 @@ TEST(ObservedNoise, IsThatOfTheChannelWhichWanders) {
     }
   std::vector<BinnedRun> const data = {bin(run, 300.0)};
   Estimation const estimation = expected_estimation(tests::v450(), data);
-  auto const expected = estimation.noise();
+  auto const& expected = estimation.noise();
   auto const heard = observed_noise(estimation, estimation.fit(estimation.prior_mean()).x, expected);
   for (std::size_t c = 0; c < heard.size(); ++c) {
     double const times = heard[c].slow_share / expected[c].slow_share;
