@@ -117,6 +117,13 @@ Course means(Course const& samples, double width) {
 
 }  // namespace
 
+std::vector<double> recorded_times(SampledInput const& input) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < input.times.size(); ++i)
+    if (std::isfinite(input.values[i])) times.push_back(input.times[i]);
+  return times;
+}
+
 DrivenChannel driven_channel(SampledInput const& input) {
   Course samples = finite_part(input);
   bool const held = is_held(input, samples.values);

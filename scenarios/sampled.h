@@ -18,6 +18,9 @@ struct SampledInput {
   double average = 0.0;  ///< linear channels: one breakpoint per this time, the mean of its samples [s]
 };
 
+/// Times of the samples that are not missing.
+[[nodiscard]] std::vector<double> recorded_times(SampledInput const& input);
+
 /// The channel with its course, missing samples left out.
 ///
 /// Automatic: temperatures, positions and clocks go along straight lines; speeds, feeds, shares and flags, and whatever
@@ -27,8 +30,8 @@ struct SampledInput {
 /// zero repeat the one before, a sample belongs to the running block while it is within max(2 % of the channel's
 /// largest magnitude, 5 σ) of the block's mean, which is then the block's value; σ = 1.05 median |Δ| of neighbours. A
 /// noisy block stands still, 0, where its mean is below 0.2 % of the largest, or below 2 % and its samples are noise
-/// about zero. Temperatures that go along straight lines are
-/// smoothed (noisy_record.h): a sensor that lags would explain away the noise of what it is held against.
+/// about zero. Temperatures that go along straight lines are smoothed (noisy_record.h): a sensor that lags would
+/// explain away the noise of what it is held against.
 ///
 /// Throws InputError when no sample is finite.
 DrivenChannel driven_channel(SampledInput const& input);

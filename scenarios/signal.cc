@@ -64,6 +64,12 @@ Signal Signal::running() const {
 
 double Signal::piece_start(double t) const { return std::max(0.0, times_[piece(t)]); }
 
+double Signal::largest_magnitude() const {
+  double largest = 0.0;
+  for (double const value : values_) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
 Signal Signal::scaled(double factor) const {
   std::vector<double> values = values_;
   for (double& value : values) value *= factor;

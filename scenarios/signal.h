@@ -29,6 +29,9 @@ class Signal {
   /// The breakpoint from which the present piece lasts, not before 0.
   [[nodiscard]] double piece_start(double t) const;
 
+  /// The largest value, without its sign.
+  [[nodiscard]] double largest_magnitude() const;
+
   /// This signal with every value multiplied.
   [[nodiscard]] Signal scaled(double factor) const;
   /// This signal with every value made positive.

@@ -82,7 +82,7 @@ Fit without(Fit fit, Eigen::Index unknown) {
 
 Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::vector<std::string> const& channels,
                        std::vector<ChannelNoise> const& noise)
-    : document_(std::move(document)), data_(&data), channels_(channels), noise_(noise) {
+    : document_(std::move(document)), data_(&data), channels_(channels) {
   numbers_ = uncertain_numbers(document_);
   for (auto const& number : numbers_) number_derivatives_.push_back(differentiate(document_, number.path));
   for (auto const& run : data) {

@@ -6,13 +6,10 @@
 namespace thermotwin::twin {
 
 std::vector<InputChange> changes_of(scenarios::SampledInput const& input, scenarios::Signal const& signal) {
-  std::vector<double> samples;
-  for (std::size_t i = 0; i < input.times.size(); ++i)
-    if (std::isfinite(input.values[i])) samples.push_back(input.times[i]);
+  auto const samples = scenarios::recorded_times(input);
   auto const jumps = signal.jumps();
   if (2 * jumps.size() > samples.size()) return {};
-  double largest = 0.0;
-  for (double const value : signal.values()) largest = std::max(largest, std::abs(value));
+  double const largest = signal.largest_magnitude();
   std::vector<InputChange> changes;
   for (double const time : jumps) {
     auto const shown = std::lower_bound(samples.begin(), samples.end(), time);

@@ -19,12 +19,6 @@ constexpr double usual_intervals = 10.0;
 constexpr std::size_t least_left = 10;
 constexpr double settling = 900.0;  // in which a shaft and its bearings forget their speed [s]
 
-double largest_of(scenarios::Signal const& signal) {
-  double largest = 0.0;
-  for (double const value : signal.values()) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
 /// What is held between rows and whose zero is rest; a stroke's is a place. A share or a switch that never changes is a
 /// setting.
 bool is_switched(DrivenChannel const& driven) {
@@ -32,7 +26,7 @@ bool is_switched(DrivenChannel const& driven) {
   bool const speed = dimension == thermal::dimension::angular_speed || dimension == thermal::dimension::speed;
   bool const share = dimension == thermal::dimension::dimensionless && !driven.signal.jumps().empty();
   return driven.signal.interpolation() == scenarios::Interpolation::step && (speed || share) &&
-         largest_of(driven.signal) > 0.0;
+         driven.signal.largest_magnitude() > 0.0;
 }
 
 std::string owner_of(DrivenChannel const& driven) {
@@ -43,11 +37,11 @@ std::string owner_of(DrivenChannel const& driven) {
 Experiment otherwise(Experiment experiment, std::vector<std::size_t> const& channels, RecordGap const& part) {
   bool const slow = std::all_of(channels.begin(), channels.end(), [&](std::size_t k) {
     auto const& signal = experiment.driven[k].signal;
-    return std::abs(signal.at(part.from)) < 0.5 * largest_of(signal);
+    return std::abs(signal.at(part.from)) < 0.5 * signal.largest_magnitude();
   });
   for (std::size_t const k : channels) {
     auto& signal = experiment.driven[k].signal;
-    signal = signal.with_piece(part.from, part.to, slow ? largest_of(signal) : 0.0);
+    signal = signal.with_piece(part.from, part.to, slow ? signal.largest_magnitude() : 0.0);
   }
   return experiment;
 }
@@ -72,9 +66,7 @@ std::string words_of(RecordGap const& gap) {
 }  // namespace
 
 std::vector<RecordGap> gaps_of(scenarios::SampledInput const& input, double longest, double end) {
-  std::vector<double> times;
-  for (std::size_t i = 0; i < input.times.size(); ++i)
-    if (std::isfinite(input.values[i])) times.push_back(input.times[i]);
+  auto times = scenarios::recorded_times(input);
   double const least = std::max(longest, usual_intervals * usual_interval(times));
   times.push_back(end);
   std::vector<RecordGap> gaps;

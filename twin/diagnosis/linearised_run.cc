@@ -41,7 +41,7 @@ class LinearisedRun::View : public ChannelReading {
   [[nodiscard]] Piece along(LinearisedRun const& run, std::size_t step) const;
 
  private:
-  [[nodiscard]] double shown(LinearisedRun const& run, End const& end) const;
+  [[nodiscard]] double shown(LinearisedRun const& run, End const& end, double of_nodes) const;
   [[nodiscard]] double air(End const& end, double height) const;
 
   double height_ = 0.0;
@@ -63,21 +63,15 @@ double LinearisedRun::View::air(End const& end, double height) const {
   return value_of(end.course, floor_) + height * value_of(end.course, gradient_);
 }
 
-double LinearisedRun::View::shown(LinearisedRun const& run, End const& end) const {
-  auto const& network = run.machine_->network();
-  auto const temperature = [&](int node, End const& at) {
-    return network.temperature_of_state(node, at.state[std::size_t(node)]);
-  };
+double LinearisedRun::View::shown(LinearisedRun const& run, End const& end, double of_nodes) const {
   auto const& start = run.begins_.front();
   double value = offset + drift * end.time;
   if (sensor) {
-    double body = sensor->weights.empty() ? air(end, height_) : 0.0;
-    for (auto const& [node, weight] : sensor->weights) body += weight * temperature(node, end);
+    double const body = sensor->weights.empty() ? air(end, height_) : of_nodes;
     return value + body - (air_share == 0.0 ? 0.0 : air_share * (body - air(end, height_)));
   }
   if (!displacement) return value;
-  for (auto const& [node, weight] : displacement->weights)
-    value += weight * (temperature(node, end) - temperature(node, start));
+  value += of_nodes;
   for (std::size_t t = 0; t < term_channels_.size(); ++t) {
     auto const& term = displacement->input_terms[t];
     value += term.coefficient * (std::pow(value_of(end.course, term_channels_[t]), term.power) -
@@ -89,11 +83,11 @@ double LinearisedRun::View::shown(LinearisedRun const& run, End const& end) cons
 LinearisedRun::Piece LinearisedRun::View::along(LinearisedRun const& run, std::size_t step) const {
   Piece piece;
   if (sensor) piece = run.along(sensor->weights, step);
-  if (displacement) piece = run.along(displacement->weights, step);
+  if (displacement) piece = run.since_start(displacement->weights, step);
   piece.bend_from *= 1.0 - air_share;
   piece.bend_to *= 1.0 - air_share;
-  piece.from = shown(run, run.begins_[step]);
-  piece.to = shown(run, run.ends_[step]);
+  piece.from = shown(run, run.begins_[step], piece.from);
+  piece.to = shown(run, run.ends_[step], piece.to);
   return piece;
 }
 
@@ -157,18 +151,30 @@ void LinearisedRun::bend(thermal::Evaluation& evaluation, End& begin, End& end) 
   }
 }
 
+double LinearisedRun::temperature(int node, End const& at) const {
+  return machine_->network().temperature_of_state(node, at.state[std::size_t(node)]);
+}
+
 /// Σ wᵢ Tᵢ.
 LinearisedRun::Piece LinearisedRun::along(NodeWeights const& weights, std::size_t step) const {
-  auto const& network = machine_->network();
   auto const &begin = begins_[step], &end = ends_[step];
   Piece piece;
   for (auto const& [node, weight] : weights) {
-    auto const i = std::size_t(node);
-    piece.from += weight * network.temperature_of_state(node, begin.state[i]);
-    piece.to += weight * network.temperature_of_state(node, end.state[i]);
-    piece.bend_from += weight * begin.bend[i];
-    piece.bend_to += weight * end.bend[i];
+    piece.from += weight * temperature(node, begin);
+    piece.to += weight * temperature(node, end);
+    piece.bend_from += weight * begin.bend[std::size_t(node)];
+    piece.bend_to += weight * end.bend[std::size_t(node)];
   }
+  return piece;
+}
+
+/// Σ wᵢ (Tᵢ − Tᵢ(0)).
+LinearisedRun::Piece LinearisedRun::since_start(NodeWeights const& weights, std::size_t step) const {
+  Piece piece = along(weights, step);
+  double start = 0.0;
+  for (auto const& [node, weight] : weights) start += weight * temperature(node, begins_.front());
+  piece.from -= start;
+  piece.to -= start;
   return piece;
 }
 
@@ -225,14 +231,7 @@ Eigen::MatrixXd LinearisedRun::growth(std::vector<NodeWeights> const& displaceme
   for (std::size_t c = 0; c < views.size(); ++c) {
     if (!views[c].displacement) continue;
     auto const& weights = displacements[std::size_t(views[c].displacement - machine_->displacements.data())];
-    double const start = along(weights, 0).from;
-    auto const since_start = [&](std::size_t step) {
-      Piece piece = along(weights, step);
-      piece.from -= start;
-      piece.to -= start;
-      return piece;
-    };
-    rows.col(Eigen::Index(c)) = rows_of(since_start, 0.0);
+    rows.col(Eigen::Index(c)) = rows_of([&](std::size_t step) { return since_start(weights, step); }, 0.0);
   }
   return rows;
 }

@@ -82,7 +82,9 @@ class LinearisedRun {
     double decaying = 0.0;  ///< at the begin
   };
   static Lagged lagged(double shown, Piece const& piece, double lag, double length);
+  [[nodiscard]] double temperature(int node, End const& at) const;
   [[nodiscard]] Piece along(NodeWeights const& weights, std::size_t step) const;
+  [[nodiscard]] Piece since_start(NodeWeights const& weights, std::size_t step) const;
   [[nodiscard]] Eigen::VectorXd rows_of(std::function<Piece(std::size_t step)> const& pieces, double lag) const;
   [[nodiscard]] Eigen::MatrixXd weights() const;
 

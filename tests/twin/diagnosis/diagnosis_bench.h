@@ -42,15 +42,18 @@ inline scenarios::Experiment experiment(std::string const& text) {
   return read_experiment(parse_toml("machine = \"v450\"\n" + text, "experiment.toml"), "experiment.toml");
 }
 
-/// Two speeds and a rest, in a room that swings.
-inline scenarios::Experiment two_speeds() {
+/// Two speeds, a rest and another speed, each as long as that, in a room that swings.
+inline scenarios::Experiment two_speeds(std::string const& first = "80 min", std::string const& second = "50 min",
+                                        std::string const& rest = "50 min", std::string const& last = "1 h") {
   return experiment(R"(
     duration = "4 h"
     ambient.mean = "22 degC"
     ambient.daily_cycle.amplitude = "1.5 K"
     [spindle]
-    blocks = [{duration = "80 min", speed = "5000 rpm"}, {duration = "50 min", speed = "2500 rpm"},
-              {duration = "50 min", speed = "0 rpm"}, {duration = "1 h", speed = "4000 rpm"}])");
+    blocks = [{duration = ")" +
+                    first + R"(", speed = "5000 rpm"}, {duration = ")" + second + R"(", speed = "2500 rpm"},
+              {duration = ")" +
+                    rest + R"(", speed = "0 rpm"}, {duration = ")" + last + R"(", speed = "4000 rpm"}])");
 }
 
 /// The record of a logger that was off from one time to another [s].

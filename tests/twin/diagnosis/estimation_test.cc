@@ -186,13 +186,7 @@ TEST(Estimation, FindsTheNumbersThoughTheSpeedChangedInAGap) {
 /// The record has a row each minute, and the speed changes 45 s before one. When it did is found, and so are the
 /// numbers; with the record taken at its word it is a machine that loses less.
 TEST(Estimation, FindsWhenTheSpeedChangedBetweenTwoRows) {
-  auto const between = tests::experiment(R"(
-    duration = "4 h"
-    ambient.mean = "22 degC"
-    ambient.daily_cycle.amplitude = "1.5 K"
-    [spindle]
-    blocks = [{duration = "4755 s", speed = "5000 rpm"}, {duration = "50 min", speed = "2500 rpm"},
-              {duration = "50 min", speed = "0 rpm"}, {duration = "3645 s", speed = "4000 rpm"}])");
+  auto const between = tests::two_speeds("4755 s", "50 min", "50 min", "3645 s");
   auto run = tests::measured(truth(), between);
   tests::add_noise(run, kelvin, metres, 5);
   std::vector<BinnedRun> const data = {bin(run, 120.0)};

@@ -253,13 +253,7 @@ TEST(LinearisedRun, TellsWhichBodiesReceiveMoreHeatThanInAnotherMachine) {
 
 /// Blocks that end 20 s earlier than the record tells, by a run of the machine.
 TEST(LinearisedRun, KnowsWhatASpeedDoesThatChangedBeforeItsRecord) {
-  auto const early = tests::experiment(R"(
-    duration = "4 h"
-    ambient.mean = "22 degC"
-    ambient.daily_cycle.amplitude = "1.5 K"
-    [spindle]
-    blocks = [{duration = "4780 s", speed = "5000 rpm"}, {duration = "50 min", speed = "2500 rpm"},
-              {duration = "3020 s", speed = "0 rpm"}, {duration = "1 h", speed = "4000 rpm"}])");
+  auto const early = tests::two_speeds("4780 s", "50 min", "3020 s", "1 h");
   auto truth = run(machine(), early, {}).dataset;
   truth.readings = truth.truth_readings;
   truth.displacements = truth.truth_displacements;
