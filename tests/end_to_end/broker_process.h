@@ -98,6 +98,12 @@ class BrokerProcess {
   }
   void kill() { process_->end(SIGKILL); }
 
+  /// Until so many programs have connected, as its log tells.
+  void wait_for_clients(int count) const {
+    for (int i = 0; i < 1000 && connected() < count; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (connected() < count) throw std::runtime_error("a program does not connect: " + directory_ + "/broker");
+  }
+
   /// Until it has written down twice what it knows: the second time begins after this call.
   void wait_until_saved() const {
     for (int saves = 0; saves < 2; ++saves) {
@@ -113,6 +119,12 @@ class BrokerProcess {
   }
 
  private:
+  [[nodiscard]] int connected() const {
+    int count = 0;
+    std::ifstream log(directory_ + "/broker");
+    for (std::string line; std::getline(log, line);) count += int(line.find("New client connected") != line.npos);
+    return count;
+  }
   [[nodiscard]] std::filesystem::file_time_type last_save() const {
     std::error_code none_yet;
     return std::filesystem::last_write_time(directory_ + "/mosquitto.db", none_yet);

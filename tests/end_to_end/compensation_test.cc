@@ -141,7 +141,7 @@ TEST_F(LiveCompensation, IsNeverWorseThanNothingWithASilentSensor) {
     return std::vector<std::string>{program, "play", at(run), "-q", "--speed", "1500", "--broker", broker_.url()};
   };
   Child sensor(player("alone.h5"), at("sensor")), machine(player("others.h5"), at("machine"));
-  std::this_thread::sleep_for(500ms);  // both wait for somebody who compensates
+  broker_.wait_for_clients(2);  // both wait for somebody who compensates
   Child compensate(compensation({"--model", at("model.toml")}, "1500"), at("compensate"));
   EXPECT_EQ(machine.wait(), 0);
   EXPECT_EQ(sensor.wait(), 0);
