@@ -97,7 +97,7 @@ void Diagnostician::write_down() {
 bool Diagnostician::is_unknown_heat() const {
   auto const& found = diagnosis_.explanations;
   auto const& left = diagnosis_.left;
-  if (!left.empty() && left[0].gain > search_.beside_strongest(options_.further_threshold)) return true;
+  if (!left.empty() && left[0].gain > search_.evident_beside()) return true;
   std::map<std::string, std::string> acting;  // on each body, the first
   return std::any_of(found.begin(), found.end(), [&](Explanation const& explanation) {
     auto const& effect = explanation.alternatives[0].hypothesis;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double air_slow = 0.02;         // what is not known of the air around a sensor [K]
 constexpr double way_of_range = 0.5;      // of what is expected of a range, for the way from the start
-constexpr double least_statistic = 15.0;  // T of a drift
+constexpr double least_statistic = 13.0;  // T of a drift
 constexpr int most_drifting = 2;          // beyond, something else pulls at all of them
 constexpr double seconds_a_day = 86400.0;
 

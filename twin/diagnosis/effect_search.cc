@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "twin/diagnosis/birge_ratio.h"
 #include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/observed_noise.h"
 #include "twin/diagnosis/separation.h"
@@ -73,10 +74,16 @@ void EffectSearch::operator()(std::vector<Hypothesis> hypotheses) {
   if (exchange()) drop_superfluous();
 }
 
-double EffectSearch::beside_strongest(double threshold) const {
+/// Of the evidence of the strongest effect found.
+double EffectSearch::least_beside() const {
   double strongest = 0.0;
   for (auto const& explanation : explanations_) strongest = std::max(strongest, explanation.alternatives[0].strength);
-  return std::max(threshold, options_.least_share * strongest);
+  return options_.least_share * strongest;
+}
+
+/// A threshold as the present fit makes it.
+double EffectSearch::evident(double threshold) const {
+  return std::max(threshold * squared_birge_ratio(*estimation_, fit_), least_beside());
 }
 
 /// The noise that the present fit leaves, and the fit with it.
@@ -160,8 +167,9 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
 Explanation EffectSearch::explanation_of(std::vector<Refit> const& refits) const {
   Explanation explanation;
   double sum = 0.0;
+  double const too_large = squared_birge_ratio(*estimation_, fit_);
   for (auto const& refit : refits) {
-    double const behind = std::max(0.0, refits[0].strength - refit.strength);
+    double const behind = std::max(0.0, refits[0].strength - refit.strength) / too_large;
     if (behind > options_.indistinct || explanation.alternatives.size() == most_alternatives) break;
     auto const same = [&](Finding const& f) { return f.hypothesis.effect == refit.hypothesis.effect; };
     if (std::any_of(explanation.alternatives.begin(), explanation.alternatives.end(), same)) continue;
@@ -196,14 +204,15 @@ std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& 
 /// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
 bool EffectSearch::add_effect(int round) {
   say(fmt::format("{} shapes of effects at their sites, round {}", hypotheses_.size(), round));
-  double const threshold = round == 1 ? options_.threshold : beside_strongest(options_.further_threshold);
+  double const threshold = round == 1 ? options_.threshold : options_.further_threshold;
+  double const hoped = std::max(threshold, least_beside());
   auto const scores = score(fit_, whitened_signatures(), hypotheses_);
   if (round == 1)
     visible_ = std::size_t(std::count_if(scores.begin(), scores.end(), [](Score const& score) {
       return 0.5 * std::sqrt(score.information) > wanted_distance;
     }));
-  auto const first = refits(fit_, most_promising(scores, threshold), scores);
-  if (first.empty() || first[0].strength < hopeful_refit * threshold) return false;
+  auto const first = refits(fit_, most_promising(scores, hoped), scores);
+  if (first.empty() || first[0].strength < hopeful_refit * hoped) return false;
   Estimation const before = *estimation_;
   Fit const base = fit_;
   Eigen::MatrixXd const base_signatures = signatures_;
@@ -228,7 +237,7 @@ bool EffectSearch::add_effect(int round) {
     former_fit = fit_;
     best = Refit(*strongest);
   }
-  if (best.strength < threshold) {
+  if (best.strength < evident(threshold)) {
     estimation_ = before;
     fit_ = base;
     signatures_ = base_signatures;
@@ -283,7 +292,7 @@ bool EffectSearch::drop_superfluous() {
       double const change = strengths[e] - alternatives[0].strength;
       for (auto& alternative : alternatives) alternative.strength += change;
     }
-    if (strengths[std::size_t(weakest)] >= beside_strongest(options_.further_threshold)) break;
+    if (strengths[std::size_t(weakest)] >= evident_beside()) break;
     dropped = true;
     auto effects = estimation_->effects();
     effects.erase(effects.begin() + weakest);

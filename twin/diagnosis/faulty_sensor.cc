@@ -10,7 +10,7 @@ namespace {
 
 constexpr double least_jump = 0.5;  // [K]
 constexpr double driven = 180.0;    // after a change of the inputs a light body may warm as fast [s]
-constexpr int level = 8;            // samples on each side whose mean is where a reading stands
+constexpr std::size_t level = 8;    // samples on each side whose mean is where a reading stands
 
 /// A change from one sample to the next.
 struct Change {
@@ -27,8 +27,32 @@ std::vector<Change> changes_of(Eigen::VectorXd const& time, Eigen::VectorXd cons
   return changes;
 }
 
-/// Changes that no body makes: half a kelvin at least, ten times the channel's usual, and alone, where a body's would
-/// go on.
+/// The mean of the readings from one change to another.
+double mean(std::vector<Change> const& changes, std::size_t from, std::size_t to) {
+  double sum = 0.0;
+  for (std::size_t i = from; i < to; ++i) sum += changes[i].before;
+  return sum / double(to - from);
+}
+
+/// The reading stays where it jumped to, and stood still before: its means over the samples after and before differ by
+/// nearly as much, those of the halves of each side and neighbouring samples by less.
+bool stays(std::vector<Change> const& changes, std::size_t jump) {
+  if (jump < level || jump + level >= changes.size()) return false;
+  std::size_t const before = jump + 1 - level, after = jump + 1, half = level / 2;
+  double moved = 0.0;
+  for (std::size_t i = 1; i <= level; ++i)
+    moved += (std::abs(changes[jump - i].by) + std::abs(changes[jump + i].by)) / level;
+  double const by = std::abs(changes[jump].by);
+  auto const jumped = [&](std::size_t from, std::size_t to, std::size_t samples) {
+    return mean(changes, to, to + samples) - mean(changes, from, from + samples);
+  };
+  return std::abs(jumped(before, after, level) - changes[jump].by) < 0.3 * by && moved < 0.4 * by &&
+         std::abs(jumped(before, before + half, half)) < 0.25 * by &&
+         std::abs(jumped(after, after + half, half)) < 0.25 * by;
+}
+
+/// Changes that no body makes: half a kelvin at least, and three times the channel's usual and alone, where a body's
+/// would go on, or twice and the reading stays there.
 std::vector<std::size_t> jumps(std::vector<Change> const& changes) {
   if (changes.size() < 3) return {};
   std::vector<double> sizes;
@@ -36,25 +60,13 @@ std::vector<std::size_t> jumps(std::vector<Change> const& changes) {
   auto sorted = sizes;
   auto const high = sorted.begin() + std::ptrdiff_t(9 * sorted.size() / 10);
   std::nth_element(sorted.begin(), high, sorted.end());
-  double const unusual = std::max(least_jump, 10.0 / 3.0 * *high);
   std::vector<std::size_t> found;
-  for (std::size_t i = 1; i + 1 < sizes.size(); ++i)
-    if (sizes[i] > unusual && std::max(sizes[i - 1], sizes[i + 1]) < 0.4 * sizes[i]) found.push_back(i);
-  return found;
-}
-
-/// The reading stays where it jumped to: its mean over the samples after and before differs by nearly as much, and the
-/// samples on either side differ by less.
-bool stays(std::vector<Change> const& changes, std::size_t jump) {
-  if (jump < level || jump + level >= changes.size()) return false;
-  double before = 0.0, after = 0.0, drift = 0.0;
-  for (std::size_t i = 1; i <= level; ++i) {
-    before += changes[jump - i + 1].before / level;
-    after += changes[jump + i].before / level;
-    drift += std::abs(changes[jump - i].by) / level + std::abs(changes[jump + i].by) / level;
+  for (std::size_t i = 1; i + 1 < sizes.size(); ++i) {
+    bool const alone = std::max(sizes[i - 1], sizes[i + 1]) < 0.4 * sizes[i];
+    bool const evident = (sizes[i] > 10.0 / 3.0 * *high && alone) || (sizes[i] > 2.0 * *high && stays(changes, i));
+    if (sizes[i] > least_jump && evident) found.push_back(i);
   }
-  double const by = changes[jump].by;
-  return std::abs(after - before - by) < 0.3 * std::abs(by) && drift < 0.4 * std::abs(by);
+  return found;
 }
 
 std::string jump_text(BinnedRun const& run, Eigen::VectorXd const& values) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <random>
 
 #include "scenarios/course.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"
@@ -73,6 +74,26 @@ TEST(FaultySensor, IsOneWhoseReadingsLeapOnceForEver) {
 }
 
 /// A light ring takes up half a kelvin in the minute after the spindle started, and less in the next.
+/// With white noise of 0.1 K.
+VectorXd noisy(VectorXd values, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> white(0.0, 0.1);
+  for (double& value : values) value += white(random);
+  return values;
+}
+
+/// Three leaps of seven times the noise are told, but not one in the noise of a body that warms.
+TEST(FaultySensor, IsOneWhoseReadingsLeapByLittleMoreThanTheirNoise) {
+  constexpr double shrink = 0.7 / 3.0;
+  int told = 0;
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    VectorXd const leaps = warming() + shrink * (with_leaps(warming(), 3) - warming());
+    told += found({{"T1", false, noisy(warming(), 100 + seed)}, {"T2", false, noisy(leaps, seed)}}).has_value();
+    EXPECT_FALSE(found({{"T1", false, noisy(warming(), 200 + seed)}, {"T2", false, noisy(warming(), 300 + seed)}}));
+  }
+  EXPECT_GE(told, 45);
+}
+
 TEST(FaultySensor, IsNoneWhereTheSpindleStarts) {
   VectorXd values = warming();
   values.tail(480 - 51).array() += 1.0;

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "twin/diagnosis/estimation.h"
+
+namespace thermotwin::twin {
+
+/// How much farther the numbers of the file and the lags of its sensors are from their priors than those say:
+///
+///   R² = Σ ((x − mean)/deviation)² / Σ (1 − σ²/deviation²),  not below 1,
+///
+/// σ: the standard error of the fit; numbers that the data do not know count for as little in both sums. Where it is
+/// above 1, the machine's form is not quite right and numbers stand in for it: every 2 ln of evidence is R² times too
+/// large, as if all uncertainties were R times what they are taken for (R. T. Birge, Phys. Rev. 40, 1932, p. 207).
+[[nodiscard]] double squared_birge_ratio(Estimation const& estimation, Fit const& fit);
+
+}  // namespace thermotwin::twin
