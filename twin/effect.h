@@ -43,7 +43,7 @@ struct Trial {
   double largest = 0.0;        ///< plausible upper end of the amplitude [SI]
   bool either_sign = false;    ///< it may be negative
   double ordinary = 0.0;       ///< what the best of machines has: no less is an effect [SI]
-  double against = 0.0;  ///< 2 ln of the odds against it beforehand: what a twin does not quite get right looks like it
+  double against = 0.0;        ///< 2 ln of the odds against it beforehand: a network that is too coarse looks like it
   std::vector<Site> sites = {};
   /// Other keys and their texts, one table per variant: {{"exponent", "0.5"}}; none: the defaults.
   std::vector<std::vector<std::pair<std::string, std::string>>> shapes = {};

@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t most_refits = 24;
 constexpr std::size_t most_alternatives = 3;
-constexpr double confusable = 0.6;  // cosine of two signatures (physics.md 8.6)
+constexpr double most_too_large = 2.0;  // a rough file is no reason to name nothing
+constexpr double confusable = 0.6;      // cosine of two signatures (physics.md 8.6)
 // What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
 constexpr double hopeful_score = 0.3, hopeful_refit = 0.5;
 
@@ -74,16 +75,10 @@ void EffectSearch::operator()(std::vector<Hypothesis> hypotheses) {
   if (exchange()) drop_superfluous();
 }
 
-/// Of the evidence of the strongest effect found.
-double EffectSearch::least_beside() const {
+double EffectSearch::evident_beside() const {
   double strongest = 0.0;
   for (auto const& explanation : explanations_) strongest = std::max(strongest, explanation.alternatives[0].strength);
-  return options_.least_share * strongest;
-}
-
-/// A threshold as the present fit makes it.
-double EffectSearch::evident(double threshold) const {
-  return std::max(threshold * squared_birge_ratio(*estimation_, fit_), least_beside());
+  return std::max(options_.further_threshold, options_.least_share * strongest);
 }
 
 /// The noise that the present fit leaves, and the fit with it.
@@ -167,9 +162,8 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
 Explanation EffectSearch::explanation_of(std::vector<Refit> const& refits) const {
   Explanation explanation;
   double sum = 0.0;
-  double const too_large = squared_birge_ratio(*estimation_, fit_);
   for (auto const& refit : refits) {
-    double const behind = std::max(0.0, refits[0].strength - refit.strength) / too_large;
+    double const behind = std::max(0.0, refits[0].strength - refit.strength);
     if (behind > options_.indistinct || explanation.alternatives.size() == most_alternatives) break;
     auto const same = [&](Finding const& f) { return f.hypothesis.effect == refit.hypothesis.effect; };
     if (std::any_of(explanation.alternatives.begin(), explanation.alternatives.end(), same)) continue;
@@ -204,15 +198,14 @@ std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& 
 /// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
 bool EffectSearch::add_effect(int round) {
   say(fmt::format("{} shapes of effects at their sites, round {}", hypotheses_.size(), round));
-  double const threshold = round == 1 ? options_.threshold : options_.further_threshold;
-  double const hoped = std::max(threshold, least_beside());
+  double const threshold = round == 1 ? options_.threshold : evident_beside();
   auto const scores = score(fit_, whitened_signatures(), hypotheses_);
   if (round == 1)
     visible_ = std::size_t(std::count_if(scores.begin(), scores.end(), [](Score const& score) {
       return 0.5 * std::sqrt(score.information) > wanted_distance;
     }));
-  auto const first = refits(fit_, most_promising(scores, hoped), scores);
-  if (first.empty() || first[0].strength < hopeful_refit * hoped) return false;
+  auto const first = refits(fit_, most_promising(scores, threshold), scores);
+  if (first.empty() || first[0].strength < hopeful_refit * threshold) return false;
   Estimation const before = *estimation_;
   Fit const base = fit_;
   Eigen::MatrixXd const base_signatures = signatures_;
@@ -237,7 +230,8 @@ bool EffectSearch::add_effect(int round) {
     former_fit = fit_;
     best = Refit(*strongest);
   }
-  if (best.strength < evident(threshold)) {
+  double const too_large = round == 1 ? std::min(squared_birge_ratio(*estimation_, fit_), most_too_large) : 1.0;
+  if (best.strength < threshold * too_large) {
     estimation_ = before;
     fit_ = base;
     signatures_ = base_signatures;

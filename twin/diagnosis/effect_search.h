@@ -15,15 +15,14 @@ namespace thermotwin::twin {
 struct DiagnosisOptions {
   std::vector<std::string> without;  ///< effects that are not tried
   int most_effects = 8;
-  /// 2 ln of the evidence that an effect must have, times the squared Birge ratio of the fit that has it, as all these;
-  /// see docs/diagnosis.md for how often chance alone reaches it.
-  double threshold = 12.0;
-  /// What a further effect must have beside those found, and heat of free course.
-  double further_threshold = 20.0;
-  double indistinct = 9.0;  ///< alternatives within this of the best are told as well
-  /// What a further effect must have of the evidence of the strongest: what is left of an effect whose shape is not
-  /// quite right looks like others.
+  /// 2 ln of the evidence that the first effect must have, times the squared Birge ratio of the fit that has it; see
+  /// docs/diagnosis.md for how often chance alone reaches it.
+  double threshold = 15.0;
+  /// What a further effect must have beside those found, and heat of free course, and its share of the strongest: what
+  /// is left of an effect whose shape is not quite right looks like others.
+  double further_threshold = 40.0;
   double least_share = 0.04;
+  double indistinct = 9.0;  ///< alternatives within this of the best are told as well
   std::function<void(std::string const&)> progress;
 };
 
@@ -46,8 +45,8 @@ class EffectSearch {
   [[nodiscard]] Fit const& fit() const { return fit_; }
   /// Amplitudes as they were when each was found.
   [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
-  /// 2 ln of the evidence that heat of free course must have beside the effects found.
-  [[nodiscard]] double evident_beside() const { return evident(options_.further_threshold); }
+  /// What is evident beside the effects found [2 ln].
+  [[nodiscard]] double evident_beside() const;
   /// How much more model error than expected was heard in each channel; 1: no more.
   [[nodiscard]] std::vector<std::pair<std::string, double>> noise_heard() const;
   /// How many hypotheses would be seen at half of their largest amplitude, as far as `--plan` wants it.
@@ -59,8 +58,6 @@ class EffectSearch {
   void say(std::string const& what) const {
     if (options_.progress) options_.progress(what);
   }
-  [[nodiscard]] double least_beside() const;
-  [[nodiscard]] double evident(double threshold) const;
   [[nodiscard]] bool add_effect(int round);
   [[nodiscard]] std::vector<Refit> refits(Fit const& about, std::vector<std::size_t> const& chosen,
                                           std::vector<Score> const& scores) const;

@@ -45,10 +45,6 @@ struct Belt {
   }
 };
 
-/// Odds of 1 to 20: friction that is spread a little otherwise looks like a belt. Of 132 healthy worlds all that showed
-/// anything beyond 6 of 2 ln showed one, up to 16.
-constexpr double against_belt = 6.0;
-
 }  // namespace
 
 Effect const& belt_effect() {
@@ -65,7 +61,6 @@ Effect const& belt_effect() {
        "motor without belt; infrared on the pulley"},
       {{.amplitude = "loss",
         .largest = 80.0,
-        .against = against_belt,
         .sites = {{"pulley", "shaft"}, {"motor", "motor"}},
         .shapes = {{{"exponent", "1"}}, {{"exponent", "1.5"}}}}});
   return effect;
