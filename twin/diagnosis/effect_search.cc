@@ -16,6 +16,9 @@
 namespace thermotwin::twin {
 namespace {
 
+// A fit that all later ones start from converges: half a valley down, the ninth digit of a number would decide what is
+// named.
+constexpr int to_the_end = 50;
 constexpr std::size_t most_refits = 24;
 constexpr std::size_t most_alternatives = 3;
 constexpr double most_too_large = 2.0;  // a rough file is no reason to name nothing
@@ -61,7 +64,7 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs));
   expected_ = estimation_->noise();
-  fit_ = estimation_->fit(estimation_->prior_mean(), 12);
+  fit_ = estimation_->fit(estimation_->prior_mean(), to_the_end);
   listen_to_noise();
   plain_ = estimation_;
   calibrated_ = fit_;
@@ -84,7 +87,7 @@ double EffectSearch::evident_beside() const {
 /// The noise that the present fit leaves, and the fit with it.
 void EffectSearch::listen_to_noise() {
   estimation_ = estimation_->with(observed_noise(*estimation_, fit_.x, expected_));
-  fit_ = estimation_->fit(fit_.x, 10);
+  fit_ = estimation_->fit(fit_.x, to_the_end);
 }
 
 std::vector<std::pair<std::string, double>> EffectSearch::noise_heard() const {
@@ -214,7 +217,7 @@ bool EffectSearch::add_effect(int round) {
   Fit former_fit;
   for (int attempt = 0; attempt < 2; ++attempt) {
     estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
-    fit_ = estimation_->fit(best.x, 15);
+    fit_ = estimation_->fit(best.x, to_the_end);
     best.strength = base.evidence - fit_.evidence;
     if (attempt == 1 && best.strength < former.strength) {  // it only seemed better
       best = former;

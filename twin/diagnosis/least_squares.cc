@@ -97,7 +97,8 @@ void solve_holding(std::vector<int> const& held, LeastSquares const& least_squar
   options.line_search_interpolation_type = ceres::QUADRATIC;  // a step that is too long asks for no more Jacobians
   options.max_num_line_search_step_size_iterations = 5;
   options.max_line_search_step_contraction = 0.1;  // a cost that explodes far out says little of near by
-  options.function_tolerance = least_squares.tolerance;
+  // Of a step taken: one cut short at a bound gains little, and the next one much.
+  options.function_tolerance = 0.1 * least_squares.tolerance;
   options.initial_trust_region_radius = 1e8;  // near Gauss–Newton: the priors keep steps short
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;

@@ -18,7 +18,7 @@ struct LeastSquares {
   std::function<bool(Eigen::VectorXd const& x, bool linearised, NormalEquations& at)> evaluate;
   Eigen::VectorXd start, lower, upper;
   int iterations = 12;
-  double tolerance = 1e-4;  ///< of the cost: it stops where a step gains less, or would by the linearisation
+  double tolerance = 1e-4;  ///< of the cost: it stops where a step would gain less, by the linearisation
 };
 
 struct LeastSquaresResult {
