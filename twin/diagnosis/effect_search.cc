@@ -78,10 +78,16 @@ void EffectSearch::operator()(std::vector<Hypothesis> hypotheses) {
   if (exchange()) drop_superfluous();
 }
 
-double EffectSearch::evident_beside() const {
+double EffectSearch::too_large() const { return std::min(squared_birge_ratio(*estimation_, fit_), most_too_large); }
+
+double EffectSearch::share_of_strongest() const {
   double strongest = 0.0;
   for (auto const& explanation : explanations_) strongest = std::max(strongest, explanation.alternatives[0].strength);
-  return std::max(options_.further_threshold, options_.least_share * strongest);
+  return options_.least_share * strongest;
+}
+
+double EffectSearch::evident_beside() const {
+  return std::max(too_large() * options_.further_threshold, share_of_strongest());
 }
 
 /// The noise that the present fit leaves, and the fit with it.
@@ -201,7 +207,7 @@ std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& 
 /// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
 bool EffectSearch::add_effect(int round) {
   say(fmt::format("{} shapes of effects at their sites, round {}", hypotheses_.size(), round));
-  double const threshold = round == 1 ? options_.threshold : evident_beside();
+  double const threshold = round == 1 ? options_.threshold : std::max(options_.further_threshold, share_of_strongest());
   auto const scores = score(fit_, whitened_signatures(), hypotheses_);
   if (round == 1)
     visible_ = std::size_t(std::count_if(scores.begin(), scores.end(), [](Score const& score) {
@@ -233,8 +239,7 @@ bool EffectSearch::add_effect(int round) {
     former_fit = fit_;
     best = Refit(*strongest);
   }
-  double const too_large = round == 1 ? std::min(squared_birge_ratio(*estimation_, fit_), most_too_large) : 1.0;
-  if (best.strength < threshold * too_large) {
+  if (best.strength < (round == 1 ? too_large() * options_.threshold : evident_beside())) {
     estimation_ = before;
     fit_ = base;
     signatures_ = base_signatures;

@@ -15,12 +15,12 @@ namespace thermotwin::twin {
 struct DiagnosisOptions {
   std::vector<std::string> without;  ///< effects that are not tried
   int most_effects = 8;
-  /// 2 ln of the evidence that the first effect must have, times the squared Birge ratio of the fit that has it; see
-  /// docs/diagnosis.md for how often chance alone reaches it.
+  /// 2 ln of the evidence that the first effect must have, times the squared Birge ratio of the fit that has it, at
+  /// most twice; see docs/diagnosis.md for how often chance alone reaches it.
   double threshold = 15.0;
-  /// What a further effect must have beside those found, and heat of free course, and its share of the strongest: what
-  /// is left of an effect whose shape is not quite right looks like others.
-  double further_threshold = 40.0;
+  /// What a further effect must have beside those found, and heat of free course, times the same; and its share of the
+  /// strongest: what is left of an effect whose shape is not quite right looks like others.
+  double further_threshold = 20.0;
   double least_share = 0.04;
   double indistinct = 9.0;  ///< alternatives within this of the best are told as well
   std::function<void(std::string const&)> progress;
@@ -58,6 +58,10 @@ class EffectSearch {
   void say(std::string const& what) const {
     if (options_.progress) options_.progress(what);
   }
+  /// How much too large evidence is: the squared Birge ratio, at most twice.
+  [[nodiscard]] double too_large() const;
+  /// What a further effect needs of the strongest one's evidence.
+  [[nodiscard]] double share_of_strongest() const;
   [[nodiscard]] bool add_effect(int round);
   [[nodiscard]] std::vector<Refit> refits(Fit const& about, std::vector<std::size_t> const& chosen,
                                           std::vector<Score> const& scores) const;
