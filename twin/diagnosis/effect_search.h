@@ -21,7 +21,7 @@ struct DiagnosisOptions {
   /// What a further effect must have beside those found, and heat of free course, times the same; and its share of the
   /// strongest: what is left of an effect whose shape is not quite right looks like others.
   double further_threshold = 20.0;
-  double least_share = 0.04;
+  double least_share = 0.02;
   double indistinct = 9.0;  ///< alternatives within this of the best are told as well
   std::function<void(std::string const&)> progress;
 };
