@@ -166,9 +166,11 @@ TEST(VerificationV13, NonlinearNetworkAgainstCentralDifferences) {
   }
 }
 
-/// At every output, however many lie within one step or one part of it.
+/// At every output, however many lie within one step or one part of it. In a film without flow, while the temperatures
+/// on its sides cross, S depends so steeply on them that their own errors count many times.
 TEST(VerificationV13, RandomNetworksFollowTheTolerance) {
   double const step = 1e-4;
+  int close = 0, steep = 0;
   std::vector<double> times;
   for (double t = 0.0; t <= 2000.0; t += 4.0) times.push_back(t);
   for (unsigned seed = 0; seed < 40; ++seed) {
@@ -187,20 +189,24 @@ TEST(VerificationV13, RandomNetworksFollowTheTolerance) {
     auto const error_at = [&](double tolerance) {
       return ((at(tolerance) - exact).array() / exact.array().abs().max(1.0)).abs().maxCoeff();
     };
-    EXPECT_LT(error_at(1e-7), 1e-3) << "seed " << seed;
-    EXPECT_LT(error_at(1e-9), 1e-5) << "seed " << seed;
+    for (double const tolerance : {1e-7, 1e-9}) {
+      double const errors = error_at(tolerance) / tight(tolerance).tolerance();
+      EXPECT_LT(errors, 2000.0) << "seed " << seed;
+      (errors < 100.0 ? close : steep) += 1;
+    }
   }
+  EXPECT_GT(close, 4 * steep);
 }
 
 TEST(VerificationV13, RandomNetworksAgainstCentralDifferences) {
-  double const step = 1e-4;
+  double const step = 1e-3;  // wide: a difference divides the error of the runs by it
   for (unsigned seed = 0; seed < 40; ++seed) {
     auto const plus = random_network(seed, {.scale = 1.0 + step}), minus = random_network(seed, {.scale = 1.0 - step});
     auto const here = random_network(seed);
     std::vector<double> const times{0.0, 800.0, 2000.0};
     auto const end_of = [&](RandomNetwork const& n) {
       std::vector<double> end;
-      integrate(n.network, random_course(), n.start, times, tight(1e-11), [&](Sample const& s) {
+      integrate(n.network, random_course(), n.start, times, tight(1e-12), [&](Sample const& s) {
         end.assign(s.temperatures.begin(), s.temperatures.begin() + n.network.nodes());
       });
       return end;
