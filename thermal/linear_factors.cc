@@ -128,7 +128,7 @@ struct SparseFactors final : LinearFactors {
   }
   bool solve(Eigen::Ref<VectorXd const> const& b, double, Eigen::Ref<VectorXd> x) override {
     x = b;
-    return klu_solve(symbolic_, numeric_, int(x.size()), 1, x.data(), &common_) != 0;
+    return klu_solve(symbolic_, numeric_, int(x.size()), 1, x.data(), &common_) != 0 && x.allFinite();
   }
   /// klu_solve takes four columns at a time; here each entry of the factors meets a whole row of them.
   bool solve_columns(double, NodeByParameter& x) override {
@@ -142,7 +142,7 @@ struct SparseFactors final : LinearFactors {
       upper_.eliminate(k, permuted_);
     }
     for (Eigen::Index k = 0; k < n; ++k) x.row(column_of_[k]) = permuted_.row(k);
-    return true;
+    return x.allFinite();
   }
 
  private:

@@ -192,17 +192,19 @@ void Run::collect_message(int code, char const*, char const* function, char* mes
   if (code < 0) self(user).message_ = fmt::format("{}: {}", function, message);
 }
 
+/// CVODES takes every code for a success that is not one of a SUNLinearSolver's own.
 int Run::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype tolerance) {
   auto& run = self(solver->content);
-  return run.guarded([&] {
+  int const flag = run.guarded([&] {
     if (run.solver_kind_ == LinearSolver::multigrid) {
       double gamma = 0.0;
       CVodeGetCurrentGamma(run.cvode_.get(), &gamma);
-      if (!run.newton_.factorise(gamma)) return 1;
+      if (!run.newton_.factorise(gamma)) return SUNLS_PACKAGE_FAIL_REC;
     }
     auto const n = std::size_t(N_VGetLength(b));
-    return run.newton_.solve({data(b), n}, tolerance, {data(x), n}) ? 0 : 1;
+    return run.newton_.solve({data(b), n}, tolerance, {data(x), n}) ? SUNLS_SUCCESS : SUNLS_PACKAGE_FAIL_REC;
   });
+  return flag < 0 ? SUNLS_PACKAGE_FAIL_UNREC : flag;
 }
 
 /// Where factors cost little, they are always those of the present γ, and only the Jacobian grows old.

@@ -181,6 +181,41 @@ TEST(Integrate, GivingUpNamesTheWorstNodeItsTemperatureAndTheInputs) {
   }
 }
 
+/// Constant heat whose slope is not a number.
+struct WithoutSlope {
+  static constexpr std::string_view name = "without a slope";
+  static constexpr int ports = 1, coefficients = 1, inputs = 0;
+  static constexpr bool conservative = false;
+  template <class S>
+  static void flows(S const* T, S const* c, double const*, S* q) {
+    using std::sqrt;
+    q[0] = c[0] + sqrt(S(0.0 * T[0]));
+  }
+};
+
+/// Steps whose first guess is good enough need no solver; others must not take its failure for a solution.
+TEST(Integrate, WhatTheLinearSolverCannotSolveIsNoSolution) {
+  double const exact = heat / conductance * (1.0 - std::exp(-1000.0 / tau));
+  for (auto const solver : {LinearSolver::dense, LinearSolver::sparse_direct, LinearSolver::preconditioned_krylov,
+                            LinearSolver::multigrid}) {
+    NetworkBuilder builder;
+    Port const body = builder.add_body("head", {capacity});
+    builder.connect(builder.part("film"), body, builder.add_boundary({"room", T0, {}}), conductance);
+    builder.add<WithoutSlope>(builder.part("heater"), {body}, {heat}, {});
+    std::vector<double> const start{T0}, times{0.0, 1000.0};
+    IntegrationOptions options;
+    options.solver = solver;
+    double rise = 0.0;
+    try {
+      integrate(builder.build(), FunctionCourse(), start, times, options,
+                [&](Sample const& s) { rise = s.temperatures[0] - T0; });
+      EXPECT_NEAR(rise, exact, 1e-2) << name_of(solver);
+    } catch (IntegrationError const& error) {
+      EXPECT_THAT(error.what(), HasSubstr("convergence test failed")) << name_of(solver);
+    }
+  }
+}
+
 TEST(Integrate, ARelayWithoutReasonStaysOffAndAnEnabledOneStartsOn) {
   NetworkBuilder builder;
   Port const body = builder.add_body("tank", {capacity});
