@@ -29,7 +29,7 @@ inline constexpr Dimension curvature{-1, 0, 0, 0, 0};  ///< 1/m
 inline constexpr Dimension second_moment{4, 0, 0, 0, 0};
 inline constexpr Dimension mass{0, 1, 0, 0, 0};
 inline constexpr Dimension time{0, 0, 1, 0, 0};
-inline constexpr Dimension angular_speed{0, 0, -1, 0, 0};  ///< rad/s, also Hz
+inline constexpr Dimension angular_speed{0, 0, -1, 0, 0};  ///< rad/s; 1/s and Hz count revolutions
 inline constexpr Dimension speed{1, 0, -1, 0, 0};
 inline constexpr Dimension acceleration{1, 0, -2, 0, 0};
 inline constexpr Dimension density{-3, 1, 0, 0, 0};

@@ -25,6 +25,7 @@ struct Material {
   double youngs_modulus = 0.0;       ///< [Pa]
   double poisson_ratio = 0.0;        ///< [1]
   double emissivity = 0.0;           ///< of the usual surface: machined, cast and painted, bare [1]
+  std::string meaning = {};          ///< what people call it, where the name does not say
 };
 
 /// k(T) [W/(m K)] at T [K].

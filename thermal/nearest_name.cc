@@ -10,6 +10,7 @@ namespace thermotwin::thermal {
 namespace {
 
 constexpr std::size_t listed_at_most = 10;
+constexpr std::size_t shortest_beginning = 3;  ///< of a name that somebody cut short; less begins too much by chance
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
@@ -23,6 +24,15 @@ std::vector<std::string> nearest_first(std::string_view name, std::span<std::str
     return remoteness(name, a) < remoteness(name, b);
   });
   return names;
+}
+
+/// The only name that begins like this, if it is not twice as long; empty if there is none, or more.
+std::string whole_name(std::string_view beginning, std::span<std::string const> known) {
+  if (beginning.size() < shortest_beginning) return {};
+  auto const begins = [&](std::string const& name) { return name.starts_with(beginning); };
+  auto const first = std::find_if(known.begin(), known.end(), begins);
+  if (first == known.end() || std::find_if(first + 1, known.end(), begins) != known.end()) return {};
+  return first->size() < 2 * beginning.size() ? *first : std::string();
 }
 
 }  // namespace
@@ -49,8 +59,10 @@ std::string nearest_name(std::string_view name, std::span<std::string const> kno
   return nearest == known.end() ? std::string() : *nearest;
 }
 
-std::string did_you_mean(std::string_view name, std::span<std::string const> known) {
+std::string did_you_mean(std::string_view name, std::span<std::string const> known,
+                         std::function<std::string(std::string const&)> const& meaning) {
   if (known.empty()) return "none is known";
+  if (std::string const whole = whole_name(name, known); !whole.empty()) return "did you mean '" + whole + "'?";
   std::string const nearest = nearest_name(name, known);
   int const size = static_cast<int>(name.size());
   int const edits = edit_distance(name, nearest);
@@ -59,6 +71,7 @@ std::string did_you_mean(std::string_view name, std::span<std::string const> kno
   std::vector<std::string> const names = nearest_first(name, known);
   for (std::size_t i = 0; i < std::min(names.size(), listed_at_most); ++i) {
     sentence += (i == 0 ? "'" : ", '") + names[i] + "'";
+    if (auto const said = meaning ? meaning(names[i]) : ""; !said.empty()) sentence += " (" + said + ")";
   }
   return names.size() > listed_at_most ? sentence + ", …" : sentence;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,8 +15,10 @@ int edit_distance(std::string_view a, std::string_view b);
 /// known.
 std::string nearest_name(std::string_view name, std::span<std::string const> known);
 
-/// The end of an error message about an unknown name: "did you mean 'min'?" when one is close, else "known: 'a', 'b',
-/// …" (the nearest ten, nearest first), else "none is known".
-std::string did_you_mean(std::string_view name, std::span<std::string const> known);
+/// The end of an error message about an unknown name: "did you mean 'min'?" when only one begins with it, or one is
+/// close, else "known: 'a', 'b', …" (the nearest ten, nearest first), else "none is known". Beside the listed ones
+/// stands what they mean, where `meaning` says it: "'GJL-250' (grey cast iron)".
+std::string did_you_mean(std::string_view name, std::span<std::string const> known,
+                         std::function<std::string(std::string const&)> const& meaning = {});
 
 }  // namespace thermotwin::thermal

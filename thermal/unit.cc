@@ -18,11 +18,13 @@ namespace {
 namespace dim = dimension;
 
 constexpr double zero_degC = 273.15;
+constexpr double turn = 2 * std::numbers::pi;  ///< [rad]
 
 struct NamedUnit {
   std::string_view symbol;
   Unit unit;
   bool takes_prefix = false;
+  bool of_angle = false;  ///< says how far something turns
 };
 
 struct Prefix {
@@ -46,7 +48,7 @@ constexpr std::array named_units = {
     NamedUnit{"Hz", {dim::angular_speed}, true},
     NamedUnit{"V", {dim::voltage}, true},
     NamedUnit{"ohm", {dim::resistance}, true},
-    NamedUnit{"rad", {dim::angle}, true},
+    NamedUnit{"rad", {dim::angle}, true, true},
     NamedUnit{"bar", {dim::pressure, 1e5, 1}, true},
     NamedUnit{"cm", {dim::length, 1, 100}},
     NamedUnit{"hPa", {dim::pressure, 100, 1}},
@@ -54,9 +56,11 @@ constexpr std::array named_units = {
     NamedUnit{"min", {dim::time, 60, 1}},
     NamedUnit{"h", {dim::time, 3600, 1}},
     NamedUnit{"day", {dim::time, 86400, 1}},
-    NamedUnit{"rpm", {dim::angular_speed, 2 * std::numbers::pi, 60}},
-    NamedUnit{"deg", {dim::angle, std::numbers::pi, 180}},
-    NamedUnit{"arcsec", {dim::angle, std::numbers::pi, 648000}},
+    NamedUnit{"rpm", {dim::angular_speed, turn, 60}, false, true},
+    NamedUnit{"rev", {dim::angle, turn, 1}, false, true},
+    NamedUnit{"U", {dim::angle, turn, 1}, false, true},
+    NamedUnit{"deg", {dim::angle, std::numbers::pi, 180}, false, true},
+    NamedUnit{"arcsec", {dim::angle, std::numbers::pi, 648000}, false, true},
     NamedUnit{"L", {dim::volume, 1, 1000}},
     NamedUnit{"l", {dim::volume, 1, 1000}},
     NamedUnit{"%", {dim::dimensionless, 1, 100}},
@@ -107,7 +111,8 @@ class UnitReader {
     if (rest_ == "degC") return {dim::temperature_difference, 1, 1, true};
     Unit const unit = product();
     if (!rest_.empty()) fail("unexpected '" + std::string(rest_) + "'");
-    return unit;
+    bool const counts_turns = unit.dimension == dim::angular_speed && !of_angle_;
+    return counts_turns ? times(unit, {dim::angle, turn}, 1) : unit;
   }
 
  private:
@@ -148,16 +153,21 @@ class UnitReader {
     return look_up(name);
   }
 
-  Unit look_up(std::string_view name) const {
+  Unit look_up(std::string_view name) {
     if (name == "degC") fail("degC is a point on the scale; in a compound unit write K");
-    if (NamedUnit const* named = find_symbol(name)) return named->unit;
+    if (NamedUnit const* named = find_symbol(name)) return taken(*named);
     for (Prefix const& prefix : prefixes) {
       if (!name.starts_with(prefix.symbol)) continue;
       NamedUnit const* named = find_symbol(name.substr(prefix.symbol.size()));
       if (named == nullptr || !named->takes_prefix) continue;
-      return times(named->unit, {dim::dimensionless, prefix.numerator, prefix.denominator}, 1);
+      return times(taken(*named), {dim::dimensionless, prefix.numerator, prefix.denominator}, 1);
     }
     fail("unknown unit '" + std::string(name) + "'; " + offer(name));
+  }
+
+  Unit taken(NamedUnit const& named) {
+    of_angle_ = of_angle_ || named.of_angle;
+    return named.unit;
   }
 
   std::string offer(std::string_view name) const {
@@ -194,6 +204,7 @@ class UnitReader {
   std::string_view rest_;
   std::string_view whole_;
   std::span<std::string_view const> usual_;
+  bool of_angle_ = false;  ///< one of its symbols is
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -213,15 +224,17 @@ Unit read_unit(std::string_view unit, std::string_view text, std::span<std::stri
 }
 
 std::string in_ascii(std::string_view text) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> signs = {{{"\u00b5", "u"},
-                                                                                          {"\u03bc", "u"},
-                                                                                          {"\u00b0C", "degC"},
-                                                                                          {"\u00b0", "deg"},
-                                                                                          {"\u00b2", "2"},
-                                                                                          {"\u00b3", "3"},
-                                                                                          {"\u00b7", "*"},
-                                                                                          {"\u03a9", "ohm"},
-                                                                                          {"\u2126", "ohm"}}};
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 11> signs = {{{"\u00b5", "u"},
+                                                                                           {"\u03bc", "u"},
+                                                                                           {"\u00b0C", "degC"},
+                                                                                           {"\u00b0", "deg"},
+                                                                                           {"\u00b2", "2"},
+                                                                                           {"\u00b3", "3"},
+                                                                                           {"\u207b", "-"},
+                                                                                           {"\u00b9", "1"},
+                                                                                           {"\u00b7", "*"},
+                                                                                           {"\u03a9", "ohm"},
+                                                                                           {"\u2126", "ohm"}}};
   std::string result(trimmed(text));
   for (auto const& [sign, letters] : signs) {
     for (auto at = result.find(sign); at != std::string::npos; at = result.find(sign, at + letters.size())) {

@@ -19,8 +19,10 @@ struct Quantity {
 ///
 /// Unit: symbols joined by a space or `*` (product) and `/` (quotient), parentheses, integer exponents (m2, m^2, s^-1).
 /// A product after a quotient needs parentheses: "W/m2 K" is refused. Prefixes n u µ m k M G before m g s K A W J N Pa
-/// Hz V ohm rad bar; besides cm hPa cSt min h day rpm deg arcsec L % ppm. degC stands alone. Text without a unit is
-/// dimensionless. Throws InputError: "'8000 mm/mim': unknown unit 'mim'; did you mean 'min'?"
+/// Hz V ohm rad bar; besides cm hPa cSt min h day rpm rev U deg arcsec L % ppm. degC stands alone. Text without a unit
+/// is dimensionless. What is only per time counts revolutions, since nothing else here is: "3000 1/min", "3000 min-1"
+/// and "3000 U/min" are 3000 rpm, "50 Hz" and "50 1/s" are 50 rev/s. Throws InputError: "'8000 mm/mim': unknown unit
+/// 'mim'; did you mean 'min'?"
 Quantity parse_quantity(std::string_view text);
 
 /// As parse_quantity, and the value must have this dimension; a degC is refused where a difference is due.

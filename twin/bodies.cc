@@ -49,7 +49,9 @@ thermal::Material const& Bodies::material(std::string const& name) const {
   auto names = thermal::material_names();
   for (auto const& entry : materials_) names.push_back(entry.first);
   if (std::find(names.begin(), names.end(), name) == names.end())
-    throw InputError(fmt::format("unknown material '{}'; {}", name, thermal::did_you_mean(name, names)));
+    throw InputError(fmt::format(
+        "unknown material '{}'; {}", name,
+        thermal::did_you_mean(name, names, [&](std::string const& known) { return material(known).meaning; })));
   return thermal::material(name);
 }
 

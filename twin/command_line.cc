@@ -32,6 +32,7 @@
 #include "twin/experiment_file.h"
 #include "twin/file/output_path.h"
 #include "twin/file_check.h"
+#include "twin/known_names.h"
 #include "twin/needed_solution.h"
 #include "twin/placement/candidate_sites.h"
 #include "twin/report/report_files.h"
@@ -71,7 +72,9 @@ void describe(std::string const& what) {
       {"campaign", "many runs: grid x samples x cases x experiments x repetitions", list_fields<CampaignDescription>()},
       {"candidates", "where sensors may sit, for `place`", list_fields<CandidateRules>()},
       {"measurement", "what the columns of measured tables are", list_fields<MeasurementFile>()}};
-  std::vector<std::string> known = {"machine"};
+  if (what == "materials") return fmt::print("{}", material_list());
+  if (what == "channels") return fmt::print("{}", channel_list());
+  std::vector<std::string> known = {"machine", "materials", "channels"};
   for (auto const& file : files) {
     if (file.name == what) {
       fmt::print("{}", table_page(file));
@@ -80,14 +83,16 @@ void describe(std::string const& what) {
     known.push_back(file.name);
   }
   if (what != "machine")
-    throw thermal::InputError(fmt::format("describe: no file '{}'; {}", what, thermal::did_you_mean(what, known)));
+    throw thermal::InputError(fmt::format("describe: there is no '{}'; {}", what, thermal::did_you_mean(what, known)));
   for (auto const& table : describe_machine()) fmt::print("{}\n", table_page(table));
 }
 
 void add_other_commands(CLI::App& app) {
-  auto* describe_command = app.add_subcommand("describe", "print every key of a kind of file");
+  auto* describe_command = app.add_subcommand("describe", "print every key of a kind of file, or what it may name");
   auto what = std::make_shared<std::string>();
-  describe_command->add_option("what", *what, "machine, experiment, measurement, model, study, campaign or candidates")
+  describe_command
+      ->add_option("what", *what,
+                   "machine, experiment, measurement, model, study, campaign or candidates; materials or channels")
       ->required();
   describe_command->callback([what] { describe(*what); });
 

@@ -56,6 +56,18 @@ TEST(Material, EveryOneIsPhysical) {
 
 TEST(Material, IsFoundWhateverTheCase) { EXPECT_EQ(material("invar 36").name, "Invar 36"); }
 
+TEST(Material, ListOfNamesSaysWhatTheyMean) {
+  try {
+    (void)material("Grauguss");
+    FAIL() << "accepted";
+  } catch (InputError const& error) {
+    std::string const text = error.what();
+    EXPECT_NE(text.find("known: 'granite', 'AlMgSi' (aluminium alloy), 'GJL-250' (grey cast iron), "), text.npos)
+        << text;
+  }
+  EXPECT_EQ(material("GJL-300").meaning, "grey cast iron");
+}
+
 TEST(Material, UnknownNameGetsTheNearest) {
   try {
     (void)material("42CrMo5");

@@ -30,9 +30,24 @@ TEST(DidYouMean, NamesTheCloseOne) {
   EXPECT_EQ(did_you_mean("conductence", known), "did you mean 'conductance'?");
 }
 
+TEST(DidYouMean, CompletesWhatIsTheBeginningOfOneName) {
+  std::vector<std::string> const known = {"ambient.door", "ambient.temperature", "coolant.temperature"};
+  EXPECT_EQ(did_you_mean("ambient.temp", known), "did you mean 'ambient.temperature'?");
+  EXPECT_EQ(did_you_mean("ambient", known).substr(0, 7), "known: ");
+  EXPECT_EQ(did_you_mean("coolant", known).substr(0, 7), "known: ");
+  EXPECT_EQ(did_you_mean("co", known).substr(0, 7), "known: ");
+}
+
 TEST(DidYouMean, ListsNearestFirstWhenNoneIsClose) {
   std::vector<std::string> const known = {"conductance", "mass"};
   EXPECT_EQ(did_you_mean("xmxxs", known), "known: 'mass', 'conductance'");
+}
+
+TEST(DidYouMean, SaysWhatTheListedOnesMean) {
+  std::vector<std::string> const known = {"conductance", "mass"};
+  auto const meaning = [](std::string const& name) { return name == "mass" ? "how heavy" : ""; };
+  EXPECT_EQ(did_you_mean("xmxxs", known, meaning), "known: 'mass' (how heavy), 'conductance'");
+  EXPECT_EQ(did_you_mean("mas", known, meaning), "did you mean 'mass'?");
 }
 
 TEST(DidYouMean, ANameOfOneLetterIsNotCloseToAnother) {

@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
         Reading{"8 W/(m2 K)", 8.0, dimension::film_coefficient},
         Reading{"8 W/(m²·K)", 8.0, dimension::film_coefficient}, Reading{"8 W/m^2/K", 8.0, dimension::film_coefficient},
         Reading{"8 W*m^-2*K^-1", 8.0, dimension::film_coefficient},
-        Reading{"6000 rpm", 200.0 * pi, dimension::angular_speed}, Reading{"50 Hz", 50.0, dimension::angular_speed},
+        Reading{"6000 rpm", 200.0 * pi, dimension::angular_speed}, Reading{"9 rad/s", 9.0, dimension::angular_speed},
         Reading{"90 deg", pi / 2.0, dimension::angle}, Reading{"1e-4 1/K", 1e-4, dimension::expansion},
         Reading{"11.8 um/(m K)", 11.8e-6, dimension::expansion}, Reading{"12 ppm/K", 12e-6, dimension::expansion},
         Reading{"25 %", 0.25, dimension::dimensionless}, Reading{"0.8", 0.8, dimension::dimensionless},
@@ -55,6 +55,19 @@ TEST(ParseQuantity, IsTheDoubleNearestToTheDecimal) {
   EXPECT_EQ(parse_quantity("250 um").value, 250e-6);
   EXPECT_EQ(parse_quantity("0.7 mm").value, 0.7e-3);
   EXPECT_EQ(parse_quantity("36.5 mm").value, 36.5e-3);
+}
+
+TEST(ParseQuantity, CountsRevolutionsWhereNoAngleIsSaid) {
+  double const speed = parse_value("3000 rpm", dimension::angular_speed);
+  for (std::string const text : {"3000 1/min", "3000 min-1", "3000 min^-1", "3000 min⁻¹", "3000 U/min", "3000 rev/min"})
+    EXPECT_EQ(parse_value(text, dimension::angular_speed), speed) << text;
+  for (std::string const text : {"50 Hz", "50 1/s", "50 s-1", "50 rev/s", "0.05 kHz"})
+    EXPECT_DOUBLE_EQ(parse_value(text, dimension::angular_speed), speed) << text;
+  EXPECT_DOUBLE_EQ(parse_value("18000 deg/s", dimension::angular_speed), speed);
+  EXPECT_DOUBLE_EQ(parse_value("314 rad/s", dimension::angular_speed), 314.0);
+  EXPECT_DOUBLE_EQ(parse_value("0.314 krad/s", dimension::angular_speed), 314.0);
+  EXPECT_DOUBLE_EQ(from_unit(3000.0, "1/min"), speed);
+  EXPECT_EQ(format_quantity(parse_quantity("3000 1/min").value, dimension::angular_speed), "3000 rpm");
 }
 
 TEST(ParseQuantity, MarksDegreesCelsiusAsAPointOnTheScale) {
