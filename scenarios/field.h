@@ -12,6 +12,7 @@ namespace thermotwin::scenarios {
 ///     f.temperature("key", &S::member, "doc")         double, std::optional<double>: a point on the scale [K]
 ///     f.name("key", &S::member, "doc")                std::string that must be given
 ///     f.choice("key", &S::member, {"x", "y"}, "doc")  std::string, one of the words
+///     f("key", &S::member, "doc", {a, b})             int, no less and no more
 ///     f("key", &S::member, "doc")                     std::string, bool, int, a struct with fields,
 ///                                                     std::optional<struct>, std::vector<struct>
 ///

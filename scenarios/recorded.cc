@@ -1,9 +1,9 @@
 #include "scenarios/recorded.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
-#include "scenarios/csv.h"
 #include "thermal/error.h"
 
 namespace thermotwin::scenarios {
@@ -31,7 +31,7 @@ void check(Recording const& recording) {
   if (!(recording.max_gap > 0.0)) {
     throw InputError(place + "max_gap: " + format_quantity(recording.max_gap, dimension::time) + " must be above 0 s");
   }
-  at(place + "time_unit: ", [&] { thermal::require_unit(recording.time_unit, dimension::time); });
+  at(place, [&] { check_time_unit(recording); });
   for (RecordedColumn const& column : recording.columns) {
     if (column.column.empty() || column.channel.empty()) {
       throw InputError(place + "each of columns needs a column and a channel");
@@ -43,39 +43,46 @@ void check(Recording const& recording) {
   }
 }
 
-std::string place_of_row(CsvTable const& table, std::size_t row) {
-  return table.file.string() + ":" + std::to_string(table.lines[row]) + ": ";
-}
-
-void check_times(Recording const& recording, CsvTable const& table, std::vector<double> const& seconds) {
-  std::vector<double> const& written = table.columns.front();
-  for (std::size_t row = 1; row < seconds.size(); ++row) {
-    std::string const values = "column '" + recording.time_column + "': " + format_number(written[row]) + " after " +
-                               format_number(written[row - 1]) + " " + recording.time_unit;
-    if (seconds[row] <= seconds[row - 1]) {
-      throw InputError(place_of_row(table, row) + values + ": time must increase");
-    }
-    if (seconds[row] - seconds[row - 1] > recording.max_gap) {
-      throw InputError(place_of_row(table, row) + values + " is a gap longer than max_gap, " +
+void check_gaps(Recording const& recording, LoggedTable const& table) {
+  for (std::size_t row = 1; row < table.times.size(); ++row) {
+    double const gap = table.times[row] - table.times[row - 1];
+    if (gap > recording.max_gap) {
+      throw InputError(table.file.string() + ":" + std::to_string(table.lines[row]) + ": column '" +
+                       recording.time_column + "': " + format_number(std::round(1e3 * gap) / 1e3) +
+                       " s after the row before is a gap longer than max_gap, " +
                        format_quantity(recording.max_gap, dimension::time));
     }
   }
 }
 
-void check_cover(Recording const& recording, CsvTable const& table, std::vector<double> const& seconds,
-                 double duration) {
-  if (seconds.front() <= recording.max_gap && seconds.back() >= duration - recording.max_gap) return;
-  throw InputError(table.file.string() + ": covers " + format_number(seconds.front()) + " s to " +
-                   format_number(seconds.back()) + " s of a run of " + format_number(duration) +
-                   " s; at its ends at most max_gap, " + format_quantity(recording.max_gap, dimension::time) +
+void check_cover(Recording const& recording, LoggedTable const& table, double duration) {
+  double const first = table.times.front(), last = table.times.back();
+  if (first <= recording.max_gap && last >= duration - recording.max_gap) return;
+  throw InputError(table.file.string() + ": covers " + format_number(first) + " s to " + format_number(last) +
+                   " s of a run of " + format_number(duration) + " s; at its ends at most max_gap, " +
+                   format_quantity(recording.max_gap, dimension::time) +
                    ", may be missing (see clock_offset and duration)");
 }
 
-/// Several columns may read the same one of the file; the first entry is the time.
+/// Several columns may read the same one of the file.
 std::vector<std::string> wanted_columns(Recording const& recording) {
-  std::vector<std::string> names = {recording.time_column};
+  std::vector<std::string> names;
   for (RecordedColumn const& column : recording.columns) names.push_back(column.column);
   return names;
+}
+
+void add_channels(Recording const& recording, LoggedTable& table, std::vector<DrivenChannel>& channels) {
+  for (std::size_t i = 0; i < recording.columns.size(); ++i) {
+    RecordedColumn const& column = recording.columns[i];
+    std::vector<double>& values = table.columns[i];
+    thermal::from_unit(values, column.unit);
+    std::string const unit = thermal::unit_of(thermal::dimension_of(column.unit));
+    Interpolation const between = column.interpolation == "step" ? Interpolation::step : Interpolation::linear;
+    bool const absolute_temperature = thermal::from_unit(0.0, column.unit) != 0.0;
+    channels.push_back({{column.channel, unit, "recorded: " + column.column},
+                        Signal(table.times, values, between),
+                        absolute_temperature});
+  }
 }
 
 std::string value_or_default(std::string_view reference, std::filesystem::path const& directory) {
@@ -101,24 +108,16 @@ std::filesystem::path resolved_path(std::string_view file, std::filesystem::path
   return (directory / text).lexically_normal();
 }
 
-std::vector<DrivenChannel> read_recording(Recording const& recording, std::filesystem::path const& directory,
-                                          double duration) {
-  check(recording);
-  CsvTable table = read_csv(resolved_path(recording.file, directory), wanted_columns(recording));
-  std::vector<double> seconds = table.columns.front();
-  thermal::from_unit(seconds, recording.time_unit);
-  for (double& t : seconds) t += recording.clock_offset;
-  check_times(recording, table, seconds);
-  check_cover(recording, table, seconds, duration);
-
+std::vector<DrivenChannel> read_recordings(std::vector<Recording> const& recordings,
+                                           std::filesystem::path const& directory, double duration) {
+  TableReader reader(MissingValue::refuse);
   std::vector<DrivenChannel> channels;
-  for (std::size_t i = 0; i < recording.columns.size(); ++i) {
-    RecordedColumn const& column = recording.columns[i];
-    std::vector<double>& values = table.columns[i + 1];
-    thermal::from_unit(values, column.unit);
-    std::string const unit = thermal::unit_of(thermal::dimension_of(column.unit));
-    Interpolation const between = column.interpolation == "step" ? Interpolation::step : Interpolation::linear;
-    channels.push_back({{column.channel, unit, "recorded: " + column.column}, Signal(seconds, values, between)});
+  for (Recording const& recording : recordings) {
+    check(recording);
+    LoggedTable table = reader.read(recording, resolved_path(recording.file, directory), wanted_columns(recording));
+    check_gaps(recording, table);
+    check_cover(recording, table, duration);
+    add_channels(recording, table, channels);
   }
   return channels;
 }

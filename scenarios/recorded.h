@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenarios/field.h"
+#include "scenarios/logged_table.h"
 #include "scenarios/signal.h"
 #include "thermal/operating_point.h"
 #include "thermal/units.h"
@@ -31,22 +32,13 @@ struct RecordedColumn {
 
 /// Inputs from a CSV file that was measured, in place of programmes. Before the first row the first value holds, after
 /// the last the last one, each for `max_gap` at most.
-struct Recording {
-  std::string file;  ///< relative to the experiment's file; ${NAME} and ${NAME:-default} are read from the environment
-  std::string time_column = "time_s";
-  std::string time_unit = "s";
-  double clock_offset = 0.0;  ///< added to the file's times to give those of the run [s]
-  double max_gap = 600.0;     ///< longest time between two rows [s]
+struct Recording : LoggedFile {
+  double max_gap = 600.0;  ///< longest time between two rows [s]
   std::vector<RecordedColumn> columns;
 
   template <class Fields>
   static void fields(Fields& f) {
-    f.name("file", &Recording::file,
-           "CSV file, relative to this one; ${NAME} and ${NAME:-default} are read from the environment");
-    f("time_column", &Recording::time_column, "exact name of the column of times");
-    f("time_unit", &Recording::time_unit, "unit of the times in the file");
-    f("clock_offset", &Recording::clock_offset, thermal::dimension::time,
-      "added to the file's times to give those of the run");
+    LoggedFile::fields(f);
     f("max_gap", &Recording::max_gap, thermal::dimension::time, "longest time between two rows", {0.0, unbounded});
     f("columns", &Recording::columns, "columns to read and the channels that they drive");
   }
@@ -56,13 +48,14 @@ struct Recording {
 struct DrivenChannel {
   thermal::InputChannel channel;
   Signal signal;
+  bool absolute_temperature = false;  ///< written in degC: points on the scale, no differences
 };
 
-/// Reads the columns for a run of `duration` [s]; relative file names start at `directory`. Throws InputError with
-/// file, line, column and value: a missing column, time running backwards, a gap, a unit that is none, a record too
-/// short.
-std::vector<DrivenChannel> read_recording(Recording const& recording, std::filesystem::path const& directory,
-                                          double duration);
+/// Reads the columns for a run of `duration` [s], of all files onto one clock (logged_table.h); relative file names
+/// start at `directory`. Throws InputError with file, line, column and value: a missing column or value, time running
+/// backwards, a gap, a unit that is none, a record too short.
+std::vector<DrivenChannel> read_recordings(std::vector<Recording> const& recordings,
+                                           std::filesystem::path const& directory, double duration);
 
 /// The file's name with ${NAME} replaced by the environment's value (relative values start at the working directory)
 /// and

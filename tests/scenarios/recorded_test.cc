@@ -23,7 +23,7 @@ class RecordedInput : public testing::Test {
   }
 
   std::vector<DrivenChannel> read(Recording const& recording, double duration) {
-    return read_recording(recording, directory_.path(), duration);
+    return read_recordings({recording}, directory_.path(), duration);
   }
 
   std::string refused(Recording const& recording, double duration = 20.0) {
@@ -66,17 +66,37 @@ TEST_F(RecordedInput, ShiftsItsClockAndReadsItsUnit) {
   EXPECT_DOUBLE_EQ(read(shifted, 60.0)[0].signal.at(30.0), 90.0);
 }
 
+TEST_F(RecordedInput, ReadsWhatALoggerWrote) {
+  Recording logged = recording("room, 1st floor\ntime;a\n;°C\n24.11.2025 07:00;21,5\n24.11.2025 07:10;22,5\n", "degC");
+  logged.time_column = "time";
+  logged.header_line = 2;
+  EXPECT_DOUBLE_EQ(read(logged, 600.0)[0].signal.at(300.0), 295.15);
+}
+
+TEST_F(RecordedInput, OfSeveralFilesHasOneClock) {
+  Recording first = recording("time,a\n2025-11-24 07:00:00,0\n2025-11-24 07:10:00,10\n");
+  first.time_column = "time";
+  Recording second = first;
+  second.file = "other.csv";
+  second.columns[0].channel = "coolant.flow";
+  tests::put(directory_ / "other.csv", "time;a\n24.11.2025 07:05;0\n24.11.2025 07:15;10\n");
+  auto const channels = read_recordings({first, second}, directory_.path(), 600.0);
+  ASSERT_EQ(channels.size(), 2U);
+  EXPECT_DOUBLE_EQ(channels[0].signal.at(450.0), 7.5);
+  EXPECT_DOUBLE_EQ(channels[1].signal.at(450.0), 2.5);
+}
+
 TEST_F(RecordedInput, SaysWhereTimeDoesNotIncrease) {
   EXPECT_EQ(refused(recording("time_s,a\n0,0\n15,1\n10,2\n")),
-            "data.csv:4: column 'time_s': 10 after 15 s: time must increase");
+            "data.csv:4:1: column 'time_s': '10' after '15': time must increase");
   EXPECT_EQ(refused(recording("time_s,a\n0,0\n15,1\n15,2\n")),
-            "data.csv:4: column 'time_s': 15 after 15 s: time must increase");
+            "data.csv:4:1: column 'time_s': '15' after '15': time must increase");
 }
 
 TEST_F(RecordedInput, SaysWhereAGapIs) {
   Recording gap = recording("time_s,a\n0,0\n10,1\n90,2\n");
   gap.max_gap = 60.0;
-  EXPECT_EQ(refused(gap), "data.csv:4: column 'time_s': 90 after 10 s is a gap longer than max_gap, 1 min");
+  EXPECT_EQ(refused(gap), "data.csv:4: column 'time_s': 80 s after the row before is a gap longer than max_gap, 1 min");
   gap.max_gap = 80.0;
   EXPECT_EQ(refused(gap), "accepted");
 }

@@ -21,6 +21,7 @@ struct MeasuredData {
   std::vector<output::Channel> readings;  ///< of sensors, in their units
   std::vector<output::Channel> displacements;
   std::optional<double> initial_temperature;  ///< [K]
+  std::optional<double> start_time_of_day;    ///< of time stamps [s]; a recorded clock goes before
   double max_gap = 600.0;                     ///< longer gaps become remarks, and those of inputs are estimated [s]
   std::vector<std::string> remarks;           ///< of the reader
 };

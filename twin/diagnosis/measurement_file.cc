@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "scenarios/csv.h"
+#include "scenarios/logged_table.h"
 #include "scenarios/recorded.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
@@ -23,38 +23,17 @@ struct LoadedTable {
   std::vector<std::vector<double>> inputs, readings;
 };
 
-void check_times(MeasuredTable const& table, scenarios::CsvTable const& csv) {
-  auto const& times = csv.columns.front();
-  for (std::size_t row = 0; row < times.size(); ++row) {
-    std::string const where = fmt::format("{}:{}: column '{}': ", csv.file.string(), csv.lines[row], table.time_column);
-    if (!std::isfinite(times[row])) throw InputError(where + "is missing; a number is due");
-    if (row > 0 && times[row] <= times[row - 1])
-      throw InputError(fmt::format("{}{} follows {}; time must increase", where, thermal::format_number(times[row]),
-                                   thermal::format_number(times[row - 1])));
-  }
-}
-
-LoadedTable load(MeasuredTable const& table, std::filesystem::path const& directory) {
+LoadedTable load(MeasuredTable const& table, std::filesystem::path const& directory, scenarios::TableReader& reader,
+                 std::vector<std::string>& remarks) {
   if (table.inputs.empty() && table.readings.empty())
     throw InputError(fmt::format("'{}' has neither an input nor a reading; name its columns", table.file));
-  try {
-    thermal::require_unit(table.time_unit, dimension::time);
-  } catch (InputError const& error) {
-    throw InputError(fmt::format("time_unit: {}", error.what()));
-  }
-  std::vector<std::string> columns = {table.time_column};
+  std::vector<std::string> columns;
   for (auto const& input : table.inputs) columns.push_back(input.column);
   for (auto const& reading : table.readings) columns.push_back(reading.column);
-  auto csv = scenarios::read_csv(scenarios::resolved_path(table.file, directory), columns,
-                                 scenarios::MissingValue::keep_as_nan);
-  check_times(table, csv);
-  LoadedTable loaded{csv.columns.front(), {}, {}};
-  thermal::from_unit(loaded.times, table.time_unit);
-  for (double& t : loaded.times) t += table.clock_offset;
-  auto const first_reading = csv.columns.begin() + 1 + std::ptrdiff_t(table.inputs.size());
-  loaded.inputs.assign(csv.columns.begin() + 1, first_reading);
-  loaded.readings.assign(first_reading, csv.columns.end());
-  return loaded;
+  auto logged = reader.read(table, scenarios::resolved_path(table.file, directory), columns);
+  if (!logged.remark.empty()) remarks.push_back(logged.remark);
+  auto const first_reading = logged.columns.begin() + std::ptrdiff_t(table.inputs.size());
+  return {std::move(logged.times), {logged.columns.begin(), first_reading}, {first_reading, logged.columns.end()}};
 }
 
 /// On the tables' clock [s].
@@ -89,12 +68,15 @@ std::vector<double> row_times(MeasurementFile const& file, std::vector<LoadedTab
   return {times.begin(), times.end()};
 }
 
+/// "degC" and "°C": a scale with a 0 of its own.
+bool is_scale(std::string const& unit) { return thermal::from_unit(0.0, unit) != 0.0; }
+
 scenarios::SampledInput make_input(InputColumn const& column, LoadedTable const& table,
                                    std::vector<double> const& numbers, double start) {
   scenarios::SampledInput input;
   input.name = column.channel;
   input.unit = thermal::unit_of(thermal::dimension_of(column.unit));
-  input.absolute_temperature = column.unit == "degC";
+  input.absolute_temperature = is_scale(column.unit);
   input.interpolation = column.interpolation;
   input.average = column.average;
   input.times = table.times;
@@ -108,13 +90,13 @@ scenarios::SampledInput make_input(InputColumn const& column, LoadedTable const&
 double offset_of(ReadingColumn const& column) {
   if (column.offset.empty()) return 0.0;
   double const si = thermal::parse_value(column.offset, thermal::dimension_of(column.unit));
-  return column.unit == "degC" ? si : thermal::to_unit(si, column.unit);
+  return is_scale(column.unit) ? si : thermal::to_unit(si, column.unit);
 }
 
 output::Channel make_reading(ReadingColumn const& column, LoadedTable const& table, std::vector<double> const& numbers,
                              std::vector<double> const& rows, double first) {
   double const offset = offset_of(column);
-  output::Channel channel{column.sensor, column.unit, column.column,
+  output::Channel channel{column.sensor, is_scale(column.unit) ? "degC" : column.unit, column.column,
                           Eigen::VectorXd::Constant(Eigen::Index(rows.size()), std::nan(""))};
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     auto const row = std::lower_bound(rows.begin(), rows.end(), table.times[i]);
@@ -156,16 +138,18 @@ MeasuredData read_measurement_file(std::filesystem::path const& path) {
   if (file.tables.empty()) throw FileError(document.where, "the file names no [[table]]");
   auto const directory = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   auto const& places = std::get<Value::List>(document.find("table")->content);
+  MeasuredData data;
+  scenarios::TableReader reader(scenarios::MissingValue::keep_as_nan);
   std::vector<LoadedTable> tables;
   for (std::size_t t = 0; t < file.tables.size(); ++t)
-    located(places[t], [&] { tables.push_back(load(file.tables[t], directory)); });
+    located(places[t], [&] { tables.push_back(load(file.tables[t], directory, reader, data.remarks)); });
 
-  MeasuredData data;
   data.machine = file.machine;
   data.initial_temperature = file.initial_temperature;
   located(document, [&] {
     Window const window = window_of(file, tables);
     auto const rows = row_times(file, tables, window);
+    data.start_time_of_day = reader.time_of_day(window.from);
     data.time = Eigen::Map<Eigen::VectorXd const>(rows.data(), Eigen::Index(rows.size())).array() - window.from;
     double const first = file.readings_from.value_or(window.from);
     for (std::size_t t = 0; t < tables.size(); ++t)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/logged_table.h"
 #include "twin/description.h"
 #include "twin/diagnosis/measured_data.h"
 
@@ -47,22 +48,15 @@ struct ReadingColumn {
 };
 
 /// `[[table]]`: a CSV file and what its columns are. Rows may be irregular, cells empty.
-struct MeasuredTable {
-  std::string file;
-  std::string time_column = "time_s";
-  std::string time_unit = "s";
-  double clock_offset = 0.0;
+struct MeasuredTable : scenarios::LoggedFile {
   double max_gap = 600.0;
   std::vector<InputColumn> inputs;
   std::vector<ReadingColumn> readings;
 
   template <class Fields>
   static void fields(Fields& f) {
-    f.name("file", &MeasuredTable::file,
-           "CSV file, relative to this one; ${NAME} and ${NAME:-default} are read from the environment");
-    f("time_column", &MeasuredTable::time_column, "exact name of the column of times");
-    f("time_unit", &MeasuredTable::time_unit, "unit of the times in the file");
-    f("clock_offset", &MeasuredTable::clock_offset, dimension::time, "added to the times of this table");
+    LoggedFile::fields(f);
+    f("missing", &MeasuredTable::missing, "words that stand for no value, besides an empty cell and \"nan\"");
     f("max_gap", &MeasuredTable::max_gap, dimension::time,
       "longer gaps are told, and what was given in them is estimated", positive);
     f("input", &MeasuredTable::inputs, "columns that the machine was given");

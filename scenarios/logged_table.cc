@@ -1,0 +1,156 @@
+#include "scenarios/logged_table.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <string_view>
+
+#include "thermal/error.h"
+#include "thermal/units.h"
+
+namespace thermotwin::scenarios {
+namespace {
+
+using thermal::InputError;
+
+std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+bool is_missing(std::string_view field, LoggedFile const& file) {
+  return std::find(file.missing.begin(), file.missing.end(), field) != file.missing.end();
+}
+
+/// Units: text, no number, and no date that nobody can read.
+bool holds_units(CsvFile const& csv, LoggedFile const& file, std::vector<std::size_t> const& places) {
+  std::string_view const time = csv.field(places.front());
+  if (!time.empty() && std::isdigit(static_cast<unsigned char>(time.front()))) return false;
+  if (std::any_of(places.begin(), places.end(), [&](std::size_t place) { return csv.holds_number(place); }))
+    return false;
+  return std::any_of(places.begin(), places.end(), [&](std::size_t place) {
+    return !csv.field(place).empty() && !is_missing(csv.field(place), file);
+  });
+}
+
+/// Each unit once.
+std::string remark_on_units(CsvFile const& csv, std::vector<std::size_t> const& places) {
+  std::vector<std::string> units;
+  for (std::size_t const place : places) {
+    std::string const unit = in_quotes(csv.field(place));
+    if (std::find(units.begin(), units.end(), unit) == units.end()) units.push_back(unit);
+  }
+  std::string text = csv.path().string() + ":" + std::to_string(csv.line()) + ": skipped as a row of units";
+  for (std::size_t i = 0; i < units.size(); ++i) text += (i == 0 ? ": " : ", ") + units[i];
+  return text;
+}
+
+std::string kind_of(std::optional<TimeStamp> const& stamp) {
+  if (!stamp) return "numbers";
+  return stamp->zone ? "time stamps with a time zone" : "time stamps without a time zone";
+}
+
+/// A column of times, row by row. The first says whether all are time stamps.
+class TimeColumn {
+ public:
+  TimeColumn(CsvFile& csv, std::size_t place) : csv_(csv), place_(place), first_(parse_time_stamp(csv.field(place))) {}
+
+  [[nodiscard]] bool stamped() const { return first_.has_value(); }
+
+  /// The number of the present row, or its time from `start` [s].
+  double read(std::optional<TimeStamp> const& start) {
+    std::string_view const field = csv_.field(place_);
+    double const time = stamped() ? seconds_between(*start, stamp()) : number();
+    if (time <= last_time_) fail(" after " + in_quotes(last_) + ": time must increase");
+    last_time_ = time;
+    last_ = field;
+    return time;
+  }
+
+ private:
+  TimeStamp stamp() const {
+    auto const stamp = parse_time_stamp(csv_.field(place_));
+    if (!stamp) fail(" is no time stamp that is read; those are: " + std::string(time_stamp_forms));
+    if (kind_of(stamp) != kind_of(first_)) fail(": some rows have a time zone, others none");
+    return *stamp;
+  }
+
+  double number() {
+    if (!csv_.field(place_).empty() && !csv_.holds_number(place_))
+      fail(" is no number and no time stamp that is read; those are: " + std::string(time_stamp_forms));
+    return csv_.number(place_, MissingValue::refuse);
+  }
+
+  [[noreturn]] void fail(std::string const& why) const { csv_.fail(place_, in_quotes(csv_.field(place_)) + why); }
+
+  CsvFile& csv_;
+  std::size_t place_;
+  std::optional<TimeStamp> first_;
+  double last_time_ = -std::numeric_limits<double>::infinity();
+  std::string last_;
+};
+
+}  // namespace
+
+void check_time_unit(LoggedFile const& file) {
+  if (file.time_unit.empty()) return;
+  try {
+    thermal::require_unit(file.time_unit, thermal::dimension::time);
+  } catch (InputError const& error) {
+    throw InputError(std::string("time_unit: ") + error.what());
+  }
+}
+
+/// From the first row, where the file stands.
+void TableReader::set_clock(LoggedFile const& file, CsvFile const& csv, std::size_t place) {
+  auto const stamp = parse_time_stamp(csv.field(place));
+  if (stamp && !file.time_unit.empty()) {
+    csv.fail(place, in_quotes(csv.field(place)) + " is a time stamp, which has no unit; leave `time_unit`, " +
+                        in_quotes(file.time_unit) + ", out");
+  }
+  if (clock_.empty()) clock_ = kind_of(stamp);
+  if (clock_ != kind_of(stamp) && !file.clock_offset) {
+    csv.fail(place, "its times are " + kind_of(stamp) + ", those of the first table " + clock_ +
+                        "; `clock_offset` must say how the two clocks lie (\"0 s\": alike)");
+  }
+  if (!stamp || start_) return;
+  start_ = stamp;
+  time_at_start_ = file.clock_offset.value_or(0.0);
+}
+
+double TableReader::value(LoggedFile const& file, CsvFile& csv, std::size_t place) const {
+  std::string_view const field = csv.field(place);
+  if (is_missing(field, file)) return std::numeric_limits<double>::quiet_NaN();
+  if (missing_ == MissingValue::keep_as_nan && !field.empty() && !csv.holds_number(place))
+    csv.fail(place, in_quotes(field) + " is not a number and no word of `missing`");
+  return csv.number(place, missing_);
+}
+
+LoggedTable TableReader::read(LoggedFile const& file, std::filesystem::path const& path,
+                              std::vector<std::string> const& columns) {
+  check_time_unit(file);
+  CsvFile csv(path, std::size_t(file.header_line));
+  std::vector<std::size_t> places = {csv.place_of(file.time_column)};
+  for (auto const& column : columns) places.push_back(csv.place_of(column));
+  LoggedTable table{path, {}, {}, std::vector<std::vector<double>>(columns.size()), {}};
+  bool row = csv.next();
+  if (row && holds_units(csv, file, places)) {
+    table.remark = remark_on_units(csv, places);
+    row = csv.next();
+  }
+  if (!row) throw InputError(path.string() + ": has no rows under its header");
+  set_clock(file, csv, places.front());
+  TimeColumn time(csv, places.front());
+  for (; row; row = csv.next()) {
+    table.lines.push_back(csv.line());
+    table.times.push_back(time.read(start_));
+    for (std::size_t i = 0; i < columns.size(); ++i) table.columns[i].push_back(value(file, csv, places[i + 1]));
+  }
+  if (!time.stamped()) thermal::from_unit(table.times, file.time_unit.empty() ? "s" : file.time_unit);
+  for (double& t : table.times) t += file.clock_offset.value_or(0.0);
+  return table;
+}
+
+std::optional<double> TableReader::time_of_day(double t) const {
+  if (!start_) return std::nullopt;
+  return scenarios::time_of_day(*start_, t - time_at_start_);
+}
+
+}  // namespace thermotwin::scenarios
