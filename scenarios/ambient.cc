@@ -16,7 +16,6 @@ using thermal::InputError;
 namespace dimension = thermal::dimension;
 
 constexpr double day = 86400.0;
-constexpr double coldest_air = 273.15 - 50.0, hottest_air = 273.15 + 80.0;  // K, that a machine tool may stand in
 
 double daily(DailyCycle const& cycle, double time_of_day) {
   return cycle.amplitude * std::cos(2.0 * std::numbers::pi * (time_of_day - cycle.peak_time) / day);

@@ -8,6 +8,9 @@
 
 namespace thermotwin::scenarios {
 
+/// That a machine tool may stand in [K].
+inline constexpr double coldest_air = 273.15 - 50.0, hottest_air = 273.15 + 80.0;
+
 /// A_d cos(2π (t − t_d)/24 h); A_d = 0.5 to 4 K. (physics.md 2.13)
 struct DailyCycle {
   double amplitude = 1.5;          ///< half of peak to peak [K]

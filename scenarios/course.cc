@@ -15,15 +15,52 @@ namespace {
 using thermal::InputError;
 
 constexpr double seconds_per_day = 86400.0;
+constexpr double overshoot = 1.2;   // of a record over what the machine can do
+constexpr double round_off = 1e-9;  // of a limit that is written in another unit
 
-std::vector<DrivenChannel> driven_channels(Experiment const& experiment) {
+/// As the programmes of an experiment are: air that a machine may stand in, no offset that is a point on the scale.
+void check_temperature(DrivenChannel const& driven) {
+  std::string const place = "channel '" + driven.channel.name + "': " + driven.channel.description + " ";
+  if (driven.absolute_temperature && driven.channel.name == "chiller.offset")
+    throw InputError(place + "is in degC; a difference is due, for example \"2 K\"");
+  if (driven.channel.name != "ambient.temperature") return;
+  for (double const value : driven.signal.values())
+    if (!(value >= coldest_air && value <= hottest_air))
+      throw InputError(place + "reaches " + thermal::format_temperature(value) + "; allowed is " +
+                       thermal::format_temperature(coldest_air) + " to " + thermal::format_temperature(hottest_air) +
+                       "; is its unit right?");
+}
+
+/// `most`: times what the machine can do.
+void check_motion(DrivenChannel const& driven, MachineLimits const& machine, double most) {
+  auto const hold = [&](std::string const& channel, double limit, thermal::Dimension dimension) {
+    if (driven.channel.name != channel || limit <= 0.0) return;
+    double const fastest = driven.signal.largest_magnitude();
+    if (fastest > most * limit * (1.0 + round_off))
+      throw InputError("channel '" + channel + "': " + driven.channel.description + " reaches " +
+                       thermal::format_quantity(fastest, dimension) + ", and the machine's maximum is " +
+                       thermal::format_quantity(limit, dimension) + "; is its unit right?");
+  };
+  hold("spindle.speed", machine.max_spindle_speed, thermal::dimension::angular_speed);
+  for (AxisLimits const& axis : machine.axes) hold(axis.name + ".feed", axis.rapid_feed, thermal::dimension::speed);
+}
+
+/// Whether a channel of another dimension is driven is told by ExperimentCourse::replace_or_add.
+DrivenChannel checked(DrivenChannel driven, MachineLimits const& machine, double most) {
+  auto const dimension = thermal::dimension_of(driven.channel.unit);
+  if (dimension == thermal::dimension::temperature_difference)
+    check_temperature(driven);
+  else if (dimension == thermal::dimension::angular_speed || dimension == thermal::dimension::speed)
+    check_motion(driven, machine, most);
+  return driven;
+}
+
+std::vector<DrivenChannel> driven_channels(Experiment const& experiment, MachineLimits const& machine) {
   std::vector<DrivenChannel> driven = experiment.driven;
-  for (InputProgram const& program : experiment.inputs) driven.push_back(driven_channel(program, experiment.duration));
-  for (Recording const& recording : experiment.recorded) {
-    for (DrivenChannel& channel : read_recording(recording, experiment.directory, experiment.duration)) {
-      driven.push_back(std::move(channel));
-    }
-  }
+  for (InputProgram const& program : experiment.inputs)
+    driven.push_back(checked(driven_channel(program, experiment.duration), machine, 1.0));
+  for (DrivenChannel& channel : read_recordings(experiment.recorded, experiment.directory, experiment.duration))
+    driven.push_back(checked(std::move(channel), machine, overshoot));
   for (auto first = driven.begin(); first != driven.end(); ++first) {
     bool const twice = std::any_of(
         first + 1, driven.end(), [&](DrivenChannel const& other) { return other.channel.name == first->channel.name; });
@@ -75,7 +112,7 @@ void follow(Signal const& recorded_feed, AxisLimits const& axis, AxisMotion& mot
 ExperimentCourse::ExperimentCourse(Experiment const& experiment, MachineLimits const& machine) {
   check(experiment);
   check_axes(experiment, machine);
-  driven_ = driven_channels(experiment);
+  driven_ = driven_channels(experiment, machine);
   add_spindle(experiment, machine);
   for (AxisLimits const& axis : machine.axes) add_axis(experiment, axis);
   add_ambient(experiment);
@@ -200,13 +237,24 @@ void ExperimentCourse::sort_jumps() {
   jumps_.erase(std::unique(jumps_.begin(), jumps_.end()), jumps_.end());
 }
 
+/// The time itself, or between jumps that are one: just before the first.
+double ExperimentCourse::instant(double t) const {
+  auto first = std::upper_bound(jumps_.begin(), jumps_.end(), t);
+  if (first == jumps_.end()) return t;
+  while (first != jumps_.begin() && *first - *(first - 1) <= same_jump) --first;
+  return t < *first ? t : std::nextafter(*first, -std::numeric_limits<double>::infinity());
+}
+
 void ExperimentCourse::evaluate(double t, std::span<double> values) const {
-  for (std::size_t i = 0; i < formulas_.size(); ++i) values[i] = formulas_[i](t);
+  double const at = instant(t);
+  for (std::size_t i = 0; i < formulas_.size(); ++i) values[i] = formulas_[i](at);
 }
 
 double ExperimentCourse::next_jump(double t) const {
-  auto const next = std::upper_bound(jumps_.begin(), jumps_.end(), t);
-  return next == jumps_.end() ? std::numeric_limits<double>::infinity() : *next;
+  auto next = std::upper_bound(jumps_.begin(), jumps_.end(), t);
+  if (next == jumps_.end()) return std::numeric_limits<double>::infinity();
+  while (next + 1 != jumps_.end() && *(next + 1) - *next <= same_jump) ++next;
+  return *next;
 }
 
 }  // namespace thermotwin::scenarios

@@ -9,6 +9,9 @@
 
 namespace thermotwin::scenarios {
 
+/// Jumps that are as close as this are one: 4.1 min of one record are not quite the 246 s of another [s].
+constexpr double same_jump = 1e-6;
+
 /// An experiment on a machine as the course of its input channels, in SI.
 ///
 /// | channel | unit | |
@@ -36,6 +39,8 @@ namespace thermotwin::scenarios {
 ///
 /// Recorded columns and input programmes replace a channel of the same name, or add one. A replaced spindle.speed or
 /// <axis>.feed carries along what follows from it.
+///
+/// Of jumps that are one the last counts: until then every channel is as it was just before the first.
 class ExperimentCourse : public thermal::Course {
  public:
   /// Throws InputError that names field, value and what is allowed; for a recording also file, line and column.
@@ -56,6 +61,7 @@ class ExperimentCourse : public thermal::Course {
   void replace_or_add(DrivenChannel const& driven);
   void add_floor_temperature();
   void sort_jumps();
+  [[nodiscard]] double instant(double t) const;
 
   void add(thermal::InputChannel channel, Formula formula);
   void add(thermal::InputChannel channel, Signal const& signal);

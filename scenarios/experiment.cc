@@ -18,9 +18,7 @@ void require_positive(double seconds, std::string const& name) {
 }  // namespace
 
 std::vector<double> sample_times(Experiment const& experiment) {
-  std::vector<double> times;
-  for (int i = 0; i * experiment.sampling <= experiment.duration; ++i) times.push_back(i * experiment.sampling);
-  return times;
+  return times_every(experiment.sampling, experiment.duration);
 }
 
 void check(Experiment const& experiment) {
@@ -40,6 +38,13 @@ void check(Experiment const& experiment) {
         " must be from 0 h to below 24 h");
   }
   check(experiment.ambient);
+}
+
+void check_readings(Experiment const& experiment) {
+  if (experiment.sampling <= experiment.duration) return;
+  throw thermal::InputError("sampling: " + thermal::format_quantity(experiment.sampling, thermal::dimension::time) +
+                            " is longer than the run, " +
+                            thermal::format_quantity(experiment.duration, thermal::dimension::time));
 }
 
 }  // namespace thermotwin::scenarios

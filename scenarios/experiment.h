@@ -71,4 +71,7 @@ std::vector<double> sample_times(Experiment const& experiment);
 /// Throws InputError for a duration, interval or seed that cannot be.
 void check(Experiment const& experiment);
 
+/// Throws InputError for a run that ends before its second reading.
+void check_readings(Experiment const& experiment);
+
 }  // namespace thermotwin::scenarios

@@ -15,6 +15,7 @@ using thermal::InputError;
 namespace dimension = thermal::dimension;
 
 constexpr double most_passes = 1e6;  ///< of a nut that is followed to and fro
+constexpr double rounding = 1e-9;    ///< of a number of pitches or intervals
 
 struct Stroke {
   double from;
@@ -166,19 +167,24 @@ std::vector<double> targets(LaserMeasurement const& laser) {
                      format_quantity(laser.pitch, dimension::length) +
                      "; the pitch must be above 0 and to beyond from");
   }
-  int const pitches = static_cast<int>(std::floor((laser.to - laser.from) / laser.pitch + 1e-9));
+  int const pitches = static_cast<int>(std::floor((laser.to - laser.from) / laser.pitch + rounding));
   std::vector<double> result;
   for (int i = 0; i <= pitches; ++i) result.push_back(laser.from + i * laser.pitch);
   return result;
+}
+
+std::vector<double> times_every(double interval, double duration) {
+  std::vector<double> times;
+  for (int i = 0; i * interval <= duration + rounding * interval; ++i)
+    times.push_back(std::min(i * interval, duration));
+  return times;
 }
 
 std::vector<double> measurement_times(LaserMeasurement const& laser, double duration) {
   if (!(laser.interval > 0.0)) {
     throw InputError("laser.interval: " + format_quantity(laser.interval, dimension::time) + " must be above 0 s");
   }
-  std::vector<double> times;
-  for (int i = 0; i * laser.interval <= duration; ++i) times.push_back(i * laser.interval);
-  return times;
+  return times_every(laser.interval, duration);
 }
 
 AxisMotion axis_motion(FeedProgram const& program, AxisLimits const& axis, double duration) {

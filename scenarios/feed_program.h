@@ -80,6 +80,10 @@ struct LaserMeasurement {
   }
 };
 
+/// 0, interval, 2 interval, … up to the duration [s], which is the last if it is a whole number of intervals but for
+/// rounding.
+std::vector<double> times_every(double interval, double duration);
+
 /// The targets from `from` to `to` [m], and the times of measurement from 0 to `duration` [s].
 std::vector<double> targets(LaserMeasurement const& laser);
 std::vector<double> measurement_times(LaserMeasurement const& laser, double duration);

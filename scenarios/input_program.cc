@@ -24,6 +24,7 @@ DrivenChannel driven_channel(InputProgram const& program, double duration) {
   if (program.blocks.empty()) throw InputError(place + " is empty; write at least one");
   thermal::Dimension const dimension = value_of(program.blocks.front(), place + "[0].").dimension;
   std::vector<Block> blocks;
+  bool absolute_temperature = false;
   for (ValueBlock const& block : program.blocks) {
     std::string const here = place + "[" + std::to_string(blocks.size()) + "].";
     thermal::Quantity const value = value_of(block, here);
@@ -36,9 +37,12 @@ DrivenChannel driven_channel(InputProgram const& program, double duration) {
                        " must be above 0 s");
     }
     blocks.push_back({block.duration, value.value});
+    absolute_temperature = absolute_temperature || value.absolute_temperature;
   }
   double const last = blocks.back().value;
-  return {{program.channel, thermal::unit_of(dimension), "programme"}, schedule(blocks, 1, last, duration)};
+  return {{program.channel, thermal::unit_of(dimension), "programme"},
+          schedule(blocks, 1, last, duration),
+          absolute_temperature};
 }
 
 }  // namespace thermotwin::scenarios

@@ -68,6 +68,21 @@ TEST(ExperimentCourse, NextJumpIsStrictlyAfter) {
   EXPECT_EQ(course.next_jump(14400.0), infinity);
 }
 
+/// The same moment in two records, one in minutes.
+TEST(ExperimentCourse, JumpsThatAreARoundingErrorApartAreOne) {
+  double const early = 4.1 * 60.0, late = 246.0;
+  ASSERT_LT(early, late);
+  Experiment e = experiment(600.0);
+  e.driven = {{{"spindle.speed", "rad/s", ""}, {{0.0, early}, {0.0, 100.0}, Interpolation::step}},
+              {{"coolant.on", "1", ""}, {{0.0, late}, {0.0, 1.0}, Interpolation::step}}};
+  ExperimentCourse const course(e, machine());
+  EXPECT_EQ(jumps(course), (std::vector<double>{late}));
+  for (double const t : {early - 1e-9, early, std::nextafter(late, 0.0), late}) {
+    EXPECT_EQ(at(course, "spindle.speed", t), t == late ? 100.0 : 0.0) << late - t;
+    EXPECT_EQ(at(course, "coolant.on", t), t == late ? 1.0 : 0.0) << late - t;
+  }
+}
+
 TEST(ExperimentCourse, HasTheSpeedOfEachBlockToTheSample) {
   ExperimentCourse const course(spectrum(), machine());
   std::vector<double> const expected_rpm = {1500, 3000, 4500, 6000, 0, 4500, 3000, 6000, 0};
@@ -255,6 +270,52 @@ TEST_F(RecordedCourse, RefusesAnotherDimension) {
   Experiment const e = recorded("time_s,n\n0,0\n60,600\n", {{"n", "spindle.speed", "degC", "step"}}, 60.0);
   EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }),
             "channel 'spindle.speed': recorded: n is in K, the channel in rad/s");
+}
+
+/// 22 degC that were written as 22 K.
+TEST_F(RecordedCourse, RefusesAirThatNoMachineStandsIn) {
+  Experiment const cold = recorded("time_s,air\n0,22\n60,23\n", {{"air", "ambient.temperature", "K", "linear"}}, 60.0);
+  EXPECT_EQ(tests::refusal([&] { ExperimentCourse(cold, machine()); }),
+            "channel 'ambient.temperature': recorded: air reaches 22 K; allowed is -50 degC to 80 degC; is its "
+            "unit right?");
+  Experiment e = experiment(60.0);
+  e.inputs = {{"ambient.temperature", {{60.0, "22 K"}}}};
+  EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }),
+            "channel 'ambient.temperature': programme reaches 22 K; allowed is -50 degC to 80 degC; is its unit "
+            "right?");
+  e.inputs = {{"ambient.temperature", {{60.0, "22 degC"}}}};
+  EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }), "accepted");
+}
+
+TEST_F(RecordedCourse, RefusesMotionThatTheMachineCannotMake) {
+  auto const speed = [&](std::string const& rpm) {
+    Experiment const e = recorded("time_s,n\n0,0\n60,-" + rpm + "\n", {{"n", "spindle.speed", "rpm", "step"}}, 60.0);
+    return tests::refusal([&] { ExperimentCourse(e, machine()); });
+  };
+  EXPECT_EQ(speed("7100"), "accepted");
+  EXPECT_EQ(
+      speed("60000"),
+      "channel 'spindle.speed': recorded: n reaches 60000 rpm, and the machine's maximum is 6000 rpm; is its unit "
+      "right?");
+  Experiment e = experiment(60.0);
+  auto const programme = [&](std::string const& channel, std::string const& value) {
+    e.inputs = {{channel, {{60.0, value}}}};
+    return tests::refusal([&] { ExperimentCourse(e, machine()); });
+  };
+  EXPECT_EQ(programme("spindle.speed", "6000 rpm"), "accepted");
+  EXPECT_TRUE(
+      programme("spindle.speed", "6100 rpm").starts_with("channel 'spindle.speed': programme reaches 6100 rpm"));
+  EXPECT_EQ(programme("z.feed", "24 m/min"), "accepted");
+  EXPECT_TRUE(programme("z.feed", "25 m/min").starts_with("channel 'z.feed': programme reaches "));
+}
+
+TEST(ExperimentCourse, TakesNoPointOnTheScaleForADifference) {
+  Experiment e = experiment(60.0);
+  e.inputs = {{"chiller.offset", {{60.0, "2 degC"}}}};
+  EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }),
+            "channel 'chiller.offset': programme is in degC; a difference is due, for example \"2 K\"");
+  e.inputs = {{"chiller.offset", {{60.0, "2 K"}}}};
+  EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }), "accepted");
 }
 
 TEST_F(RecordedCourse, RefusesTwoDriversOfOneChannel) {

@@ -17,11 +17,32 @@ TEST(SampleTimes, GoFromZeroToTheEnd) {
   EXPECT_EQ(times.back(), 8400.0);
 }
 
+/// 3 · 0.1 is more than 0.3, and 0.7/0.1 less than 7.
+TEST(SampleTimes, ReachTheEndInSpiteOfRounding) {
+  Experiment experiment;
+  experiment.sampling = 0.1;
+  for (int const tenths : {3, 6, 7, 9, 12, 1000}) {
+    experiment.duration = tenths / 10.0;
+    std::vector<double> const times = sample_times(experiment);
+    EXPECT_EQ(times.size(), std::size_t(tenths) + 1) << tenths;
+    EXPECT_EQ(times.back(), experiment.duration);
+  }
+}
+
 TEST(SampleTimes, StopBeforeAnUnfinishedInterval) {
   Experiment experiment;
   experiment.duration = 100.0;
   experiment.sampling = 30.0;
   EXPECT_EQ(sample_times(experiment).back(), 90.0);
+}
+
+TEST(Experiment, IsReadMoreThanOnce) {
+  Experiment experiment;
+  experiment.duration = 60.0;
+  auto const refused = [&] { return tests::refusal([&] { check_readings(experiment); }); };
+  EXPECT_EQ(refused(), "accepted");
+  experiment.sampling = 120.0;
+  EXPECT_EQ(refused(), "sampling: 2 min is longer than the run, 1 min");
 }
 
 TEST(Experiment, RefusesTimesThatCannotBe) {

@@ -168,6 +168,16 @@ TEST(LaserMeasurement, HasThirteenTargetsEvery15Minutes) {
   EXPECT_EQ(times.back(), 240 * 60.0);
 }
 
+TEST(LaserMeasurement, IsMadeAtTheEndInSpiteOfRounding) {
+  LaserMeasurement laser;
+  laser.interval = 0.1;
+  for (int const tenths : {3, 6, 7}) {
+    std::vector<double> const times = measurement_times(laser, tenths / 10.0);
+    EXPECT_EQ(times.size(), std::size_t(tenths) + 1) << tenths;
+    EXPECT_EQ(times.back(), tenths / 10.0);
+  }
+}
+
 TEST(LaserMeasurement, RefusesWhatCannotBe) {
   LaserMeasurement laser;
   laser.pitch = 0.0;

@@ -156,6 +156,27 @@ TEST(MeasuredRun, DeadSensorsAndGapsBecomeRemarks) {
   EXPECT_TRUE(std::isnan(run.channels[4].values[7]));
 }
 
+/// The rows of two tables lie between one another, and a frozen sensor has readings in one of them.
+TEST(MeasuredRun, ASensorThatStopsIsDeadWhereOtherTablesHaveRowsToo) {
+  MeasuredData data;
+  data.time = Eigen::VectorXd::LinSpaced(361, 0.0, 3 * 3600.0);
+  Eigen::VectorXd const rising = 22.0 + data.time.array() / 3600.0;
+  Eigen::VectorXd frozen = rising.cwiseMin(24.0), late = frozen, alive = rising;
+  for (Eigen::Index r = 0; r < data.time.size(); ++r) {
+    if (r % 2 == 0) frozen[r] = std::nan("");
+    if (r % 2 == 0 || r > 260) late[r] = std::nan("");  // 10 rows stand still, too few
+    if (r % 2 == 1) alive[r] = std::nan("");
+  }
+  data.readings = {{"T1", "degC", "", frozen}, {"T2", "degC", "", alive}, {"T3", "degC", "", late}};
+  data.inputs = {{"spindle.speed", "rad/s", {0.0}, {0.0}}, {"ambient.temperature", "K", {0.0}, {293.0}}};
+  auto const run = measured_run(std::move(data), machine(), "two tables");
+  EXPECT_THAT(run.remarks, Contains("'T1' is dead from 2.01 h on: it moves no more"));
+  EXPECT_TRUE(run.channels[0].values.tail(361 - 241).array().isNaN().all());
+  EXPECT_TRUE(std::isfinite(run.channels[0].values[239]));
+  EXPECT_THAT(run.remarks, testing::Not(Contains(HasSubstr("'T2' is dead"))));
+  EXPECT_THAT(run.remarks, testing::Not(Contains(HasSubstr("'T3' is dead"))));
+}
+
 /// Value of a course's channel there [SI].
 double value_at(thermal::Course const& course, std::string const& name, double time) {
   auto const& channels = course.channels();
@@ -187,6 +208,27 @@ TEST(MeasuredRun, WhatMayHaveBeenGivenInAGapIsTheOtherExtremeInEachHalf) {
       EXPECT_EQ(value_at(*course, "machine.on", t), 1.0);
     }
   }
+}
+
+/// A speed in one table and its share in another: the screw turned as fast as recorded, for a share that nobody knows.
+TEST(MeasuredRun, OfAnAxisOnlyWhatWasNotRecordedMayHaveBeenOtherwise) {
+  auto dataset = simulated();
+  keep_inputs(dataset, {"spindle.speed", "ambient.temperature", "z.feed", "z.duty"});
+  channel(dataset.inputs, "z.duty").values.segment(35, 20).setConstant(std::nan(""));
+  auto const run = measured_run(dataset, machine(), "gap");
+  ASSERT_EQ(run.alternatives.size(), 2U);
+  EXPECT_EQ(run.alternatives[0].name, "z.duty from 0.57 h to 0.92 h, first half");
+  EXPECT_EQ(run.alternatives[1].name, "z.duty from 0.57 h to 0.92 h, second half");
+  EXPECT_THAT(run.remarks, Contains(HasSubstr("not recorded from 0.57 h to 0.92 h: z.duty, z.speed, which a fit")));
+  for (std::size_t half : {0U, 1U})
+    for (double const minute : {33.0, 40.0, 50.0, 57.0}) {
+      auto const& course = *run.alternatives[half].course;
+      bool const other = minute == (half == 0 ? 40.0 : 50.0);
+      EXPECT_NEAR(value_at(course, "z.feed", 60.0 * minute), 0.1, 1e-9) << minute;
+      EXPECT_EQ(value_at(course, "z.duty", 60.0 * minute), other ? 0.0 : 1.0) << minute;
+      EXPECT_EQ(value_at(course, "z.speed", 60.0 * minute) == 0.0, other) << minute;
+    }
+  EXPECT_EQ(run.time.size(), dataset.time_s.size() - 35);
 }
 
 TEST(MeasuredRun, ALoggerThatWasOffBecomesOneRemarkOnInputsAndOneOnReadings) {
@@ -227,6 +269,48 @@ TEST(MeasuredRun, WhatIsRecordedWhereItChangesHasNoGap) {
   auto const run = measured_run(std::move(data), machine(), "programme");
   EXPECT_TRUE(run.alternatives.empty());
   EXPECT_THAT(run.remarks, testing::Not(Contains(HasSubstr("not recorded"))));
+}
+
+/// Two hours at constant inputs, and a clock.
+MeasuredRun with_clock(std::vector<double> times, std::vector<double> clock) {
+  MeasuredData data;
+  data.time = Eigen::VectorXd::LinSpaced(121, 0.0, 2 * 3600.0);
+  data.readings = {{"T1", "degC", "", 22.0 + data.time.array() / 3600.0}};
+  data.inputs = {{"spindle.speed", "rad/s", {0.0}, {100.0}},
+                 {"ambient.temperature", "K", {0.0}, {293.0}},
+                 {"time_of_day", "s", std::move(times), std::move(clock)}};
+  return measured_run(std::move(data), machine(), "clock");
+}
+
+TEST(MeasuredRun, StartsWhenItsClockSays) {
+  constexpr double h = 3600.0;
+  auto const start = [](MeasuredRun const& run) { return value_at(*run.course, "time_of_day", 0.0) / 3600.0; };
+  EXPECT_DOUBLE_EQ(start(with_clock({0.0, h, 2 * h}, {10 * h, 11 * h, 12 * h})), 10.0);
+  EXPECT_DOUBLE_EQ(start(with_clock({-6 * h, 0.0, 2 * h}, {8 * h, 14 * h, 16 * h})), 14.0);      // recorded from before
+  EXPECT_DOUBLE_EQ(start(with_clock({-6 * h, 0.0, 2 * h}, {22 * h, 4 * h, 6 * h})), 4.0);        // past midnight
+  EXPECT_DOUBLE_EQ(start(with_clock({0.0, h, 2 * h}, {std::nan(""), 0.5 * h, 1.5 * h})), 23.5);  // an empty cell
+  EXPECT_DOUBLE_EQ(start(with_clock({0.0, h}, {std::nan(""), std::nan("")})), 8.0);  // the experiment's default
+}
+
+/// Their tables have other units of time.
+TEST(MeasuredRun, ChangesOfTwoInputsARoundingErrorApartAreOne) {
+  MeasuredData data;
+  data.time = Eigen::VectorXd::LinSpaced(101, 0.0, 600.0);
+  data.readings = {{"T1", "degC", "", 22.0 + data.time.array() / 3600.0}};
+  data.inputs = {
+      {"spindle.speed", "rad/s", {}, {}}, {"coolant.on", "1", {}, {}}, {"ambient.temperature", "K", {0.0}, {293.0}}};
+  for (int i = 0; i <= 100; ++i) {
+    data.inputs[0].times.push_back(i / 10.0 * 60.0);
+    data.inputs[0].values.push_back(i < 41 ? 0.0 : 100.0);
+    data.inputs[1].times.push_back(6.0 * i);
+    data.inputs[1].values.push_back(i < 41 ? 0.0 : 1.0);
+  }
+  ASSERT_LT(data.inputs[0].times[41], data.inputs[1].times[41]);
+  auto const run = measured_run(std::move(data), machine(), "two tables");
+  ASSERT_EQ(run.changes.size(), 1U);
+  EXPECT_EQ(run.changes[0].time, 246.0);
+  EXPECT_EQ(run.changes[0].size, 2.0);
+  EXPECT_EQ(run.course->next_jump(0.0), 246.0);
 }
 
 TEST(MeasuredRun, MissingInputsAreNamed) {
@@ -361,11 +445,72 @@ TEST_F(MeasurementFileTest, TellsWhatIsWrongAndWhere) {
               HasSubstr("needs inputs that the data lack: heater2.duty"));
 }
 
+/// Replaces the first of a text's pieces.
+std::string with(std::string text, std::string const& from, std::string const& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_F(MeasurementFileTest, ReadsWhatLoggersWrite) {
+  write_tables();
+  auto const plain = read(whole);
+  std::string duties = "controller 4711\nt\th1\th2\n\t%\t%\n";
+  for (int i = 0; i <= 60; ++i)
+    duties += fmt::format("2025-11-24T07:{:02}:{:02}\t{}\t0,0\n", i / 6, 10 * (i % 6), i < 30 ? "70,0" : "0,0");
+  put(folder / "duty.csv", duties);
+  std::string table = "minute;a, left;b;note\r\n";
+  for (int i = 0; i < 40; ++i)
+    table += fmt::format("24.11.2025 07:{:02}:{:02},0;{},{};-{},{};door, shut\r\n", (15 * i) / 60, (15 * i) % 60,
+                         i == 7 ? 0 : 20 + i / 10, i == 7 ? 0 : i % 10, 293 + i / 5, 2 * (i % 5));
+  put(folder / "readings.csv", table);
+  auto text =
+      with(whole, "time_unit = \"min\"\nclock_offset = \"6 s\"\n", "clock_offset = \"12 s\"\nmissing = [\"0,0\"]\n");
+  text = with(with(text, "column = \"a\"", "column = \"a, left\""), "unit = \"degC\"", "unit = \"°C\"");
+  text = with(text, "time_column = \"t\"", "time_column = \"t\"\nheader_line = 2");
+  auto const run = read(text);
+  EXPECT_TRUE(run.time.isApprox(plain.time, 1e-12));
+  for (std::size_t c = 0; c < 2; ++c)
+    for (Eigen::Index row = 0; row < run.time.size(); ++row) {
+      double const value = run.channels[c].values[row], due = plain.channels[c].values[row];
+      EXPECT_TRUE(std::abs(value - due) < 1e-9 || (std::isnan(value) && std::isnan(due))) << c << " " << row;
+    }
+  EXPECT_EQ(run.course->next_jump(0.0), plain.course->next_jump(0.0));
+  EXPECT_THAT(run.remarks, Contains(HasSubstr("duty.csv:3: skipped as a row of units: '', '%'")));
+  EXPECT_DOUBLE_EQ(value_at(*run.course, "time_of_day", 0.0), 7 * 3600.0 + 30.0);
+  EXPECT_DOUBLE_EQ(value_at(*plain.course, "time_of_day", 0.0), 8 * 3600.0);
+}
+
+TEST_F(MeasurementFileTest, ARecordedClockGoesBeforeTimeStamps) {
+  std::string table = "t;clock;h1;h2;a\n";
+  for (int i = 0; i < 40; ++i) table += fmt::format("24.11.2025 07:{:02};{};70;0;{},5\n", i, 36000 + 60 * i, 20 + i);
+  put(folder / "all.csv", table);
+  std::string const text =
+      "[[constant]]\nchannel = \"ambient.temperature\"\nvalue = \"20 degC\"\n[[table]]\nfile = \"all.csv\"\n"
+      "time_column = \"t\"\ninput = [{column = \"h1\", channel = \"heater1.duty\", unit = \"%\"}, "
+      "{column = \"h2\", channel = \"heater2.duty\", unit = \"%\"}, "
+      "{column = \"clock\", channel = \"time_of_day\", unit = \"s\"}]\n"
+      "reading = [{column = \"a\", sensor = \"T1\", unit = \"degC\"}]\n";
+  EXPECT_DOUBLE_EQ(value_at(*read(text).course, "time_of_day", 0.0), 10 * 3600.0);
+  EXPECT_DOUBLE_EQ(
+      value_at(*read(with(text, "channel = \"time_of_day\"", "channel = \"other\"")).course, "time_of_day", 0.0),
+      7 * 3600.0);
+}
+
+TEST_F(MeasurementFileTest, SaysThatTimeStampsHaveNoUnit) {
+  write_tables();
+  put(folder / "readings.csv", "minute;a;b\n24.11.2025 07:00;20;-293\n");
+  EXPECT_THAT(
+      refusal([&] { (void)read(whole); }),
+      HasSubstr("column 'minute': '24.11.2025 07:00' is a time stamp, which has no unit; leave `time_unit`, 'min'"));
+  EXPECT_THAT(
+      refusal([&] { (void)read(with(with(whole, "time_unit = \"min\"\n", ""), "clock_offset = \"6 s\"\n", "")); }),
+      HasSubstr("run.toml:25:15: " + (folder / "readings.csv").string() + ":2:1: column 'minute': its times are"));
+}
+
 TEST_F(MeasurementFileTest, TimeMayNotRunBackwards) {
   write_tables();
   put(folder / "duty.csv", "t,h1,h2\n0,1,1\n20,1,1\n10,1,1\n");
   EXPECT_THAT(refusal([&] { (void)read(whole); }),
-              HasSubstr("duty.csv:4: column 't': 10 follows 20; time must increase"));
+              HasSubstr("duty.csv:4:1: column 't': '10' after '20': time must increase"));
 }
 
 class ShippedMeasurement : public testing::TestWithParam<std::pair<char const*, char const*>> {};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scenarios/course.h"
+
 namespace thermotwin::twin {
 namespace {
 
@@ -26,11 +28,18 @@ double next_jump(MeasuredRun const& run, double t) {
   return next;
 }
 
+/// The next jump, or the run's end; of jumps that are one the last. No stretch is as short as they are apart.
+double end_of_stretch(MeasuredRun const& run, double from, double end) {
+  double to = std::min(next_jump(run, from + scenarios::same_jump), end);
+  for (double next = next_jump(run, to); next - to <= scenarios::same_jump; next = next_jump(run, to)) to = next;
+  return to < end - scenarios::same_jump ? to : end;
+}
+
 std::vector<Stretch> rows_of(MeasuredRun const& run, double interval) {
   std::vector<Stretch> rows;
   double const end = run.time[run.time.size() - 1];
   for (double from = run.time[0]; from < end;) {
-    double const to = std::min(next_jump(run, from), end);
+    double const to = end_of_stretch(run, from, end);
     int const count = std::max(1, int(std::ceil((to - from) / interval - 1e-9)));
     for (int i = 0; i < count; ++i)
       rows.push_back({from + (to - from) * i / count, from + (to - from) * (i + 1) / count, i == 0});
@@ -42,13 +51,14 @@ std::vector<Stretch> rows_of(MeasuredRun const& run, double interval) {
 void add_steps(BinnedRun& binned, Stretch const& row, int index, double first_step) {
   double const length = row.end - row.begin;
   double step = row.after_jump ? std::min(first_step, length) : length;
-  for (double at = row.begin; at < row.end - 1e-6;) {
+  double at = row.begin;
+  do {  // at least one
     double const left = row.end - at;
     double const taken = left < 1.5 * step ? left : step;
     binned.steps.push_back({.begin = at, .end = at + taken, .row = index});
     at += taken;
     step *= 2.0;
-  }
+  } while (at < row.end - 1e-6);
 }
 
 void add_sample(BinStep& step, double t) {

@@ -11,19 +11,27 @@ namespace {
 constexpr double least_jump = 0.5;  // [K]
 constexpr double driven = 180.0;    // after a change of the inputs a light body may warm as fast [s]
 constexpr std::size_t level = 8;    // samples on each side whose mean is where a reading stands
+constexpr double unbroken = 1.9;    // usual intervals between neighbouring samples, at most: none is missing
 
 /// A change from one sample to the next.
 struct Change {
   double time, before, by;
 };
 
-/// Those between neighbouring samples; across a gap anything may happen.
+/// Those between neighbouring samples of a channel, whatever rows of others are between; across a gap anything may
+/// happen.
 std::vector<Change> changes_of(Eigen::VectorXd const& time, Eigen::VectorXd const& values) {
-  double const usual = usual_interval({time.data(), std::size_t(time.size())});
+  std::vector<double> times, samples;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    times.push_back(time[i]);
+    samples.push_back(values[i]);
+  }
+  double const usual = usual_interval(times);
   std::vector<Change> changes;
-  for (Eigen::Index i = 1; i < values.size(); ++i)
-    if (double const by = values[i] - values[i - 1]; !std::isnan(by) && time[i] - time[i - 1] < 2.0 * usual)
-      changes.push_back({time[i], values[i - 1], by});
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    if (times[i] - times[i - 1] < unbroken * usual)
+      changes.push_back({times[i], samples[i - 1], samples[i] - samples[i - 1]});
   return changes;
 }
 

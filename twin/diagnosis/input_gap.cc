@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <iterator>
 
 #include "scenarios/course.h"
 #include "thermal/error.h"
@@ -33,7 +34,19 @@ std::string owner_of(DrivenChannel const& driven) {
   return driven.channel.name.substr(0, driven.channel.name.find('.'));
 }
 
-/// In a part of a gap the channels of one owner have their other extreme.
+bool has(std::vector<RecordGap> const& gaps, RecordGap const& gap) {
+  return std::find(gaps.begin(), gaps.end(), gap) != gaps.end();
+}
+
+std::vector<RecordGap> distinct(std::vector<std::vector<RecordGap>> const& gaps) {
+  std::vector<RecordGap> all;
+  for (auto const& of_input : gaps)
+    for (auto const& gap : of_input)
+      if (!has(all, gap)) all.push_back(gap);
+  return all;
+}
+
+/// In a part of a gap the channels of one owner that have it are at their other extreme.
 Experiment otherwise(Experiment experiment, std::vector<std::size_t> const& channels, RecordGap const& part) {
   bool const slow = std::all_of(channels.begin(), channels.end(), [&](std::size_t k) {
     auto const& signal = experiment.driven[k].signal;
@@ -84,17 +97,22 @@ void add_alternatives(MeasuredRun& run, std::vector<std::vector<RecordGap>> cons
   for (std::size_t first = 0; first < driven.size(); ++first) {
     if (done[first] || !is_switched(driven[first])) continue;
     std::vector<std::size_t> together;
+    std::vector<std::vector<RecordGap>> theirs;
     for (std::size_t k = first; k < driven.size(); ++k)
       if (owner_of(driven[k]) == owner_of(driven[first]) && is_switched(driven[k])) {
         together.push_back(k);
+        theirs.push_back(gaps[k]);
         done[k] = true;
       }
-    for (auto const& gap : gaps[first]) {
+    for (auto const& gap : distinct(theirs)) {
+      std::vector<std::size_t> missing;
+      std::copy_if(together.begin(), together.end(), std::back_inserter(missing),
+                   [&](std::size_t k) { return has(gaps[k], gap); });
       double const middle = 0.5 * (gap.from + gap.to);
       for (auto const& [half, from, to] : {std::tuple{"first", gap.from, middle}, {"second", middle, gap.to}})
         run.alternatives.push_back(
-            {fmt::format("{} {}, {} half", driven[first].channel.name, words_of(gap), half),
-             std::make_shared<scenarios::ExperimentCourse const>(otherwise(experiment, together, {from, to}), limits)});
+            {fmt::format("{} {}, {} half", driven[missing.front()].channel.name, words_of(gap), half),
+             std::make_shared<scenarios::ExperimentCourse const>(otherwise(experiment, missing, {from, to}), limits)});
       leave_out_rows(run, gap.from, gap.to + settling);
     }
   }
@@ -102,14 +120,10 @@ void add_alternatives(MeasuredRun& run, std::vector<std::vector<RecordGap>> cons
 
 void remark_gaps(std::vector<std::vector<RecordGap>> const& gaps, Experiment const& experiment,
                  std::vector<std::string>& remarks) {
-  std::vector<RecordGap> all;
-  for (auto const& of_input : gaps)
-    for (auto const& gap : of_input)
-      if (std::find(all.begin(), all.end(), gap) == all.end()) all.push_back(gap);
-  for (auto const& gap : all) {
+  for (auto const& gap : distinct(gaps)) {
     std::vector<std::string> estimated, others;
     for (std::size_t k = 0; k < gaps.size(); ++k)
-      if (std::find(gaps[k].begin(), gaps[k].end(), gap) != gaps[k].end())
+      if (has(gaps[k], gap))
         (is_switched(experiment.driven[k]) ? estimated : others).push_back(experiment.driven[k].channel.name);
     std::string remark = fmt::format("not recorded {}: ", words_of(gap));
     if (!estimated.empty())

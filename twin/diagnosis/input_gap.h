@@ -16,7 +16,8 @@ namespace thermotwin::twin {
 /// Adds what the machine may have been given instead in those gaps of its inputs, in the order of `experiment.driven`.
 /// In each half of a gap, what stood still or was below half of its largest value in the record goes there, and what
 /// was above rests. Only speeds, feeds, and shares and switches that change at all: what is held between rows; those of
-/// one spindle or axis go together. A temperature, which goes straight across a gap, has none.
+/// one spindle or axis that have the same gap go together, and one that was recorded in it stays as it was. A
+/// temperature, which goes straight across a gap, has none.
 ///
 /// Rows within such a gap and for a quarter of an hour after it are left out: what they show depends on when within
 /// its half the input changed.

@@ -82,8 +82,18 @@ bool moves(Eigen::VectorXd const& values) {
   return false;
 }
 
+/// Rows in which a channel was read; those of other tables are between them.
+std::vector<Eigen::Index> rows_read(Eigen::VectorXd const& values) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index r = 0; r < values.size(); ++r)
+    if (std::isfinite(values[r])) rows.push_back(r);
+  return rows;
+}
+
 /// Row from which on a channel repeats one value, though before it did so seldom; the number of rows if it never does.
-Eigen::Index stops_moving(Eigen::VectorXd const& values) {
+Eigen::Index stops_moving(Eigen::VectorXd const& all) {
+  auto const read = rows_read(all);
+  Eigen::VectorXd const values = all(read);
   Eigen::Index const rows = values.size();
   Eigen::Index from = rows - 1;
   while (from > 0 && values[from - 1] == values[rows - 1]) --from;
@@ -91,7 +101,7 @@ Eigen::Index stops_moving(Eigen::VectorXd const& values) {
   for (Eigen::Index r = 1; r < from; ++r) repeats += values[r] == values[r - 1] ? 1 : 0;
   bool const long_enough =
       rows - from >= fewest_rows_of_standstill && double(rows - from) >= least_share_of_standstill * double(rows);
-  return long_enough && 2 * repeats < from ? from : rows;
+  return long_enough && 2 * repeats < from ? read[std::size_t(from)] : all.size();
 }
 
 void bury_dead(std::vector<MeasuredChannel>& channels, Eigen::VectorXd const& time, std::vector<std::string>& remarks) {

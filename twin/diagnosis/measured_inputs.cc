@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <iterator>
 #include <numbers>
+#include <optional>
 
 #include "scenarios/course.h"
 #include "thermal/error.h"
@@ -145,14 +146,34 @@ void remark_suppositions(MeasuredData const& data, Machine const& machine, std::
   if (!said.empty()) remarks.push_back(fmt::format("not in the data, and supposed: {}", fmt::join(said, "; ")));
 }
 
+/// Of the recorded clock [s]: rows may begin before the run, and the first may be empty.
+std::optional<double> start_time_of_day(SampledInput const& clock) {
+  constexpr double day = 86400.0;
+  for (std::size_t i = 0; i < clock.values.size(); ++i) {
+    if (!std::isfinite(clock.values[i])) continue;
+    double const start = std::fmod(clock.values[i] - clock.times[i], day);
+    double const positive = start < 0.0 ? start + day : start;
+    return positive < day ? positive : 0.0;
+  }
+  return std::nullopt;
+}
+
+/// A change is where the course jumps: jumps that are one are one change.
+void move_to_jumps(std::vector<InputChange>& changes, thermal::Course const& course) {
+  for (auto& change : changes) {
+    double const jump = course.next_jump(std::nextafter(change.time, -INFINITY));
+    if (jump - change.time <= scenarios::same_jump) change.time = jump;
+  }
+}
+
 }  // namespace
 
 void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
   scenarios::Experiment experiment;
   experiment.duration = data.time[data.time.size() - 1];
+  experiment.start_time_of_day = data.start_time_of_day.value_or(experiment.start_time_of_day);
   if (SampledInput const* clock = find(data.inputs, "time_of_day"))
-    if (!clock->values.empty() && clock->values.front() >= 0.0 && clock->values.front() < 86400.0)
-      experiment.start_time_of_day = clock->values.front();
+    experiment.start_time_of_day = start_time_of_day(*clock).value_or(experiment.start_time_of_day);
   std::erase_if(data.inputs, [](SampledInput const& input) { return !recorded(input); });
   for (auto const& axis : machine.limits.axes) complete_axis(data.inputs, axis);
   check_needs(data, machine);
@@ -169,9 +190,10 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
                           [&](RecordGap const& gap) { return gap.to == change.time; });
     });
   }
-  run.changes = merged(std::move(run.changes));
   remark_gaps(gaps, experiment, run.remarks);
   run.course = std::make_shared<scenarios::ExperimentCourse const>(experiment, machine.limits);
+  move_to_jumps(run.changes, *run.course);
+  run.changes = merged(std::move(run.changes));
   add_alternatives(run, gaps, experiment, machine.limits);
 }
 

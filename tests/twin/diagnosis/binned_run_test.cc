@@ -128,6 +128,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"jumps_between_samples", 7200.0, 60.0, 300.0, {1830.0, 5000.0}},
                     Case{"jumps_at_samples", 7200.0, 60.0, 300.0, {1800.0, 5040.0}},
                     Case{"jumps_closer_than_samples", 7200.0, 60.0, 600.0, {1801.0, 1815.0, 1850.0, 1900.0}},
+                    Case{"jumps_a_rounding_error_apart", 7200.0, 60.0, 300.0, {4.1 * 60.0, 246.0, 5000.0}},
+                    Case{"jump_at_the_end_but_for_rounding", 7200.0, 60.0, 300.0, {1800.0, 7200.0 - 1e-12}},
                     Case{"one_row", 600.0, 10.0, 3600.0, {}}, Case{"one_sample_a_row", 3600.0, 60.0, 60.0, {130.0}},
                     Case{"uneven_end", 7013.0, 7.0, 300.0, {3333.0}}),
     [](auto const& info) { return std::string(info.param.name); });
@@ -169,6 +171,16 @@ TEST(BinnedRun, RowsBetweenTwoSamplesHaveNoData) {
       found = true;
     }
   EXPECT_TRUE(found);
+}
+
+/// A table in minutes may begin to move a rounding error after the run.
+TEST(BinnedRun, JumpAtTheStartButForRoundingMakesNoRow) {
+  auto const run = run_of(1800.0, 60.0, {1e-13}, line);
+  auto const binned = bin(run, 300.0);
+  ASSERT_EQ(binned.time.size(), 6);
+  EXPECT_EQ(binned.steps.front().begin, 0.0);
+  for (auto const& step : binned.steps) EXPECT_GT(step.length(), 1.0);
+  EXPECT_TRUE(predicted(binned, line).isApprox(binned.values.col(0), 1e-12));
 }
 
 TEST(BinnedRun, FittingIntervalKeepsTheNumberOfRows) {

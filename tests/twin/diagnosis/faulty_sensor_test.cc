@@ -110,6 +110,29 @@ TEST(FaultySensor, IsNoneWhereNobodyLookedForAnHour) {
   EXPECT_FALSE(found({{"T1", false, warming()}, {"T2", false, with_step(-1.0)}}, 60.0));
 }
 
+/// Each channel from a table of its own: in the rows of one the other has no reading.
+std::optional<FaultySensor> found_in_two_tables(VectorXd const& first, VectorXd const& second) {
+  double const none = std::numeric_limits<double>::quiet_NaN();
+  Eigen::Index const rows = 2 * first.size();
+  VectorXd const own = VectorXd::NullaryExpr(rows, [&](Eigen::Index i) { return i % 2 == 0 ? first[i / 2] : none; });
+  VectorXd const other = VectorXd::NullaryExpr(rows, [&](Eigen::Index i) { return i % 2 == 0 ? none : second[i / 2]; });
+  return found({{"T1", false, own}, {"T2", false, other}});
+}
+
+TEST(FaultySensor, IsFoundWhereOtherTablesHaveRowsBetweenItsOwn) {
+  auto const sensor = found_in_two_tables(warming(), with_leaps(warming(), 3));
+  ASSERT_TRUE(sensor);
+  EXPECT_EQ(sensor->name, "T2");
+  EXPECT_FALSE(found_in_two_tables(warming(), warming()));
+}
+
+/// As in one table: across a missing sample anything may happen.
+TEST(FaultySensor, IsNoneAcrossAMissingSampleWhereOtherTablesHaveRowsBetweenItsOwn) {
+  VectorXd leaps = with_leaps(warming(), 3);
+  for (int k = 0; k < 3; ++k) leaps[100 + 50 * k] = leaps[120 + 50 * k] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(found_in_two_tables(warming(), leaps));
+}
+
 TEST(FaultySensor, IsOneThatShowsNothing) {
   VectorXd const nothing = VectorXd::Constant(480, std::numeric_limits<double>::quiet_NaN());
   auto const sensor = found({{"T1", false, nothing}, {"T2", false, warming()}});

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <memory>
 #include <set>
 
+#include "scenarios/course.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 
 namespace thermotwin::twin {
@@ -77,6 +79,32 @@ TEST(FreeHeat, JumpsWithAnInput) {
   while (before + 2 < best.knots[0].size() && best.knots[0][before] < 4000.0 - 60.0) ++before;
   EXPECT_NEAR(best.knots[0][before], 4000.0, 60.0);  // recorded once a minute
   EXPECT_NEAR(best.knots[0][before + 1] - best.knots[0][before], 60.0, 1e-9);
+  EXPECT_GT(best.heat[0][before + 1] - best.heat[0][before], 30.0);
+}
+
+/// And so where (t + 60 s) - t is a little more than 60 s.
+TEST(FreeHeat, JumpsWithAnInputWhateverIsRoundedOff) {
+  constexpr double jump = 4080.1;
+  ASSERT_GT((jump + 60.0) - jump, 60.0);
+  auto experiment = tests::two_speeds();
+  experiment.inputs.push_back({"hidden.on", {{jump, "0 %"}, {experiment.duration - jump, "100 %"}}});
+  auto run = tests::measured(tests::with_table(v450(), R"(
+    [[heat]]
+    name = "hidden"
+    at = "column_rear"
+    power = "60 W"
+    while_on = "hidden.on")"),
+                             experiment);
+  run.course = std::make_shared<scenarios::ExperimentCourse const>(experiment, Machine::build(v450()).limits);
+  run.changes.clear();
+  tests::add_noise(run, kelvin, metres, 3);
+  std::vector<BinnedRun> const data = {bin(run, 300.0)};
+  Estimation const estimation(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+  auto const best = scan_for_free_heat(estimation, estimation.fit(estimation.prior_mean())).front();
+  EXPECT_EQ(best.site.body, "column_rear");
+  auto const& knots = best.knots[0];
+  auto const before = std::find(knots.begin(), knots.end(), jump) - knots.begin();
+  ASSERT_LT(before + 1, knots.size());
   EXPECT_GT(best.heat[0][before + 1] - best.heat[0][before], 30.0);
 }
 
