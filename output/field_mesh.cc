@@ -103,20 +103,13 @@ Eigen::Matrix3d inverse_where_possible(Eigen::Matrix3d const& symmetric) {
   return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
 }
 
-Eigen::Index count_nodes(thermal::Geometry const& geometry) {
-  Eigen::Index count = 0;
-  for (auto const& body : geometry)
-    count = std::max(count, body.first_node + static_cast<Eigen::Index>(body.cells.size()));
-  return count;
-}
-
 }  // namespace
 
 FieldMesh::FieldMesh(thermal::Geometry const& geometry)
     : points_(3, 0),
-      node_volumes_(Eigen::VectorXd::Zero(count_nodes(geometry))),
-      node_centres_(Eigen::Matrix3Xd::Zero(3, count_nodes(geometry))),
-      neighbours_(static_cast<std::size_t>(count_nodes(geometry))) {
+      node_volumes_(Eigen::VectorXd::Zero(thermal::count_nodes(geometry))),
+      node_centres_(Eigen::Matrix3Xd::Zero(3, thermal::count_nodes(geometry))),
+      neighbours_(static_cast<std::size_t>(thermal::count_nodes(geometry))) {
   for (auto const& body : geometry) {
     add_body(body, static_cast<int>(body_names_.size()));
     body_names_.push_back(body.name);

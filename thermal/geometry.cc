@@ -1,6 +1,7 @@
 #include "thermal/geometry.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -24,5 +25,11 @@ struct Volume {
 
 Eigen::Vector3d centre(Cell const& cell) { return std::visit(Centre{}, cell); }
 double volume(Cell const& cell) { return std::visit(Volume{}, cell); }
+
+int count_nodes(Geometry const& geometry) {
+  int count = 0;
+  for (auto const& body : geometry) count = std::max(count, body.first_node + static_cast<int>(body.cells.size()));
+  return count;
+}
 
 }  // namespace thermotwin::thermal

@@ -38,4 +38,7 @@ struct BodyGeometry {
 
 using Geometry = std::vector<BodyGeometry>;
 
+/// One past the last node with a cell.
+[[nodiscard]] int count_nodes(Geometry const& geometry);
+
 }  // namespace thermotwin::thermal

@@ -94,6 +94,21 @@ TEST(Comparison, PageAndJsonSayTheSame) {
   EXPECT_THAT(comparison_table(comparison), HasSubstr(fmt::format("{:>8.3g}", channel.whole.before)));
 }
 
+/// Every number stands under "before" or "after", and those of a regime beside an arrow, which is no comparison.
+TEST(Comparison, PageHeadsWhatIsBeforeAndAfter) {
+  auto const right = without_lag(worse()), wrong = without_lag(nominal());
+  auto const comparison = compare(wrong, right, {measured(right)});
+  auto const text = comparison_table(comparison);
+  EXPECT_THAT(text, HasSubstr("\n                              error, RMS   offset taken off              idle         "
+                              "5000 rpm\n"
+                              "  channel                before    after    before    after    before → after   "
+                              "before → after\n"
+                              "  T1                 K "));
+  auto const& part = comparison.runs[0].channels[0].parts[1];
+  EXPECT_THAT(text, HasSubstr(fmt::format(" {:.3g} → {:.3g}\n", part.before, part.after)));
+  EXPECT_THAT(text, Not(HasSubstr(" > ")));
+}
+
 /// The user has added a sensor; the machine that came before has none of that name.
 TEST(Comparison, IsOfTheChannelsThatBothMachinesHave) {
   thermotwin::tests::TemporaryDirectory const folder;

@@ -121,10 +121,17 @@ double CalibratedNumber::estimate() const { return number.value(logarithm); }
 double CalibratedNumber::standard_error() const { return std::abs(number.slope(logarithm)) * deviation; }
 double CalibratedNumber::departure() const { return std::abs(logarithm) / number.deviation; }
 
-bool Calibration::falls_short() const {
-  auto const sum = whole(gaps);
-  return misfit > more_than_noise || sum.after > sum.before ||
-         std::any_of(numbers.begin(), numbers.end(), [](auto const& n) { return n.departure() > far_from_file; });
+std::vector<std::string> Calibration::shortcomings() const {
+  std::vector<std::string> reasons, far;
+  if (misfit > more_than_noise) reasons.push_back(fmt::format("the misfit is above {:g}", more_than_noise));
+  for (auto const& n : numbers)
+    if (n.departure() > far_from_file) far.push_back(fmt::format("{} by {:.1f}", n.number.path, n.departure()));
+  if (!far.empty())
+    reasons.push_back(
+        fmt::format("from the file by more than {:g} prior deviations: {}", far_from_file, fmt::join(far, ", ")));
+  if (auto const sum = whole(gaps); sum.after > sum.before)
+    reasons.push_back("the calibrated file is further from the data than yours");
+  return reasons;
 }
 
 Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) {

@@ -53,9 +53,11 @@ struct Calibration {
   std::vector<Doubt> doubts;     ///< of calibrate_files
   std::vector<std::string> remarks;
 
-  /// Residuals are larger than noise, a number had to leave the file by more than three prior standard deviations, or
-  /// what would be written leaves more than the machine did: something is missing.
-  [[nodiscard]] bool falls_short() const;
+  /// Why something is missing, for people: residuals are larger than noise, numbers had to leave the file by more than
+  /// three prior standard deviations, or what would be written leaves more than the machine did. Empty: numbers alone
+  /// may explain the data.
+  [[nodiscard]] std::vector<std::string> shortcomings() const;
+  [[nodiscard]] bool falls_short() const { return !shortcomings().empty(); }
 };
 
 /// `machine`: its document. InputError when it has no uncertain number, or cannot be run on the data.

@@ -20,8 +20,6 @@ std::string verdict_of(CalibratedNumber const& number) {
   return text + fmt::format("; {:.0f} prior deviations from the file", number.departure());
 }
 
-double si_to_people(CalibratedInstrument const& instrument) { return instrument.unit.starts_with("u") ? 1e6 : 1.0; }
-
 Json json_of(CalibratedNumber const& number) {
   return {{"path", number.number.path},
           {"unit", thermal::unit_of(number.number.dimension)},
@@ -36,19 +34,21 @@ Json json_of(CalibratedNumber const& number) {
 }
 
 Json json_of(CalibratedInstrument const& instrument) {
-  double const scale = si_to_people(instrument);
-  return {{"name", instrument.unknown.name},          {"unit", instrument.unit},
-          {"prior", scale * instrument.unknown.mean}, {"prior_deviation", scale * instrument.unknown.deviation},
-          {"estimate", scale * instrument.estimate},  {"standard_error", scale * instrument.standard_error}};
+  auto const& unit = instrument.unit;
+  return {{"name", instrument.unknown.name},
+          {"unit", unit},
+          {"prior", in_unit(unit, instrument.unknown.mean)},
+          {"prior_deviation", in_unit(unit, instrument.unknown.deviation)},
+          {"estimate", in_unit(unit, instrument.estimate)},
+          {"standard_error", in_unit(unit, instrument.standard_error)}};
 }
 
 Json json_of(ChannelGap const& gap) {
-  double const scale = gap.displacement ? 1e6 : 1.0;
   return {{"run", gap.run},
           {"channel", gap.channel},
           {"unit", gap.unit},
-          {"before", scale * gap.before},
-          {"after", scale * gap.after}};
+          {"before", in_unit(gap.unit, gap.before)},
+          {"after", in_unit(gap.unit, gap.after)}};
 }
 
 template <class Items>
@@ -78,9 +78,9 @@ std::string number_table(Calibration const& calibration) {
 std::string instrument_table(Calibration const& calibration) {
   std::string text = fmt::format("{:<42} {:>14} {:>14}\n", "instrument or run", "estimate", "std. error");
   for (auto const& instrument : calibration.instruments) {
-    double const scale = si_to_people(instrument);
-    text += fmt::format("{:<42} {:>11.3f} {:<4} {:>11.3f} {}\n", instrument.unknown.name, scale * instrument.estimate,
-                        instrument.unit, scale * instrument.standard_error, instrument.unit);
+    auto const& unit = instrument.unit;
+    text += fmt::format("{:<42} {:>11.3f} {:<4} {:>11.3f} {}\n", instrument.unknown.name,
+                        in_unit(unit, instrument.estimate), unit, in_unit(unit, instrument.standard_error), unit);
   }
   return text;
 }
@@ -96,21 +96,18 @@ std::string collinearity_text(Calibration const& calibration) {
 }
 
 std::string advice(Calibration const& calibration) {
-  auto const sum = whole(calibration.gaps);
-  if (sum.after > sum.before)
-    return "the calibrated file is further from the data than yours: ask `diagnose` what is missing";
-  return calibration.falls_short() ? "numbers alone do not explain the data: ask `diagnose` what is missing"
-                                   : "whether an effect is missing, `diagnose` tells";
+  auto const reasons = calibration.shortcomings();
+  if (reasons.empty()) return "whether an effect is missing, `diagnose` tells";
+  return fmt::format("numbers alone do not explain the data ({}): ask `diagnose` what is missing",
+                     fmt::join(reasons, "; "));
 }
 
 std::string gap_table(Calibration const& calibration) {
   std::string text =
       fmt::format("{:<20} {:<12} {:>10} {:>10}    error of the twin, RMS\n", "run", "channel", "before", "after");
-  for (auto const& gap : calibration.gaps) {
-    double const scale = gap.displacement ? 1e6 : 1.0;
-    text += fmt::format("{:<20} {:<12} {:>10.3f} {:>10.3f} {}\n", gap.run, gap.channel, scale * gap.before,
-                        scale * gap.after, gap.unit);
-  }
+  for (auto const& gap : calibration.gaps)
+    text += fmt::format("{:<20} {:<12} {:>10.3f} {:>10.3f} {}\n", gap.run, gap.channel, in_unit(gap.unit, gap.before),
+                        in_unit(gap.unit, gap.after), gap.unit);
   auto const sum = whole(calibration.gaps);
   text += fmt::format("all channels, in units of 0.1 K and 1 um: {:.2f} before, {:.2f} after\n", sum.before, sum.after);
   return text;
@@ -137,6 +134,7 @@ std::string calibration_json(Calibration const& calibration) {
                      {"weakest_direction", calibration.weakest},
                      {"misfit", calibration.misfit},
                      {"falls_short", calibration.falls_short()},
+                     {"shortcomings", calibration.shortcomings()},
                      {"converged", calibration.converged},
                      {"gap", {{"before", sum.before}, {"after", sum.after}}},
                      {"gaps", list_of(calibration.gaps)},

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
 #include "twin/diagnosis/measured_run.h"
 #include "twin/machine.h"
 
@@ -7,6 +11,12 @@ namespace thermotwin::twin {
 
 /// A channel of the data in a machine, and what lies between that machine and the channel's number: what the file
 /// states of the instrument, and what parts add to it (Machine::reading_terms).
+///
+///   A sensor:        x = T_b − χ (T_b − T_a)
+///   A displacement:  x = Σ wᵢ (Tᵢ − Tᵢ(0)) + Σ c (u^p − u(0)^p) + c_a (T_a − T_a(0))
+///   Shown:           y + b₀ + b₁ t,  τ dy/dt = x − y
+///
+/// with lag τ (of sensors), share of the air χ, offset b₀ and drift b₁; T_a the air at the sensor, or near the tool.
 struct ChannelReading {
   Sensor const* sensor = nullptr;
   Displacement const* displacement = nullptr;  ///< neither: the machine does not have it
@@ -15,8 +25,23 @@ struct ChannelReading {
   double offset = 0.0;                         ///< [K]
   double drift = 0.0;                          ///< [K/s, m/s]
   double per_air = 0.0;                        ///< [m/K]
+  double height = 0.0;                         ///< of the air that it meets [m]
+  /// Where the run's course has what it follows (channel_index).
+  int floor_temperature = -1, gradient = -1;
+  std::vector<int> term_channels;  ///< of the displacement's input terms
+
+  /// x, from Σ wᵢ Tᵢ of a sensor's nodes or Σ wᵢ (Tᵢ − Tᵢ(0)) of a displacement's, with the values of the course's
+  /// channels then and at the start.
+  [[nodiscard]] double before_lag(double of_nodes, std::vector<double> const& inputs,
+                                  std::vector<double> const& at_start) const;
+  /// From y at these times [s].
+  [[nodiscard]] Eigen::VectorXd shown(Eigen::VectorXd const& behind_lag, Eigen::VectorXd const& time) const;
 };
 
-[[nodiscard]] ChannelReading reading_of(Machine const& machine, MeasuredChannel const& channel);
+/// Of every channel of the run.
+[[nodiscard]] std::vector<ChannelReading> readings_of(Machine const& machine, MeasuredRun const& run);
+
+/// Place among the course's channels; −1: it does not have one of that name.
+[[nodiscard]] int channel_index(thermal::Course const& course, std::string const& name);
 
 }  // namespace thermotwin::twin

@@ -8,14 +8,16 @@ namespace thermotwin::twin {
 namespace {
 
 std::string pair(GapPair const& gap) {
-  return gap.samples == 0 ? "-" : fmt::format("{:.3g} > {:.3g}", gap.before, gap.after);
+  return gap.samples == 0 ? "-" : fmt::format("{:.3g} → {:.3g}", gap.before, gap.after);
 }
 
 std::string run_table(ComparedRun const& run) {
   std::string text = fmt::format("\n{}\n", run.name);
   for (auto const& remark : run.remarks) text += fmt::format("  note: {}\n", remark);
-  text += fmt::format("\n  {:<14} {:>5} {:>8} {:>8}  {:>17} ", "channel", "", "before", "after", "offset taken off");
+  text += fmt::format("\n  {:<20} {:>17}  {:>17} ", "", "error, RMS", "offset taken off");
   for (auto const& regime : run.regimes) text += fmt::format(" {:>16}", regime);
+  text += fmt::format("\n  {:<20} {:>8} {:>8}  {:>8} {:>8} ", "channel", "before", "after", "before", "after");
+  for (std::size_t i = 0; i < run.regimes.size(); ++i) text += fmt::format(" {:>16}", "before → after");
   text += "\n";
   for (auto const& channel : run.channels) {
     if (channel.whole.samples == 0) continue;

@@ -52,23 +52,26 @@ Json json_of(Finding const& finding, std::size_t group) {
           {"strength", finding.strength}};
 }
 
-Json json_of(FreeHeat const& heat) {
+/// Over the time of all runs [W].
+double mean_of(FreeHeat const& heat) {
   double sum = 0.0, time = 0.0;
   for (std::size_t r = 0; r < heat.mean.size(); ++r) {
     double const span = heat.knots[r][heat.knots[r].size() - 1] - heat.knots[r][0];
     sum += heat.mean[r] * span;
     time += span;
   }
+  return sum / time;
+}
+
+Json json_of(FreeHeat const& heat) {
   Json runs = Json::array();
   for (std::size_t r = 0; r < heat.mean.size(); ++r)
     runs.push_back(
         {{"time_s", std::vector<double>(heat.knots[r].begin(), heat.knots[r].end())},
          {"watts", std::vector<double>(heat.heat[r].begin(), heat.heat[r].end())},
          {"standard_error", std::vector<double>(heat.standard_error[r].begin(), heat.standard_error[r].end())}});
-  return {{"body", heat.site.body}, {"watts", sum / time}, {"gain", heat.gain}, {"runs", runs}};
+  return {{"body", heat.site.body}, {"watts", mean_of(heat)}, {"gain", heat.gain}, {"runs", runs}};
 }
-
-double in_unit(std::string const& unit, double si) { return unit == "K" ? si : 1e6 * si; }
 
 Json json_of(std::vector<ChannelGap> const& gaps) {
   Json list = Json::array();
@@ -138,9 +141,10 @@ std::string words_of(std::vector<Disagreement> const& cells) {
 /// What the effects gain at the tool, or at a sensor if no displacement was measured.
 std::string words_of_gain(Diagnosis const& diagnosis, std::vector<ChannelGap> const& gaps, std::string const& data) {
   auto const worth = [](ChannelGap const& gap) { return std::pair(gap.unit == "um", gap.before); };
-  auto const most =
-      std::max_element(gaps.begin(), gaps.end(), [&](auto const& a, auto const& b) { return worth(a) < worth(b); });
-  if (diagnosis.explanations.empty() || most == gaps.end()) return "";
+  ChannelGap const* most = nullptr;
+  for (auto const& gap : gaps)
+    if (!std::isnan(gap.before) && (!most || worth(*most) < worth(gap))) most = &gap;  // a dead channel has none
+  if (diagnosis.explanations.empty() || !most) return "";
   return fmt::format(
       "With {}, the error of the twin at {} on {} data {} from {:.3g} to {:.3g} {} RMS; calibration alone leaves "
       "{:.3g}.\n\n",
@@ -198,10 +202,10 @@ std::string words_of_heat(Diagnosis const& diagnosis) {
   if (!diagnosis.unknown_heat) return "";
   auto const& all = *diagnosis.unknown_heat;
   std::string text =
-      fmt::format("Were it one heat of free course: {:.1f} W on average into {}.\n", all.mean[0], all.site.body);
+      fmt::format("Were it one heat of free course: {:.1f} W on average into {}.\n", mean_of(all), all.site.body);
   if (!diagnosis.left.empty())
     text += fmt::format("Beside what stands in for it, still: {:.1f} W on average into {}.\n",
-                        diagnosis.left[0].mean[0], diagnosis.left[0].site.body);
+                        mean_of(diagnosis.left[0]), diagnosis.left[0].site.body);
   return text + "\n";
 }
 
@@ -213,28 +217,24 @@ std::string loud_channels(Diagnosis const& diagnosis) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string headline(Diagnosis const& diagnosis) {
-  switch (diagnosis.verdict) {
+}  // namespace
+
+std::string headline(Diagnosis::Verdict verdict, std::size_t things, bool disagrees) {
+  switch (verdict) {
     case Diagnosis::Verdict::nothing:
-      return std::none_of(diagnosis.disagreement.begin(), diagnosis.disagreement.end(),
-                          [](Disagreement const& cell) { return cell.significant; })
-                 ? "Nothing is missing: the machine explains these data to within their noise."
-                 : "No effect is evident, though the machine leaves more than noise in parts of the data.";
+      return disagrees ? "No effect is evident, though the machine leaves more than noise in parts of the data."
+                       : "Nothing is missing: the machine explains these data to within their noise.";
     case Diagnosis::Verdict::none_known:
-      return diagnosis.explanations.empty()
-                 ? "Something is missing that none of the effects tried explains."
-                 : "Something is missing that none of the effects tried explains. What stands in for it:";
+      return things == 0 ? "Something is missing that none of the effects tried explains."
+                         : "Something is missing that none of the effects tried explains. What stands in for it:";
     case Diagnosis::Verdict::sensor:
       return "An instrument is at fault, not the machine.";
     case Diagnosis::Verdict::effect:
     case Diagnosis::Verdict::either:
       break;
   }
-  return fmt::format("Missing: {} effect{}.", diagnosis.explanations.size(),
-                     diagnosis.explanations.size() == 1 ? "" : "s");
+  return fmt::format("Missing: {} effect{}.", things, things == 1 ? "" : "s");
 }
-
-}  // namespace
 
 std::string report_json(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
@@ -281,7 +281,10 @@ std::string report_json(DiagnosisReport const& report) {
 
 std::string report_text(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
-  std::string text = doubt_lines(report.doubts) + "\n" + headline(diagnosis) + "\n\n";
+  bool const disagrees = std::any_of(diagnosis.disagreement.begin(), diagnosis.disagreement.end(),
+                                     [](Disagreement const& cell) { return cell.significant; });
+  std::string text = doubt_lines(report.doubts) + "\n" +
+                     headline(diagnosis.verdict, diagnosis.explanations.size(), disagrees) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
   if (diagnosis.verdict == Diagnosis::Verdict::nothing)
     text += fmt::format(

@@ -11,12 +11,13 @@ namespace thermotwin::twin {
 /// (physics.md §7 no. 27); of several that seem to, the clearest.
 ///
 /// Within a day a drift is less than what a model gets wrong while the machine is warm, and more than what it gets
-/// wrong at rest. So the sensors' slow noise is taken to be σ₂ = 0.02 K and 0.5 % of the way that a reading has gone
-/// from where it began (ChannelNoise::way_share), instead of 2 % of its range throughout, times as much as was heard.
-/// With that noise the numbers are fitted again, and every drift among `hypotheses` has its score T = b²/a. The largest
-/// must reach 15, amid the 12 to 20 that physics.md 8.6 expects with correlated errors. Where more than two reach it,
-/// it is no sensor: a room that swings pulls at all of them. Nor is it where an effect of the machine explains more:
-/// slow heat that is too little to be named looks like a drift of the sensor next to it.
+/// wrong at rest. So the sensors' slow noise is taken to be that of the air around them and half of the heard share
+/// (ChannelNoise::slow_share) of the way that a reading has gone from where it began (way_share), instead of that share
+/// of its range throughout. With that noise the numbers are fitted again, and every drift among `hypotheses` has its
+/// score T = b²/a. The largest must reach a threshold amid the 12 to 20 that physics.md 8.6 expects with correlated
+/// errors. Where more than two reach it, it is no sensor: a room that swings pulls at all of them. Nor is it where an
+/// effect of the machine explains more: slow heat that is too little to be named looks like a drift of the sensor next
+/// to it.
 [[nodiscard]] std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit const& calibrated,
                                                           std::vector<Hypothesis> const& hypotheses);
 

@@ -22,7 +22,6 @@ constexpr int to_the_end = 50;
 constexpr std::size_t most_refits = 24;
 constexpr std::size_t most_alternatives = 3;
 constexpr double most_too_large = 2.0;  // a rough file is no reason to name nothing
-constexpr double confusable = 0.6;      // cosine of two signatures (physics.md 8.6)
 // What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
 constexpr double hopeful_score = 0.3, hopeful_refit = 0.5;
 
@@ -158,7 +157,7 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   std::vector<Refit> result = {
       {own, fit_.x[own_place], std::sqrt(fit_.covariance(own_place, own_place)), fit_.x, strength}};
   for (std::size_t const k : promising(scores, tried, 0.0, INFINITY)) {
-    if (tried[k].label() == own.label() || std::abs(alike[Eigen::Index(k)]) < confusable) continue;
+    if (tried[k].label() == own.label() || std::abs(alike[Eigen::Index(k)]) < confusable_cosine) continue;
     Refit refit{tried[k], scores[k].amplitude, 1.0 / std::sqrt(scores[k].information), fit_.x,
                 strength + evidence_of(scores[k], tried[k]) - own_evidence};
     refit.x[own_place] = refit.amplitude;
@@ -211,7 +210,7 @@ bool EffectSearch::add_effect(int round) {
   auto const scores = score(fit_, whitened_signatures(), hypotheses_);
   if (round == 1)
     visible_ = std::size_t(std::count_if(scores.begin(), scores.end(), [](Score const& score) {
-      return 0.5 * std::sqrt(score.information) > wanted_distance;
+      return usual_amplitude * std::sqrt(score.information) > wanted_distance;
     }));
   auto const first = refits(fit_, most_promising(scores, threshold), scores);
   if (first.empty() || first[0].strength < hopeful_refit * threshold) return false;

@@ -32,6 +32,8 @@ std::string unit_of(MeasuredChannel const& channel, Machine const& machine) {
   return rotation ? "urad" : "um";
 }
 
+double in_unit(std::string const& unit, double si) { return unit.starts_with('u') ? 1e6 * si : si; }
+
 std::vector<ChannelGap> gaps(Machine const& before, Machine const& after, std::vector<BinnedRun> const& runs,
                              Machine const* calibrated) {
   std::vector<ChannelGap> result;

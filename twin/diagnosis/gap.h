@@ -30,6 +30,8 @@ struct ChannelGap {
 
 /// In which people read a channel's gap: K, um, urad.
 [[nodiscard]] std::string unit_of(MeasuredChannel const& channel, Machine const& machine);
+/// What they read then; of any unit that is SI or a millionth of it.
+[[nodiscard]] double in_unit(std::string const& unit, double si);
 
 /// All channels in one number: RMS over channels of each RMS over 0.1 K or 1 µm.
 struct WholeGap {

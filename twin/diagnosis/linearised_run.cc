@@ -15,81 +15,7 @@ namespace {
 constexpr double gamma = 1.0 - 0.70710678118654752440;
 constexpr double steepest = 3.0;  // slope at an end of a step, of the straight line's
 
-double value_of(std::vector<double> const& course, int channel) {
-  return channel < 0 ? 0.0 : course[std::size_t(channel)];
-}
-
-int channel_index(thermal::Course const& course, std::string const& name) {
-  auto const& channels = course.channels();
-  for (std::size_t i = 0; i < channels.size(); ++i)
-    if (channels[i].name == name) return int(i);
-  return -1;
-}
-
 }  // namespace
-
-/// A channel of the data in a machine, as it is read along a course.
-class LinearisedRun::View : public ChannelReading {
- public:
-  View(Machine const& machine, MeasuredRun const& run, MeasuredChannel const& channel);
-  static std::vector<View> of(Machine const& machine, MeasuredRun const& run) {
-    std::vector<View> views;
-    for (auto const& channel : run.channels) views.emplace_back(machine, run, channel);
-    return views;
-  }
-  /// Before its lag.
-  [[nodiscard]] Piece along(LinearisedRun const& run, std::size_t step) const;
-
- private:
-  [[nodiscard]] double shown(LinearisedRun const& run, End const& end, double of_nodes) const;
-  [[nodiscard]] double air(End const& end, double height) const;
-
-  double height_ = 0.0;
-  int floor_ = -1, gradient_ = -1;
-  std::vector<int> term_channels_;
-};
-
-LinearisedRun::View::View(Machine const& machine, MeasuredRun const& run, MeasuredChannel const& channel)
-    : ChannelReading(reading_of(machine, channel)),
-      floor_(channel_index(*run.course, "ambient.floor_temperature")),
-      gradient_(channel_index(*run.course, "ambient.gradient")) {
-  if (sensor) height_ = sensor->position.dot(machine.up);
-  if (displacement)
-    for (auto const& term : displacement->input_terms)
-      term_channels_.push_back(channel_index(*run.course, term.channel));
-}
-
-double LinearisedRun::View::air(End const& end, double height) const {
-  return value_of(end.course, floor_) + height * value_of(end.course, gradient_);
-}
-
-double LinearisedRun::View::shown(LinearisedRun const& run, End const& end, double of_nodes) const {
-  auto const& start = run.begins_.front();
-  double value = offset + drift * end.time;
-  if (sensor) {
-    double const body = sensor->weights.empty() ? air(end, height_) : of_nodes;
-    return value + body - (air_share == 0.0 ? 0.0 : air_share * (body - air(end, height_)));
-  }
-  if (!displacement) return value;
-  value += of_nodes;
-  for (std::size_t t = 0; t < term_channels_.size(); ++t) {
-    auto const& term = displacement->input_terms[t];
-    value += term.coefficient * (std::pow(value_of(end.course, term_channels_[t]), term.power) -
-                                 std::pow(value_of(start.course, term_channels_[t]), term.power));
-  }
-  return per_air == 0.0 ? value : value + per_air * (air(end, 0.0) - air(start, 0.0));
-}
-
-LinearisedRun::Piece LinearisedRun::View::along(LinearisedRun const& run, std::size_t step) const {
-  Piece piece;
-  if (sensor) piece = run.along(sensor->weights, step);
-  if (displacement) piece = run.since_start(displacement->weights, step);
-  piece.bend_from *= 1.0 - air_share;
-  piece.bend_to *= 1.0 - air_share;
-  piece.from = shown(run, run.begins_[step], piece.from);
-  piece.to = shown(run, run.ends_[step], piece.to);
-  return piece;
-}
 
 LinearisedRun::LinearisedRun(Machine const& machine, BinnedRun const& data) : machine_(&machine), data_(&data) {
   trace();
@@ -178,6 +104,19 @@ LinearisedRun::Piece LinearisedRun::since_start(NodeWeights const& weights, std:
   return piece;
 }
 
+/// Of a channel in a machine of the same nodes.
+LinearisedRun::Piece LinearisedRun::before_lag(ChannelReading const& channel, std::size_t step) const {
+  Piece piece;
+  if (channel.sensor) piece = along(channel.sensor->weights, step);
+  if (channel.displacement) piece = since_start(channel.displacement->weights, step);
+  piece.bend_from *= 1.0 - channel.air_share;
+  piece.bend_to *= 1.0 - channel.air_share;
+  auto const& at_start = begins_.front().course;
+  piece.from = channel.before_lag(piece.from, begins_[step].course, at_start);
+  piece.to = channel.before_lag(piece.to, ends_[step].course, at_start);
+  return piece;
+}
+
 /// x − τx' + τ²x'' − τ³x''' of the cubic, from what the channel shows at the begin.
 LinearisedRun::Lagged LinearisedRun::lagged(double shown, Piece const& piece, double lag, double length) {
   double const slope = (piece.to - piece.from) / length;
@@ -218,33 +157,36 @@ Eigen::VectorXd LinearisedRun::rows_of(std::function<Piece(std::size_t step)> co
 }
 
 Eigen::MatrixXd LinearisedRun::prediction_of(Machine const& other) const {
-  auto const views = View::of(other, *data_->run);
-  Eigen::MatrixXd rows(data_->time.size(), Eigen::Index(views.size()));
-  for (std::size_t c = 0; c < views.size(); ++c)
-    rows.col(Eigen::Index(c)) = rows_of([&](std::size_t step) { return views[c].along(*this, step); }, views[c].lag);
+  auto const readings = readings_of(other, *data_->run);
+  Eigen::MatrixXd rows(data_->time.size(), Eigen::Index(readings.size()));
+  for (std::size_t c = 0; c < readings.size(); ++c) {
+    auto const& reading = readings[c];
+    auto const behind_lag = rows_of([&](std::size_t step) { return before_lag(reading, step); }, reading.lag);
+    rows.col(Eigen::Index(c)) = reading.shown(behind_lag, data_->time);
+  }
   return rows;
 }
 
 Eigen::MatrixXd LinearisedRun::growth(std::vector<NodeWeights> const& displacements) const {
-  auto const views = View::of(*machine_, *data_->run);
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(data_->time.size(), Eigen::Index(views.size()));
-  for (std::size_t c = 0; c < views.size(); ++c) {
-    if (!views[c].displacement) continue;
-    auto const& weights = displacements[std::size_t(views[c].displacement - machine_->displacements.data())];
+  auto const readings = readings_of(*machine_, *data_->run);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(data_->time.size(), Eigen::Index(readings.size()));
+  for (std::size_t c = 0; c < readings.size(); ++c) {
+    if (!readings[c].displacement) continue;
+    auto const& weights = displacements[std::size_t(readings[c].displacement - machine_->displacements.data())];
     rows.col(Eigen::Index(c)) = rows_of([&](std::size_t step) { return since_start(weights, step); }, 0.0);
   }
   return rows;
 }
 
 Eigen::MatrixXd LinearisedRun::weights() const {
-  auto const views = View::of(*machine_, *data_->run);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Eigen::Index(views.size()), machine_->network().nodes());
-  for (std::size_t c = 0; c < views.size(); ++c) {
-    if (views[c].sensor)
-      for (auto const& [node, weight] : views[c].sensor->weights)
-        result(Eigen::Index(c), node) += (1.0 - views[c].air_share) * weight;
-    if (views[c].displacement)
-      for (auto const& [node, weight] : views[c].displacement->weights) result(Eigen::Index(c), node) += weight;
+  auto const readings = readings_of(*machine_, *data_->run);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Eigen::Index(readings.size()), machine_->network().nodes());
+  for (std::size_t c = 0; c < readings.size(); ++c) {
+    if (readings[c].sensor)
+      for (auto const& [node, weight] : readings[c].sensor->weights)
+        result(Eigen::Index(c), node) += (1.0 - readings[c].air_share) * weight;
+    if (readings[c].displacement)
+      for (auto const& [node, weight] : readings[c].displacement->weights) result(Eigen::Index(c), node) += weight;
   }
   return result;
 }
@@ -269,7 +211,7 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
   auto const m = initial.cols();
   auto const& steps = data_->steps;
   auto const rows = data_->time.size();
-  auto const views = View::of(*machine_, *data_->run);
+  auto const readings = readings_of(*machine_, *data_->run);
   Eigen::MatrixXd const H = weights();
   thermal::Evaluation evaluation(network);
   thermal::NewtonSystem system(network, thermal::LinearSolver::sparse_direct);
@@ -300,8 +242,8 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
       throw thermal::IntegrationError("the equations linearised along the run have no solution");
     to.noalias() = H * S;
     for (Eigen::Index c = 0; c < H.rows(); ++c) {
-      double const lag = views[std::size_t(c)].lag;
-      bool const relative = views[std::size_t(c)].displacement != nullptr;
+      double const lag = readings[std::size_t(c)].lag;
+      bool const relative = readings[std::size_t(c)].displacement != nullptr;
       auto target = result.row(c * rows + steps[s].row);
       target += steps[s].at_begin * (lag > 0.0 ? shown.row(c) : from.row(c));
       if (lag > 0.0) {

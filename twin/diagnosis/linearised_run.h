@@ -12,6 +12,8 @@
 
 namespace thermotwin::twin {
 
+struct ChannelReading;
+
 /// The twin along a measured run, and the tangent-linear system about that course (physics.md 8.3):
 ///
 ///   ds/dt = A(t) s + ∂f/∂θ,   δz = H s,   A = ∂f/∂y,
@@ -69,7 +71,6 @@ class LinearisedRun {
   struct Piece {
     double from = 0.0, to = 0.0, bend_from = 0.0, bend_to = 0.0;
   };
-  class View;
   void trace();
   void bend(thermal::Evaluation& evaluation, End& begin, End& end) const;
   /// By which s jumps where a step begins.
@@ -85,6 +86,7 @@ class LinearisedRun {
   [[nodiscard]] double temperature(int node, End const& at) const;
   [[nodiscard]] Piece along(NodeWeights const& weights, std::size_t step) const;
   [[nodiscard]] Piece since_start(NodeWeights const& weights, std::size_t step) const;
+  [[nodiscard]] Piece before_lag(ChannelReading const& channel, std::size_t step) const;
   [[nodiscard]] Eigen::VectorXd rows_of(std::function<Piece(std::size_t step)> const& pieces, double lag) const;
   [[nodiscard]] Eigen::MatrixXd weights() const;
 

@@ -13,8 +13,6 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double usual_amplitude = 0.5;  // of the largest plausible
-
 /// The clearest shape of each effect at each site.
 std::vector<Plan::Effect> clearest(std::vector<Hypothesis> const& all, Eigen::MatrixXd const& products,
                                    Eigen::VectorXd const& whole, std::vector<Eigen::Index>& columns) {

@@ -85,7 +85,7 @@ std::string plan_json(Plan const& plan) {
   for (auto const& effect : plan.effects)
     json["effects"].push_back({{"effect", effect.hypothesis.effect->name},
                                {"site", effect.hypothesis.site},
-                               {"amplitude", 0.5 * effect.hypothesis.largest},
+                               {"amplitude", usual_amplitude * effect.hypothesis.largest},
                                {"seen", effect.seen},
                                {"kept", effect.kept}});
   json["ambiguities"] = Json::array();

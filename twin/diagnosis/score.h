@@ -28,8 +28,7 @@ struct Score {
 [[nodiscard]] std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures,
                                        std::vector<Hypothesis> const& hypotheses);
 
-/// Cosine between what is left of one signature and of each other (physics.md 8.9): beyond 0.6 they are taken for each
-/// other.
+/// Cosine between what is left of one signature and of each other (physics.md 8.9).
 [[nodiscard]] Eigen::VectorXd cosines(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen::Index of);
 
 /// 2 ln of the evidence for an effect from its score alone, at the most probable ψ that is plausible: T less what the

@@ -9,6 +9,10 @@ namespace thermotwin::twin {
 
 /// By which an effect counts as seen, and two as told apart, in units of the noise (physics.md 8.9).
 inline constexpr double wanted_distance = 6.0;
+/// At which it should be seen, of its largest plausible amplitude.
+inline constexpr double usual_amplitude = 0.5;
+/// Cosine of two signatures beyond which they are taken for each other (physics.md 8.9).
+inline constexpr double confusable_cosine = 0.6;
 
 /// Which of an estimation's blocks of rows are used: some of its runs, some of its channels.
 struct Blocks {

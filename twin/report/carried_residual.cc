@@ -1,23 +1,13 @@
 #include "twin/report/carried_residual.h"
 
 #include <Eigen/QR>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace thermotwin::twin {
-namespace {
-
-int count_nodes(thermal::Geometry const& geometry) {
-  int count = 0;
-  for (auto const& body : geometry) count = std::max(count, body.first_node + int(body.cells.size()));
-  return count;
-}
-
-}  // namespace
 
 ResidualCarrier::ResidualCarrier(thermal::Geometry const& geometry, std::vector<NodeWeights> const& sensors)
-    : body_(Eigen::VectorXi::Constant(count_nodes(geometry), -1)), n_bodies_(int(geometry.size())) {
+    : body_(Eigen::VectorXi::Constant(thermal::count_nodes(geometry), -1)), n_bodies_(int(geometry.size())) {
   auto const count = Eigen::Index(sensors.size());
   variogram_ = Eigen::MatrixXd::Zero(body_.size(), count);
   weights_ = Eigen::MatrixXd::Zero(count, body_.size());

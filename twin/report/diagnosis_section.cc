@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "thermal/error.h"
+#include "twin/diagnosis/diagnosis_report.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/effect.h"
 
@@ -58,16 +59,26 @@ std::string missing_things(Json const& effects) {
   return fmt::format("{}", fmt::join(things, "; and "));
 }
 
+bool disagrees(Json const& diagnosis) {
+  if (!diagnosis.contains("disagreement")) return false;
+  auto const& cells = diagnosis["disagreement"]["before"];
+  return std::any_of(cells.begin(), cells.end(), [](Json const& cell) { return cell["significant"].get<bool>(); });
+}
+
 std::string sentence(Json const& diagnosis) {
+  using Verdict = Diagnosis::Verdict;
   auto const verdict = diagnosis["verdict"].get<std::string>();
-  if (verdict == "nothing") return "Nothing is missing: the machine explains these data to within their noise.";
+  auto const& effects = diagnosis["effects"];
+  if (verdict == "nothing") return headline(Verdict::nothing, 0, disagrees(diagnosis));
   if (verdict == "sensor" && diagnosis.contains("sensor"))
     return fmt::format("The sensor {} is at fault, not the machine.", diagnosis["sensor"]["name"].get<std::string>());
   if (verdict == "none_known" && diagnosis.contains("heat"))
     return fmt::format("Heat of {:.1f} W on average into {} is missing, and none of the effects tried explains it.",
                        diagnosis["heat"]["watts"].get<double>(), diagnosis["heat"]["body"].get<std::string>());
-  if (diagnosis["effects"].empty()) return "Something is missing that none of the effects tried explains.";
-  return fmt::format("The machine file lacks {}.", missing_things(diagnosis["effects"]));
+  if (effects.empty()) return headline(Verdict::none_known, 0, true);
+  if (verdict == "none_known")
+    return fmt::format("{} {}.", headline(Verdict::none_known, effects.size(), true), missing_things(effects));
+  return fmt::format("The machine file lacks {}.", missing_things(effects));
 }
 
 }  // namespace

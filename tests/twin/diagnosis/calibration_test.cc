@@ -18,7 +18,9 @@ namespace thermotwin::twin {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::StartsWith;
 using thermotwin::tests::contents;
 using thermotwin::tests::refusal;
@@ -111,7 +113,24 @@ TEST_F(CalibrationTest, SaysWhereNumbersAloneDoNotDo) {
   EXPECT_TRUE(short_of.falls_short());
   EXPECT_THAT(calibration_table(short_of), HasSubstr("prior deviations from the file"));
   EXPECT_THAT(calibration_table(short_of), HasSubstr("ask `diagnose` what is missing"));
-  EXPECT_TRUE(nlohmann::json::parse(calibration_json(short_of)).at("falls_short").get<bool>());
+  auto const json = nlohmann::json::parse(calibration_json(short_of));
+  EXPECT_TRUE(json.at("falls_short").get<bool>());
+  std::string const reason = json.at("shortcomings").at(0);
+  EXPECT_THAT(reason, StartsWith("from the file by more than 3 prior deviations: "));
+  EXPECT_THAT(reason, HasSubstr("rotation.A.segment.0.growth_factor by "));
+  EXPECT_THAT(calibration_table(short_of), HasSubstr("numbers alone do not explain the data (" + reason));
+}
+
+TEST_F(CalibrationTest, TellsWhatFallsShortBesideTheMisfit) {
+  EXPECT_THAT(calibration.shortcomings(), IsEmpty());
+  Calibration worse = calibration;
+  for (auto& gap : worse.gaps) std::swap(gap.before, gap.after);
+  EXPECT_THAT(worse.shortcomings(), ElementsAre("the calibrated file is further from the data than yours"));
+  worse.misfit = 2.5;
+  EXPECT_THAT(calibration_table(worse),
+              HasSubstr("misfit: 2.50 of what the expected noise makes; numbers alone do not explain the data (the "
+                        "misfit is above 2; the calibrated file is further from the data than yours): ask `diagnose` "
+                        "what is missing\n"));
 }
 
 TEST_F(CalibrationTest, ZerosHaveTheUnitOfTheirChannel) {

@@ -1,10 +1,14 @@
 #include "twin/diagnosis/linearised_run.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/thermal/function_course.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "thermal/integrate.h"
+#include "twin/diagnosis/channel_reading.h"
 #include "twin/diagnosis/prediction.h"
 #include "twin/sensitivity.h"
 
@@ -230,6 +234,69 @@ TEST(LinearisedRun, ReadsThroughTheSensorsOfAnotherMachine) {
     bool const differs = channel.name == "T1" || channel.name == "T2" || channel.name == "T6" || channel.name == "T7" ||
                          channel.name == "E_Z";
     EXPECT_EQ((shown - plain).col(Index(c)).cwiseAbs().maxCoeff() > 0.0, differs) << channel.name;
+  }
+}
+
+Index column_of(std::string const& name) {
+  auto const& channels = measured().channels;
+  return std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; }) -
+         channels.begin();
+}
+
+/// What an instrument adds is not late.
+TEST(LinearisedRun, HoldsNoDriftBackByALag) {
+  auto const with_drift = [](std::string const& drift) {
+    auto document = v450();
+    set_parameter(document, "temperature_sensor.T1.lag", "10 min");
+    set_parameter(document, "temperature_sensor.T1.drift", drift);
+    return Machine::build(document);
+  };
+  auto const binned = bin(measured(), 300.0);
+  LinearisedRun const twin(machine(), binned);
+  MatrixXd const added = twin.prediction_of(with_drift("0.3 K/h")) - twin.prediction_of(with_drift("0 K/h"));
+  VectorXd const drifted = 0.3 / 3600.0 * binned.time;
+  EXPECT_LT((added.col(column_of("T1")) - drifted).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+/// The run in a room whose air comes to stratify, by 1 K/m in an hour.
+MeasuredRun stratifying() {
+  auto run = measured();
+  auto const still = run.course;
+  std::vector<std::string> names;
+  for (auto const& channel : still->channels()) names.push_back(channel.name);
+  std::vector<double> jumps;
+  for (double t = still->next_jump(0.0); std::isfinite(t); t = still->next_jump(t)) jumps.push_back(t);
+  auto const gradient = std::size_t(channel_index(*still, "ambient.gradient"));
+  run.course = std::make_shared<thermal::FunctionCourse>(
+      names,
+      [=](double t, std::span<double> values) {
+        still->evaluate(t, values);
+        values[gradient] += t / 3600.0;
+      },
+      jumps);
+  return run;
+}
+
+/// A probe's fixture follows the air 1 m up, as in a simulated run (history.cc) and as the prediction of the whole run
+/// says.
+TEST(LinearisedRun, MeetsTheAirNearTheTool) {
+  auto const run = stratifying();
+  Machine const other = Machine::build(
+      tests::with_table(v450(), "[[probe_drift]]\nname = \"fixture\"\ndisplacement = \"E_Z\"\nper_air = \"1 um/K\"\n"));
+  auto const binned = bin(run, 60.0);
+  auto const rows = binned.time.size() - 1, column = column_of("E_Z");  // the last row has two samples
+  LinearisedRun const twin(machine(), binned);
+  VectorXd const followed = (twin.prediction_of(other) - twin.prediction()).col(column).head(rows);
+  VectorXd const predicted = (predict(other, run) - predict(machine(), run)).col(column).head(rows);
+  std::vector<double> start(run.course->channels().size()), now(start.size());
+  auto const floor = std::size_t(channel_index(*run.course, "ambient.floor_temperature"));
+  auto const gradient = std::size_t(channel_index(*run.course, "ambient.gradient"));
+  run.course->evaluate(0.0, start);
+  for (Index r = 0; r < rows; ++r) {
+    run.course->evaluate(binned.time[r], now);
+    double const warmer = now[floor] - start[floor] + now[gradient] - start[gradient];
+    EXPECT_NEAR(followed[r], 1e-6 * warmer, 1e-9) << r;
+    EXPECT_NEAR(predicted[r], 1e-6 * warmer, 1e-9) << r;
   }
 }
 

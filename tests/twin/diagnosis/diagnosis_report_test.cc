@@ -1,0 +1,58 @@
+#include "twin/diagnosis/diagnosis_report.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace thermotwin::twin {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// 60 W into the bed were found.
+DiagnosisReport heat_in_the_bed() {
+  Finding finding;
+  finding.hypothesis.effect = &effect("heat");
+  finding.hypothesis.trial = &finding.hypothesis.effect->trials[0];
+  finding.hypothesis.site = finding.hypothesis.body = "bed";
+  finding.hypothesis.largest = 300.0;
+  finding.amplitude = 60.0;
+  finding.weight = 1.0;
+  DiagnosisReport report;
+  report.diagnosis.verdict = Diagnosis::Verdict::effect;
+  report.diagnosis.explanations.push_back({{finding}});
+  return report;
+}
+
+TEST(DiagnosisReport, TellsNoGainOfADeadDisplacement) {
+  ChannelGap const dead{"run1", "E_Z", true, "um", NAN, NAN, NAN}, alive{"run1", "E_Y", true, "um", 8e-6, 2e-6, 5e-6};
+  auto report = heat_in_the_bed();
+  report.fitted = {dead, alive, {"run1", "T1", false, "K", 20.0, 0.1, 0.2}};
+  EXPECT_THAT(report_text(report), HasSubstr("With it, the error of the twin at E_Y on the fitted data falls from 8 to "
+                                             "2 um RMS; calibration alone leaves 5."));
+  report.fitted = {dead};
+  EXPECT_THAT(report_text(report), Not(HasSubstr("the error of the twin at")));
+}
+
+/// 100 W for an hour, 20 W for three.
+TEST(DiagnosisReport, WeighsHeatByTheTimeOfAllRuns) {
+  FreeHeat heat;
+  heat.site.body = "motor";
+  heat.mean = {100.0, 20.0};
+  for (double const hours : {1.0, 3.0}) heat.knots.push_back(Eigen::VectorXd::LinSpaced(2, 0.0, 3600.0 * hours));
+  for (double const watts : heat.mean) heat.heat.push_back(Eigen::VectorXd::Constant(2, watts));
+  heat.standard_error = heat.heat;
+  auto report = heat_in_the_bed();
+  report.diagnosis.verdict = Diagnosis::Verdict::none_known;
+  report.diagnosis.unknown_heat = heat;
+  report.diagnosis.left = {heat};
+  std::string const text = report_text(report);
+  EXPECT_THAT(text, HasSubstr("Were it one heat of free course: 40.0 W on average into motor."));
+  EXPECT_THAT(text, HasSubstr("still: 40.0 W on average into motor."));
+  EXPECT_DOUBLE_EQ(nlohmann::json::parse(report_json(report))["heat"]["watts"], 40.0);
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
