@@ -130,6 +130,63 @@ TEST(RefinedForm, JoinsTwoBlocksWithTheStatedConductanceOrNearlyIt) {
   }
 }
 
+/// A block on a shaft, with its sensor; what joins them is added.
+std::string const block_on_shaft = R"(
+name = "block on shaft"
+
+[spindle]
+maximum_speed = "6000 rpm"
+
+[[lump]]
+name = "bed"
+material = "GJL-250"
+mass = "300 kg"
+corner = ["0 mm", "0 mm", "0 mm"]
+size = ["500 mm", "400 mm", "300 mm"]
+
+[[bar]]
+name = "shaft"
+material = "42CrMo4"
+origin = ["60 mm", "90 mm", "0 mm"]
+direction = "z"
+length = "300 mm"
+outer_diameter = "80 mm"
+cells = 4
+
+[[displacement]]
+name = "E_Z"
+segment = [{ of = "shaft" }]
+
+[[temperature_sensor]]
+name = "T1"
+at = "bed"
+)";
+
+TEST(RefinedForm, PlacesSensorsByContactJointsAsByJoints) {
+  auto const place = [](std::string const& joint) {
+    Value refined = refined_form(parse_toml(block_on_shaft + joint, "block.toml"));
+    return texts_of(*tables_of(refined, "temperature_sensor").at(0), "at").at(0);
+  };
+  auto const unjoined = place(""), joined = place(R"(
+[[joint]]
+name = "seat"
+from = "shaft"
+to = "bed"
+conductance = "1 W/K"
+)");
+  EXPECT_TRUE(unjoined.starts_with("bed.")) << unjoined;
+  EXPECT_NE(joined, unjoined);
+  EXPECT_EQ(place(R"(
+[[contact_joint]]
+name = "seat"
+from = "shaft"
+to = "bed"
+area = "0.01 m2"
+pressure = "1 MPa"
+)"),
+            joined);
+}
+
 TEST(HiddenHeat, IsTheHeatOfTheTableThatIsAdded) {
   auto document = nominal("v450");
   RefinedForm const form(document);
@@ -257,7 +314,7 @@ TEST_F(ChallengeFolder, SealsTheUnseenRunWithoutItsNoise) {
 TEST_F(ChallengeFolder, TakesOneMoreRunOfTheSameWorld) {
   auto const folder = write("more", 29, CaseKind::none);
   std::ofstream(root_ / "idle.toml") << "machine = \"v450\"\nduration = \"2 h\"\nsampling = \"60 s\"\n";
-  write_challenge({"v450", 1, {}, folder, root_ / "idle.toml"});
+  write_challenge({{}, {}, {}, folder, root_ / "idle.toml"});
   auto const idle = output::read(folder / "idle.h5");
   EXPECT_TRUE(idle.provenance.empty() && idle.truth_readings.empty());
   EXPECT_EQ(idle.time_s[idle.time_s.size() - 1], 7200.0);
@@ -266,7 +323,40 @@ TEST_F(ChallengeFolder, TakesOneMoreRunOfTheSameWorld) {
     double const offset = truth.at("drawn").at("temperature_sensor." + reading.name + ".offset");
     EXPECT_NEAR(reading.values.mean(), 20.0 + offset, 0.12) << reading.name;
   }
-  EXPECT_THROW(write_challenge({"v450", 1, {}, folder, root_ / "idle.toml"}), thermal::InputError);
+  EXPECT_THROW(write_challenge({{}, {}, {}, folder, root_ / "idle.toml"}), thermal::InputError);
+}
+
+/// A folder of another machine than the default one: a further run is of that one.
+TEST_F(ChallengeFolder, TakesOneMoreRunOfItsOwnMachineOnly) {
+  auto const folder = root_ / "screw", file = root_ / "idle.toml";
+  write_challenge({"vmc850", 12, CaseKind::none, folder, {}});
+  std::ofstream(file) << "machine = \"vmc850\"\nduration = \"2 h\"\nsampling = \"60 s\"\n";
+  auto const complaint = [&](ChallengeOptions options) -> std::string {
+    options.folder = folder;
+    options.further_run = file;
+    try {
+      return write_challenge(options);
+    } catch (thermal::InputError const& error) {
+      return error.what();
+    }
+  };
+  std::string const has = "the challenge in '" + folder.string() + "' has the ";
+  EXPECT_EQ(complaint({"v450", 12, {}, {}, {}}), has + "machine vmc850 of " + (folder / "machine.toml").string() +
+                                                     ", not v450; without --machine it goes on with its own");
+  EXPECT_EQ(complaint({"vmc850", 13, {}, {}, {}}), has + "seed 12, not 13; without --seed it goes on with its own");
+  EXPECT_EQ(complaint({{}, {}, CaseKind::one, {}, {}}),
+            has + "kind none, not one; without --kind it goes on with its own");
+  EXPECT_FALSE(std::filesystem::exists(folder / "idle.h5"));
+  write_challenge({{}, {}, {}, folder, file});
+  auto const names = [](output::Dataset const& data) {
+    std::vector<std::string> all;
+    for (auto const& reading : data.readings) all.push_back(reading.name);
+    return all;
+  };
+  EXPECT_EQ(names(output::read(folder / "idle.h5")), names(output::read(folder / "run1.h5")));
+  std::filesystem::copy_file(file, root_ / "again.toml");
+  write_challenge({"vmc850", 12, CaseKind::none, folder, root_ / "again.toml"});  // as script/challenge asks for it
+  EXPECT_EQ(names(output::read(folder / "again.h5")), names(output::read(folder / "idle.h5")));
 }
 
 TEST_F(ChallengeFolder, RefusesToOverwrite) {

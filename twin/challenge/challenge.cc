@@ -13,6 +13,7 @@
 #include "twin/challenge/hidden_heat.h"
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
+#include "twin/file/text_file.h"
 #include "twin/instruments/random_stream.h"
 #include "twin/run.h"
 
@@ -125,42 +126,65 @@ Json sealed(HiddenWorld const& world, std::string const& machine) {
   return json;
 }
 
+/// InputError for a machine, a seed or a kind that is not the one of the challenge in the folder.
+void require_same(ChallengeOptions const& options, Json const& truth) {
+  auto const refuse = [&](std::string const& option, std::string const& own, std::string const& other) {
+    throw thermal::InputError(
+        fmt::format("the challenge in '{0}' has the {1} {2}, not {3}; without --{1} it goes on with its own",
+                    options.folder.string(), option, own, other));
+  };
+  auto const own = options.folder / "machine.toml";
+  if (options.machine && text_of_file(machine_file(*options.machine)) != text_of_file(own))
+    refuse("machine", fmt::format("{} of {}", truth.at("machine").get<std::string>(), own.string()), *options.machine);
+  if (auto const seed = truth.at("seed").get<std::uint64_t>(); options.seed && *options.seed != seed)
+    refuse("seed", std::to_string(seed), std::to_string(*options.seed));
+  if (auto const kind = truth.at("kind").get<std::string>(); options.kind && name_of(*options.kind) != kind)
+    refuse("kind", kind, name_of(*options.kind));
+}
+
 /// The hidden world of a challenge goes through one more experiment.
 std::string write_further_run(ChallengeOptions const& options) {
   std::ifstream file(options.folder / "sealed.json");
   Json const truth = Json::parse(file, nullptr, false);
   if (truth.is_discarded()) throw thermal::InputError(fmt::format("'{}' holds no challenge", options.folder.string()));
+  require_same(options, truth);
   auto const name = options.further_run->stem().string();
   auto const target = options.folder / (name + ".h5");
   if (std::filesystem::exists(target))
     throw thermal::InputError(fmt::format("'{}' is there already; a challenge does not overwrite", target.string()));
   auto experiment = read_experiment(read_toml(*options.further_run), *options.further_run);
-  auto const world = draw_hidden_world(read_toml(machine_file(options.machine)), truth.at("seed").get<std::uint64_t>(),
-                                       case_kind(truth.at("kind").get<std::string>()));
+  auto const world =
+      draw_hidden_world(read_toml(options.folder / "machine.toml"), truth.at("seed").get<std::uint64_t>(),
+                        case_kind(truth.at("kind").get<std::string>()));
   experiment.seed = int(1e9 * RandomStream(world.seed, name).uniform());
   output::write(measured(simulate(Machine::build(world.hidden), experiment), world, name), target);
   return fmt::format("{}: one more run, {:.0f} h\n", target.string(), experiment.duration / 3600.0);
 }
 
+std::filesystem::path nominal_file(ChallengeOptions const& options) {
+  return machine_file(options.machine.value_or("v450"));
+}
+
 HiddenWorld world_of(ChallengeOptions const& options, Value const& nominal) {
-  return draw_hidden_world(nominal, options.seed, options.kind.value_or(case_kind(options.seed)));
+  auto const seed = options.seed.value_or(1);
+  return draw_hidden_world(nominal, seed, options.kind.value_or(case_kind(seed)));
 }
 
 }  // namespace
 
 std::string challenge_key(ChallengeOptions const& options) {
-  Value const nominal = read_toml(machine_file(options.machine));
+  Value const nominal = read_toml(nominal_file(options));
   return sealed(world_of(options, nominal), Machine::build(nominal).name).dump() + "\n";
 }
 
 std::string write_challenge(ChallengeOptions const& options) {
   if (options.further_run) return write_further_run(options);
   output::require_empty(options.folder);
-  auto const file = machine_file(options.machine);
+  auto const file = nominal_file(options);
   Value const nominal = read_toml(file);
   Machine const nominal_machine = Machine::build(nominal);
   auto const world = world_of(options, nominal);
-  auto const runs = challenge_runs(nominal_machine.limits, options.seed);
+  auto const runs = challenge_runs(nominal_machine.limits, world.seed);
   Machine const hidden = Machine::build(world.hidden), healthy = Machine::build(world.healthy);
 
   std::filesystem::create_directories(options.folder);

@@ -11,11 +11,12 @@ namespace thermotwin::twin {
 
 /// `thermotwin challenge`: a machine, measurements of it that it does not explain, and the truth.
 struct ChallengeOptions {
-  std::string machine = "v450";  ///< name or file of the nominal machine
-  std::uint64_t seed = 1;
-  std::optional<CaseKind> kind;  ///< default: what the seed stands for
+  std::optional<std::string> machine;  ///< name or file of the nominal machine; default: v450
+  std::optional<std::uint64_t> seed;   ///< default: 1
+  std::optional<CaseKind> kind;        ///< default: what the seed stands for
   std::filesystem::path folder;
-  /// Instead of a new challenge: one more run of the one in the folder, through this experiment.
+  /// Instead of a new challenge: one more run of the one in the folder, through this experiment. Machine, seed and kind
+  /// are the folder's; given ones must agree with them.
   std::optional<std::filesystem::path> further_run;
 };
 
@@ -30,8 +31,8 @@ struct ChallengeOptions {
 /// | sealed.json | kind, effects, sites, amplitudes, heat per body and run, displacement moved, parameters drawn |
 ///
 /// The same options write the same bytes. OutputError if the folder is there and not empty. A further run is written
-/// beside the others as <name of the experiment's file>.h5; InputError if that is there. Returns one line for people,
-/// which does not tell what is hidden.
+/// beside the others as <name of the experiment's file>.h5; InputError if that is there, and for options that are not
+/// the folder's. Returns one line for people, which does not tell what is hidden.
 std::string write_challenge(ChallengeOptions const& options);
 
 /// What the options' challenge would hide: the first keys of sealed.json, one line of JSON, without the runs.

@@ -39,11 +39,11 @@ bool overlap_in_space(Box const& a, Box const& b) {
   return overlap(a, b, 0) > touch && overlap(a, b, 1) > touch && overlap(a, b, 2) > touch;
 }
 
-/// The direction in which two boxes are furthest apart (or overlap least): −2.5 for the lower face of y, and so on.
+/// Where a box lies, seen from another one: in the direction in which they are furthest apart, or overlap least.
 struct Facing {
   int direction;
   bool upper;  ///< b lies beyond the upper face of a
-  double gap;
+  double gap;  ///< negative where they overlap [m]
 };
 
 Facing facing(Box const& a, Box const& b) {
@@ -364,12 +364,16 @@ void RefinedForm::refine_parts() {
 std::string RefinedForm::sensor_place(std::string const& block) const {
   auto const& body = bodies_.at(block);
   std::vector<Eigen::VectorXd> rises;
-  for (auto const& joint : std::get<Value::List>(document_.find("joint")->content))
-    for (std::string const side : {"from", "to"})
-      if (auto const place = texts_of(joint, side).at(0); body_of(place) == block) {
-        auto const rise = rise_about_mean(body, site_of(body, place));
-        rises.push_back(rise / rise.cwiseAbs().maxCoeff());
-      }
+  for (std::string const kind : {"joint", "contact_joint"}) {
+    Value const* joints = document_.find(kind);
+    if (!joints) continue;
+    for (auto const& joint : std::get<Value::List>(joints->content))
+      for (std::string const side : {"from", "to"})
+        if (auto const place = texts_of(joint, side).at(0); body_of(place) == block) {
+          auto const rise = rise_about_mean(body, site_of(body, place));
+          rises.push_back(rise / rise.cwiseAbs().maxCoeff());
+        }
+  }
   std::string best = block;
   double least = INFINITY;
   constexpr double shares[] = {0.55, 0.45, 0.3, 0.7, 0.2, 0.85};
