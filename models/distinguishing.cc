@@ -40,32 +40,54 @@ double crowding(Signatures const& signatures, MatrixXd const& gram) {
   return (sines_squared(signatures, gram) + least_sine_squared).inverse().sum();
 }
 
-/// The site that makes `value` of the enlarged Gram matrix largest.
+/// The site that makes `value` of the enlarged Gram matrix largest, among those that the budget allows; −1: none.
 template <class Value>
-std::pair<Index, double> best_partner(Signatures const& signatures, Set const& set, Value const& value) {
+std::pair<Index, double> best_partner(Signatures const& signatures, Prices const& prices, Set const& set,
+                                      Value const& value) {
   MatrixXd const gram = gram_of(signatures, set);
+  double left = prices.budget;
+  for (auto const site : set) left -= prices.cost_of(site);
   std::pair<Index, double> best{-1, 0.0};
   for (Index i = 0; i < Index(signatures.gram.size()); ++i) {
-    if (std::find(set.begin(), set.end(), i) != set.end()) continue;
+    if (prices.cost_of(i) > left || std::find(set.begin(), set.end(), i) != set.end()) continue;
     double const with = value(signatures, gram + signatures.gram[std::size_t(i)]);
     if (best.first < 0 || with > best.second) best = {i, with};
   }
   return best;
 }
 
-Set exchanged(Signatures const& signatures, Set set) {
+/// Greedy from a first site.
+Set grown(Signatures const& signatures, Prices const& prices, Index first, Index count) {
+  auto const apart = [](Signatures const& all, MatrixXd const& gram) { return -crowding(all, gram); };
+  Set set = {first};
+  while (Index(set.size()) < count) {
+    auto const site = best_partner(signatures, prices, set, apart).first;
+    if (site < 0) break;
+    set.push_back(site);
+  }
+  return set;
+}
+
+/// Improved by exchanges, and by one more site where a cheaper one leaves room for it.
+Set exchanged(Signatures const& signatures, Prices const& prices, Set set, Index count) {
   double value = smallest(signatures, gram_of(signatures, set));
   for (bool better = true; better;) {
     better = false;
     for (std::size_t k = 0; k < set.size(); ++k) {
       Set rest = set;
       rest.erase(rest.begin() + std::ptrdiff_t(k));
-      auto const [site, with] = best_partner(signatures, rest, smallest);
+      auto const [site, with] = best_partner(signatures, prices, rest, smallest);
       if (with <= value * (1.0 + least_gain)) continue;
       set[k] = site;
       value = with;
       better = true;
     }
+    if (Index(set.size()) == count) continue;
+    auto const [site, with] = best_partner(signatures, prices, set, smallest);
+    if (with <= value * (1.0 + least_gain)) continue;
+    set.push_back(site);
+    value = with;
+    better = true;
   }
   return set;
 }
@@ -83,22 +105,21 @@ Closest closest_pair(Signatures const& signatures, std::span<Index const> sensor
   return {angle, std::size_t(pair)};
 }
 
-Set place_to_distinguish(Signatures const& signatures, Index count) {
+Set place_to_distinguish(Signatures const& signatures, Index count, Prices const& prices) {
   auto const sites = Index(signatures.gram.size());
   if (count < 1 || count > sites) throw std::invalid_argument(fmt::format("{} sensors for {} sites", count, sites));
   if (signatures.pairs.empty()) throw std::invalid_argument("there are no two effects to tell apart");
-  auto const apart = [](Signatures const& all, MatrixXd const& gram) { return -crowding(all, gram); };
   std::vector<std::pair<double, Index>> first;
-  for (Index i = 0; i < sites; ++i) first.emplace_back(crowding(signatures, signatures.gram[std::size_t(i)]), i);
+  for (Index i = 0; i < sites; ++i)
+    if (prices.cost_of(i) <= prices.budget)
+      first.emplace_back(prices.cost_of(i) * crowding(signatures, signatures.gram[std::size_t(i)]), i);
+  if (first.empty()) throw std::invalid_argument(fmt::format("the budget of {} buys no sensor at all", prices.budget));
   std::sort(first.begin(), first.end());
   first.resize(std::min(first.size(), starts));
   std::vector<Set> sets(first.size());
 #pragma omp parallel for schedule(dynamic)
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    Set set = {first[s].second};
-    while (Index(set.size()) < count) set.push_back(best_partner(signatures, set, apart).first);
-    sets[s] = exchanged(signatures, set);
-  }
+  for (std::size_t s = 0; s < sets.size(); ++s)
+    sets[s] = exchanged(signatures, prices, grown(signatures, prices, first[s].second, count), count);
   return *std::max_element(sets.begin(), sets.end(), [&](Set const& a, Set const& b) {
     return smallest(signatures, gram_of(signatures, a)) < smallest(signatures, gram_of(signatures, b));
   });

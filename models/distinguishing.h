@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,8 +31,18 @@ struct Closest {
 /// The angle [rad] of every pair.
 [[nodiscard]] Eigen::VectorXd angles(Signatures const& signatures, std::span<Eigen::Index const> sensors);
 
-/// `count` sites with a large smallest angle: greedy in Σ 1/sin² φ, then exchanges that widen the smallest angle, from
-/// each of several first sites. std::invalid_argument for fewer sites than sensors.
-[[nodiscard]] std::vector<Eigen::Index> place_to_distinguish(Signatures const& signatures, Eigen::Index count);
+/// What a sensor costs at each site, and all together at most.
+struct Prices {
+  Eigen::VectorXd cost;  ///< per site, > 0; empty: all 1
+  double budget = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] double cost_of(Eigen::Index site) const { return cost.size() == 0 ? 1.0 : cost[site]; }
+};
+
+/// `count` sites, at most so many within a budget, with a large smallest angle: greedy in Σ 1/sin² φ, then exchanges
+/// that widen the smallest angle, from each of several first sites. std::invalid_argument for fewer sites than sensors,
+/// and for a budget that buys none.
+[[nodiscard]] std::vector<Eigen::Index> place_to_distinguish(Signatures const& signatures, Eigen::Index count,
+                                                             Prices const& prices = {});
 
 }  // namespace thermotwin::models

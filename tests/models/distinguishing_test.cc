@@ -1,8 +1,10 @@
 #include "models/distinguishing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 
@@ -55,9 +57,38 @@ TEST(Distinguishing, FindsTheWidestSmallestAngleOfAllSets) {
   EXPECT_GE(exact, 16);
 }
 
+TEST(Distinguishing, FindsTheWidestSmallestAngleThatTheBudgetBuys) {
+  Prices prices;
+  prices.cost = Eigen::VectorXd::NullaryExpr(9, [](Index i) { return 1.0 + double(i % 3); });
+  prices.budget = 5.0;
+  auto const cost = [&](Set const& set) {
+    return std::accumulate(set.begin(), set.end(), 0.0, [&](double sum, Index i) { return sum + prices.cost_of(i); });
+  };
+  int exact = 0, dearer_without_budget = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    auto const signatures = random_signatures(seed, 9, 6);
+    double best = 0.0;
+    for (unsigned members = 1; members < 1U << 9U; ++members) {
+      Set set;
+      for (Index i = 0; i < 9; ++i)
+        if ((members >> unsigned(i) & 1U) != 0) set.push_back(i);
+      if (set.size() <= 3 && cost(set) <= prices.budget) best = std::max(best, closest_pair(signatures, set).angle);
+    }
+    auto const chosen = place_to_distinguish(signatures, 3, prices);
+    double const found = closest_pair(signatures, chosen).angle;
+    EXPECT_LE(cost(chosen), prices.budget) << "seed " << seed;
+    EXPECT_GE(found, 0.9 * best) << "seed " << seed;
+    if (found > best * (1.0 - 1e-9)) ++exact;
+    if (cost(place_to_distinguish(signatures, 3)) > prices.budget) ++dearer_without_budget;
+  }
+  EXPECT_GE(exact, 16);
+  EXPECT_GE(dearer_without_budget, 5);
+}
+
 TEST(Distinguishing, RefusesWhatCannotBe) {
   auto signatures = random_signatures(1, 4, 3);
   EXPECT_THROW((void)place_to_distinguish(signatures, 5), std::invalid_argument);
+  EXPECT_THROW((void)place_to_distinguish(signatures, 2, {{}, 0.5}), std::invalid_argument);
   signatures.pairs.clear();
   EXPECT_THROW((void)place_to_distinguish(signatures, 2), std::invalid_argument);
   EXPECT_THROW((void)closest_pair(signatures, Set{0}), std::invalid_argument);

@@ -8,6 +8,7 @@
 #include "thermal/error.h"
 #include "twin/challenge/challenge_runs.h"
 #include "twin/diagnosis/hypothesis.h"
+#include "twin/diagnosis/separation.h"
 #include "twin/parallel.h"
 #include "twin/run.h"
 
@@ -17,8 +18,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double share_of_largest = 0.1, least_rise = 1e-3;  // of an amplitude; [K]
-constexpr double most_cosine = 0.6;  // beyond it a diagnosis takes two effects for each other (physics.md 8.9)
-constexpr double tolerance = 1e-6;   // differences of runs are small
+constexpr double tolerance = 1e-6;                           // differences of runs are small
 
 /// One hypothesis per effect and place: shapes of one effect are not told apart.
 std::vector<Hypothesis> heat_effects(Value const& document, Machine const& machine) {
@@ -83,7 +83,7 @@ std::size_t keep_pairs_apart(models::Signatures& signatures, Index effects) {
   auto const apart = models::angles(signatures, every);
   std::vector<std::pair<Index, Index>> kept;
   for (std::size_t p = 0; p < signatures.pairs.size(); ++p)
-    if (std::cos(apart[Index(p)]) <= most_cosine) kept.push_back(signatures.pairs[p]);
+    if (std::cos(apart[Index(p)]) <= confusable_cosine) kept.push_back(signatures.pairs[p]);
   auto const alike = signatures.pairs.size() - kept.size();
   signatures.pairs = std::move(kept);
   return alike;

@@ -12,7 +12,7 @@ namespace thermotwin::twin {
 struct EffectSignatures {
   std::vector<std::string> effects;  ///< "joint at motor to column_front"
   models::Signatures signatures;     ///< pairs: those that a sensor at every site would tell apart
-  std::size_t alike = 0;             ///< pairs of which even all sites together see signatures of a cosine beyond 0.6
+  std::size_t alike = 0;             ///< pairs that even all sites together take for each other (confusable_cosine)
 };
 
 /// Every heat effect of the catalogue at every place that the machine has for it (Hypothesis), each for itself at a

@@ -18,7 +18,7 @@ struct EnsembleOptions {
   int members = 24;
   std::uint64_t seed = 1;  ///< member m is drawn with seed + m
   /// What every member is put through; none: two spectra drawn for each member anew, with a room of their own
-  /// (challenge_runs: blocks of 20 to 90 min, 14 h).
+  /// (challenge_runs: 16 h with blocks of 20 min, and about 13 h with blocks of 20 to 90 min).
   std::vector<scenarios::Experiment> experiments;
   int snapshots = 40;       ///< of a run, evenly spaced
   bool every_node = false;  ///< keep the temperatures of all nodes

@@ -51,7 +51,7 @@ std::string distinction_text(Distinction const& d) {
   std::string text = fmt::format(
       "\ntelling {} missing effects apart: smallest angle between the signatures of two\n"
       "  recommended      {:6.2f} degrees ({} and {})\n"
-      "  for displacement {:6.2f} degrees: the same number of sensors, chosen for the smallest error\n",
+      "  for displacement {:6.2f} degrees: the set that would be chosen for the smallest error\n",
       d.effects, degrees(d.recommended), d.first, d.second, degrees(d.for_displacement));
   if (d.proposed) text += fmt::format("  proposed         {:6.2f} degrees\n", degrees(*d.proposed));
   return text + fmt::format(
@@ -153,10 +153,10 @@ std::string placement_json(PlacementReport const& report) {
                {"trained_on_the_machine", report.teacher == Teacher::machine},
                {"no_sensor_um", report.prior_um},
                {"all_candidates_um", report.floor_um},
-               {"bound_um", report.bound_um},
-               {"above_bound", report.recommended.model_um / report.bound_um - 1.0},
-               {"all_sets_looked_at", report.proved},
-               {"recommended", to_json(report.recommended, report.dead)}};
+               {"bound_um", report.bound_um}};
+  if (!report.distinction) json["above_bound"] = report.recommended.model_um / report.bound_um - 1.0;
+  json["all_sets_looked_at"] = report.proved;
+  json["recommended"] = to_json(report.recommended, report.dead);
   if (report.fewer) json["one_fewer"] = to_json(*report.fewer, report.dead);
   if (report.more) json["one_more"] = to_json(*report.more, report.dead);
   if (report.proposed) json["proposed"] = to_json(*report.proposed, report.dead);

@@ -278,7 +278,7 @@ Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacem
   auto const found = effect_signatures(document_, sites_, options_.design);
   auto signatures = found.signatures;
   signatures.gram.resize(std::size_t(candidates_));
-  auto const set = models::place_to_distinguish(signatures, Index(for_displacement.size()));
+  auto const set = models::place_to_distinguish(signatures, options_.sensors, {problem_.cost, problem_.budget});
   auto const closest = models::closest_pair(signatures, set);
   auto const [first, second] = signatures.pairs[closest.pair];
   Sites every(static_cast<std::size_t>(places_));
@@ -320,7 +320,10 @@ PlacementReport Judge::operator()() {
   auto chosen = best(count, dead);
   report.proved = dead == 0 && models::number_of_sets(candidates_, count) <= most_sets;
   report.bound_um = report.proved ? std::sqrt(chosen.variance) : std::sqrt(models::placement_bound(problem_, count));
-  if (options_.distinguish) chosen.sensors = distinguishing(report.distinction.emplace(), chosen.sensors);
+  if (options_.distinguish) {
+    chosen.sensors = distinguishing(report.distinction.emplace(), chosen.sensors);
+    report.proved = false;  // what was proved is another set
+  }
   report.recommended = figures(chosen.sensors);
   if (count > 1) report.fewer = figures(best(count - 1, std::min(dead, count - 2)).sensors);
   if (count < candidates_) report.more = figures(best(count + 1, dead).sensors);

@@ -63,7 +63,7 @@ struct Distinction {
   std::size_t effects = 0, pairs = 0;
   std::size_t alike = 0;  ///< pairs that a sensor at every candidate does not tell apart: cosine beyond 0.6
   double recommended = 0.0, of_all = 0.0;
-  double for_displacement = 0.0;  ///< of as many sensors chosen for the displacement
+  double for_displacement = 0.0;  ///< of the set that would be chosen for the displacement
   std::optional<double> proposed;
   std::string first, second;  ///< that the recommended set tells apart worst
 };
@@ -79,7 +79,7 @@ struct PlacementReport {
   double prior_um = 0.0;  ///< √V without any sensor
   double floor_um = 0.0;  ///< √V with a sensor at every candidate
   double bound_um = 0.0;  ///< √V of no set is less
-  bool proved = false;    ///< all sets were looked at
+  bool proved = false;    ///< all sets were looked at, and the recommended one has the least √V
   SetFigures recommended;
   std::optional<SetFigures> fewer, more, proposed;  ///< best sets of one sensor less, and one more
   std::optional<InformationMap> map;

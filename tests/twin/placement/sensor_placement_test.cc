@@ -281,6 +281,26 @@ TEST(PlaceSensors, TellsMissingEffectsApart) {
   EXPECT_THAT(placement_text(report), HasSubstr("degrees"));
 }
 
+/// Without the sites that tell effects apart best, which nobody can pay.
+TEST(PlaceSensors, TellsMissingEffectsApartWithinTheBudget) {
+  Value const document = parse_toml(RandomMachine(3, 4, 1).text(), "random");
+  auto options = quick(2);
+  options.design.members = options.unseen_members = 3;
+  options.distinguish = true;
+  auto const any = place_sensors(document, options);
+  options.rules.sites = candidate_sites(document, {});
+  options.rules.budget = 2.0;
+  for (auto const& sensor : any.recommended.sensors)
+    for (auto& site : options.rules.sites)
+      if (site.name == sensor.site.name) site.cost = 3.0;
+  auto const report = place_sensors(document, options);
+  EXPECT_LE(report.recommended.cost, 2.0);
+  EXPECT_EQ(report.recommended.sensors.size(), 2U);
+  auto const json = nlohmann::json::parse(placement_json(report));
+  EXPECT_FALSE(json["all_sets_looked_at"]) << "they were for the error, which was not asked for";
+  EXPECT_FALSE(json.contains("above_bound"));
+}
+
 TEST(PlaceSensors, PutsSparesBesideSensorsThatAreThere) {
   auto options = quick(4);
   options.dead = 1;
