@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "output/dataset_file.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
 #include "twin/axis_record.h"
+#include "twin/complete_rows.h"
 #include "twin/diagnosis/measured_data.h"
 #include "twin/diagnosis/prediction.h"
 #include "twin/file/value.h"
@@ -76,31 +76,6 @@ std::string fingerprint_of(ErrorModelRun const& run) {
   return print.text();
 }
 
-/// "no value of E_X in 3, of T2 in 12"
-std::string lacks(std::vector<output::Channel const*> const& channels) {
-  std::vector<std::string> counts;
-  for (auto const* channel : channels)
-    if (auto const missing = (!channel->values.array().isFinite()).count(); missing > 0)
-      counts.push_back(fmt::format("{} in {}", channel->name, missing));
-  return fmt::format("no value of {}", fmt::join(counts, ", of "));
-}
-
-/// Rows in which all of these have a value; what is left out is remarked.
-std::vector<Index> complete_rows(std::vector<output::Channel const*> const& channels, RecordedRun& run) {
-  Index const rows = run.shown.time_s.size();
-  std::vector<Index> complete;
-  for (Index i = 0; i < rows; ++i)
-    if (std::all_of(channels.begin(), channels.end(), [&](auto const* c) { return std::isfinite(c->values[i]); }))
-      complete.push_back(i);
-  if (complete.empty())
-    throw InputError(fmt::format("{}: none of its {} rows is complete: {}{}{}", run.file, rows, lacks(channels),
-                                 run.remarks.empty() ? "" : "; ", fmt::join(run.remarks, "; ")));
-  if (Index(complete.size()) < rows)
-    run.remarks.push_back(
-        fmt::format("{} of {} rows are left out: {}", rows - Index(complete.size()), rows, lacks(channels)));
-  return complete;
-}
-
 MeasuredRun without_machine(MeasuredData const& data) {
   MeasuredRun run;
   run.time = data.time;
@@ -158,7 +133,7 @@ ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& 
   for (auto const& sensor : sensors) used.push_back(&sensor_named(data, sensor, run.file));
   auto const* shown = slope ? nullptr : find_channel(data.displacements, error);
   if (!slope && (shown || must_show)) used.push_back(&displacement_named(data, error, run.file));
-  auto const rows = complete_rows(used, run);
+  auto const rows = complete_rows(used, run.file, run.remarks);
   ErrorModelRun result;
   auto& batch = result.batch;
   batch = {run.file, data.time_s(rows), sensors, sensors, {}, {}};

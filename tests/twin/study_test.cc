@@ -218,23 +218,35 @@ std::string measured_world(std::string const& sampling) {
   return text;
 }
 
-/// Writes these; fast has a sensor that stands still, one that the machine lacks, and misses readings.
-void measure_with_faults(SmallStudy const& study) {
+/// Writes these, fast as `spoil` leaves it.
+template <class Spoil>
+void measure(SmallStudy const& study, Spoil spoil) {
   for (std::string const name : {"fast", "slow"}) {
     auto const programme = study.experiment_path(name + ".toml");
     auto data = run(Machine::read(machine_file("v450")), read_experiment(read_toml(programme), programme), {}).dataset;
-    if (name == "fast") {
-      for (auto& channel : data.readings) {
-        if (channel.name == "T9") channel.values.setConstant(20.0);
-        if (channel.name == "T1") channel.values.segment(4, 2).setConstant(NAN);
-      }
-      for (auto& channel : data.displacements)
-        if (channel.name == "E_Z") channel.values[10] = NAN;
-      data.readings.push_back(data.readings.front());
-      data.readings.back().name = "T99";
-    }
+    if (name == "fast") spoil(data);
     output::write(data, study.experiment_path(name + ".h5"));
   }
+}
+
+output::Channel& channel(std::vector<output::Channel>& group, std::string const& name) {
+  return *std::find_if(group.begin(), group.end(), [&](auto const& one) { return one.name == name; });
+}
+
+/// Two of T1's readings are missing, and one of E_Z's.
+void lose_some(output::Dataset& data) {
+  channel(data.readings, "T1").values.segment(4, 2).setConstant(NAN);
+  channel(data.displacements, "E_Z").values[10] = NAN;
+}
+
+/// A sensor stands still, the machine lacks one, and readings are missing.
+void measure_with_faults(SmallStudy const& study) {
+  measure(study, [](output::Dataset& data) {
+    lose_some(data);
+    channel(data.readings, "T9").values.setConstant(20.0);
+    data.readings.push_back(data.readings.front());
+    data.readings.back().name = "T99";
+  });
 }
 
 TEST(Study, SaysWhatMeasuredRunsLack) {
@@ -251,6 +263,60 @@ TEST(Study, SaysWhatMeasuredRunsLack) {
   measure_with_faults(finer);
   EXPECT_THAT(finer.complaint(),
               HasSubstr("world 'v450': 'sampling' is 60 s, finer than the 180 s between the rows of "));
+}
+
+/// Rows are left out as `fit` leaves them out, and not the sensor, for three empty cells; lags do not reach across
+/// them.
+TEST(Study, LeavesOutRowsWhereFewReadingsAreMissing) {
+  auto text = measured_world("3 min");
+  text.replace(text.find("\"ridge\""), 7, "\"distributed_lag\", \"twin\"");
+  SmallStudy const study(text);
+  std::vector<Eigen::Index> kept;
+  Eigen::MatrixXd inputs = Eigen::MatrixXd::Ones(28, 4);
+  Eigen::VectorXd error;
+  measure(study, [&](output::Dataset& data) {
+    lose_some(data);
+    for (Eigen::Index i = 0; i < data.time_s.size(); ++i)
+      if (i != 4 && i != 5 && i != 10) kept.push_back(i);
+    int column = 1;
+    for (auto const* sensor : {"T1", "T8", "T9"}) inputs.col(column++) = channel(data.readings, sensor).values(kept);
+    error = channel(data.displacements, "E_Z").values(kept);
+  });
+  auto const report = study.report();
+  EXPECT_THAT(report.remarks, testing::Contains("v450: fast.h5: 3 of 31 rows are left out: no value of T1 in 2, of "
+                                                "E_Z in 1"));
+  auto const& linear = row(report, "all + linear");
+  EXPECT_EQ(linear.sensors, (std::vector<std::string>{"T1", "T8", "T9"}));
+  Eigen::VectorXd const residual = error - inputs * inputs.colPivHouseholderQr().solve(error);
+  EXPECT_NEAR(linear.figures.at("self.rmse").front(), std::sqrt(residual.squaredNorm() / 28.0), 1e-6);
+  EXPECT_THAT(row(report, "all + distributed_lag").refused, HasSubstr("lags need even steps"));
+  EXPECT_LT(row(report, "all + twin").figures.at("self.rmse").front(), 1.0);
+}
+
+/// In a gap of the record every channel lacks what the others lack: no sensor is the worse for it.
+TEST(Study, LeavesOutTheRowsOfAGap) {
+  SmallStudy const study(measured_world("6 min"));
+  measure(study, [](output::Dataset& data) {
+    for (auto* group : {&data.readings, &data.displacements})
+      for (auto& one : *group) one.values.segment(10, 8).setConstant(NAN);
+  });
+  auto const report = study.report();
+  EXPECT_THAT(
+      report.remarks,
+      testing::Contains(HasSubstr("v450: fast.h5: 4 of 16 rows are left out: no value of T1 in 4, of T8 in 4")));
+  EXPECT_EQ(row(report, "all + linear").sensors.size(), 3U);
+}
+
+/// Before the verdict, which rests on the others.
+TEST(Study, LeavesOutASensorThatLacksMuch) {
+  SmallStudy const study(measured_world("3 min"));
+  measure(study, [](output::Dataset& data) { channel(data.readings, "T8").values.segment(4, 4).setConstant(NAN); });
+  auto const report = study.report();
+  std::string const remark = "v450: T8 is left out: 4 of 31 readings are missing in fast.h5, more than 10 %";
+  EXPECT_THAT(report.remarks, testing::Contains(remark));
+  EXPECT_EQ(row(report, "all + linear").sensors, (std::vector<std::string>{"T1", "T9"}));
+  auto const text = study_text(report);
+  EXPECT_LT(text.find(remark), text.find("\nverdict\n"));
 }
 
 TEST(Study, TreatsEachRunAsABatchOfItsOwn) {
@@ -296,6 +362,21 @@ instant = [{ experiment = "feed_12000", time = "150 min" }]
   EXPECT_LE(figures.at("feed_12000 at 150 min.mae")[0], figures.at("feed_12000 at 150 min.max")[0]);
 }
 
+TEST(Study, JudgesInstantsByOneModelOfAllRuns) {
+  std::string const each = R"(
+[[world]]
+name = "axis"
+machine = "vmc850"
+error = "slope z"
+fit = "each"
+train = ["feed_8000", "feed_12000", "feed_16000"]
+instant = [{ experiment = "feed_12000", time = "150 min" }]
+)";
+  EXPECT_THAT(SmallStudy(head + each).complaint(),
+              HasSubstr("small.toml:13:12: an 'instant' is judged by the one model of all of 'train', but 'fit' is "
+                        "each; give fit = \"together\", or no 'instant'"));
+}
+
 /// What the laser showed pivots at 0.2 m, the true error at 0.3 m: the fit knows the first, the judgement the second.
 TEST(StudyJudgement, FitsTheZeroPositionToWhatTheLaserShowed) {
   double const slope = 10.0;  // µm/m
@@ -316,6 +397,37 @@ TEST(StudyJudgement, FitsTheZeroPositionToWhatTheLaserShowed) {
   auto const figures = judged_instants(axis, data, 0, model);
   for (auto const* name : {"rmse", "mae", "max"})
     EXPECT_NEAR(figures.at(std::string("run at 15 min.") + name), 0.1 * slope, 1e-9) << name;
+}
+
+/// A model of the last three readings, asked row by row: all rows but the first two, as of the whole run.
+TEST(StudyJudgement, LeavesOutStretchesOfWhichAModelClaimsNothing) {
+  models::Batch const run{"run",
+                          Eigen::VectorXd::LinSpaced(10, 0.0, 540.0),
+                          {"T1"},
+                          {"head"},
+                          Eigen::MatrixXd::Zero(10, 1),
+                          Eigen::VectorXd::LinSpaced(10, 0.0, 9.0)};
+  auto const start = rows_of(run, 0, 2);
+  models::ErrorModel model;
+  model.inputs = {"T1"};
+  model.sample_period = 60.0;
+  model.form = models::LinearForm{0.0, {0, 1, 2}, Eigen::MatrixXd::Zero(1, 3), 2};
+  Question whole;
+  whole.asked.push_back({Role::self, run, run.error, 0, 10});
+  whole.asked.push_back({Role::cross, start, start.error, 0, 2});
+  std::vector<Question> folds(10);
+  std::vector<Answer> validations;
+  for (std::size_t k = 0; k < folds.size(); ++k) {
+    folds[k].asked.push_back({Role::validation, run, run.error, Eigen::Index(k), 1});
+    validations.push_back({&folds[k], &model});
+  }
+  auto const figures = judged({Answer{&whole, &model}}, validations, 1);
+  EXPECT_NEAR(figures.at("self.mae"), 5.5, 1e-12);
+  EXPECT_NEAR(figures.at("validation.mae"), 5.5, 1e-12);
+  EXPECT_EQ(figures.at("validation.max"), 9.0);
+  EXPECT_FALSE(figures.contains("cross.mae"));
+  EXPECT_TRUE(figures.contains("S"));
+  EXPECT_FALSE(figures.contains("Mn"));
 }
 
 TEST(Study, ClaimsAreDecidedByIntervals) {

@@ -40,10 +40,10 @@ void put(Named& figures, std::string const& part, Pool const& pool) {
                       Eigen::Map<VectorXd const>(pool.prediction.data(), n)));
 }
 
-/// The last instants of a stretch, without those that the model does not claim.
+/// The last instants of a stretch, without those that the model does not claim; it may claim none.
 VectorXd claimed(VectorXd const& all, Asked const& asked, int unclaimed) {
-  Index const first = std::max(asked.first, Index(unclaimed));
-  return all.segment(first, asked.first + asked.count - first);
+  Index const end = asked.first + asked.count, first = std::clamp(Index(unclaimed), asked.first, end);
+  return all.segment(first, end - first);
 }
 
 void put_spread(Named& figures, std::string const& name, VectorXd const& values) {
@@ -88,13 +88,14 @@ void put_statistics(Named& figures, Answer const& fit, std::vector<VectorXd> con
     VectorXd const measured = claimed(asked[k].batch.error, asked[k], fit.model->unclaimed_instants());
     if (asked[k].role == Role::self)
       training.add(measured, predictions[k]);
-    else
+    else if (measured.size() > 0)
       tests.push_back(models::residual_deviation(measured, predictions[k]));
   }
   auto const n = Index(training.truth.size());
   figures["S"] =
       models::residual_deviation(Eigen::Map<VectorXd const>(training.truth.data(), n),
                                  Eigen::Map<VectorXd const>(training.prediction.data(), n), fit.model->parameters);
+  if (tests.empty()) return;
   Eigen::Map<VectorXd const> const deviations(tests.data(), Index(tests.size()));
   figures["Mn"] = deviations.mean();
   if (tests.size() > 1)

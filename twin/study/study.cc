@@ -124,8 +124,9 @@ void StudyRunner::calibrate_twins() {
     repetition.less_twin.resize(repetition.all.size());
     repetition.twin_refused.resize(repetition.all.size());
     for (std::size_t q = 0; q < repetition.all.size(); ++q)
-      sharing[twin_key(study_.worlds[repetition.world], repetition.number, *repetition.all[q])].push_back(
-          {&repetition, q});
+      sharing[twin_key(study_.worlds[repetition.world], worlds_[repetition.world], repetition.number,
+                       *repetition.all[q])]
+          .push_back({&repetition, q});
   }
   std::vector<std::vector<Asking> const*> tasks;
   for (auto const& [key, askings] : sharing) tasks.push_back(&askings);
@@ -136,8 +137,8 @@ void StudyRunner::calibrate_twins() {
     for (auto const& [repetition, q] : *tasks[i]) {
       repetition->twin_refused[q] = twin.refused;
       if (twin.refused.empty())
-        repetition->less_twin[q] =
-            less_twin(*repetition->all[q], study_.worlds[repetition->world], worlds_[repetition->world], twin);
+        repetition->less_twin[q] = less_twin(*repetition->all[q], study_.worlds[repetition->world],
+                                             worlds_[repetition->world], repetition->number, twin);
     }
   });
 }

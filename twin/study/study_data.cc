@@ -7,11 +7,15 @@
 
 #include "thermal/nearest_name.h"
 #include "twin/axis_record.h"
+#include "twin/complete_rows.h"
 
 namespace thermotwin::twin {
 namespace {
 
 using Eigen::Index;
+
+/// Of a run's readings: a sensor that lacks more is left out, and not the rows that lack it.
+constexpr double largest_missing_share = 0.1;
 
 output::Channel const* channel_of(std::vector<output::Channel> const& group, std::string const& name) {
   auto const it = std::find_if(group.begin(), group.end(), [&](auto const& c) { return c.name == name; });
@@ -33,21 +37,30 @@ struct View {
 
 class WorldReader {
  public:
+  using Rows = std::vector<Index>;
+
   WorldReader(StudyWorld const& world, WorldRuns const& runs) : world_(world), runs_(runs) {}
   WorldReader(StudyWorld const& world, WorldData const& data) : WorldReader(world, *data.runs) {
     data_.sensors = data.sensors;
   }
   WorldData read();
-  [[nodiscard]] StudyRun run_of(output::Dataset const& data, std::string const& name) const;
+  [[nodiscard]] models::Batch true_batch(output::Dataset const& data, Rows const& rows, std::string const& name) const;
 
  private:
   [[nodiscard]] std::vector<std::string> candidates() const;
-  void leave_out(std::string const& sensor, std::string const& why);
+  [[nodiscard]] Eigen::ArrayX<bool> rows_with_any(output::Dataset const& data) const;
+  [[nodiscard]] std::string unusable(std::string const& sensor, output::Dataset const& data,
+                                     std::string const& run) const;
   void check_sensors();
-  [[nodiscard]] models::Batch batch(View const& view, Eigen::VectorXd const& time, std::string const& name) const;
+  [[nodiscard]] Rows complete(output::Dataset const& data, std::string const& name,
+                              std::vector<std::string>& remarks) const;
+  [[nodiscard]] StudyRun run_of(output::Dataset const& data, std::string const& name,
+                                std::vector<std::string>& remarks) const;
+  [[nodiscard]] models::Batch batch(View const& view, Eigen::VectorXd const& time, Rows const& rows,
+                                    std::string const& name) const;
   [[nodiscard]] models::AxisRecord record(View const& readings, View const& errors, Eigen::VectorXd const& time,
-                                          std::string const& name) const;
-  [[nodiscard]] Eigen::MatrixXd rises(View const& view) const;
+                                          Rows const& rows, std::string const& name) const;
+  [[nodiscard]] Eigen::MatrixXd rises(View const& view, Rows const& rows) const;
   [[nodiscard]] std::vector<std::string> components() const;
   void check_instants() const;
   void remark_measured();
@@ -70,33 +83,54 @@ std::vector<std::string> WorldReader::candidates() const {
   return world_.sensors;
 }
 
-void WorldReader::leave_out(std::string const& sensor, std::string const& why) {
-  std::erase(data_.sensors, sensor);
-  data_.remarks.push_back(fmt::format("{} is left out: {}", sensor, why));
-}
-
 std::vector<std::string> WorldReader::run_names() const {
   std::vector<std::string> names = world_.train;
   names.insert(names.end(), world_.test.begin(), world_.test.end());
   return names;
 }
 
+/// Those of which something could be learnt: with the error, and at least one sensor.
+Eigen::ArrayX<bool> WorldReader::rows_with_any(output::Dataset const& data) const {
+  Eigen::ArrayX<bool> any = Eigen::ArrayX<bool>::Constant(data.time_s.size(), false);
+  for (auto const& sensor : data_.sensors)
+    if (auto const* channel = channel_of(data.readings, sensor)) any = any || channel->values.array().isFinite();
+  if (auto const* error = channel_of(data.displacements, world_.error)) any = any && error->values.array().isFinite();
+  return any;
+}
+
+/// Why no model of the world gets to see the sensor; empty: they do.
+std::string WorldReader::unusable(std::string const& sensor, output::Dataset const& data,
+                                  std::string const& run) const {
+  auto const* channel = channel_of(data.readings, sensor);
+  if (!channel) return fmt::format("{} does not have it", run);
+  Eigen::ArrayX<bool> const missing = !channel->values.array().isFinite(), asked = rows_with_any(data);
+  if (missing.all()) return fmt::format("it is dead in {}", run);
+  auto const lacking = (missing && asked).count();
+  if (double(lacking) <= largest_missing_share * double(asked.count())) return {};
+  return fmt::format("{} of {} readings are missing in {}, more than {:g} %", lacking, asked.count(), run,
+                     100.0 * largest_missing_share);
+}
+
 void WorldReader::check_sensors() {
   auto const names = run_names();
   for (auto const& repetition : runs_.runs)
     for (std::size_t i = 0; i < repetition.size(); ++i)
-      for (auto const& sensor : std::vector<std::string>(data_.sensors)) {
-        auto const* channel = channel_of(repetition[i].readings, sensor);
-        if (!channel)
-          leave_out(sensor, fmt::format("{} does not have it", names[i]));
-        else if (auto const missing = (!channel->values.array().isFinite()).count(); missing == channel->values.size())
-          leave_out(sensor, fmt::format("it is dead in {}", names[i]));
-        else if (missing > 0)
-          leave_out(sensor,
-                    fmt::format("{} of {} readings are missing in {}", missing, channel->values.size(), names[i]));
-      }
+      for (auto const& sensor : std::vector<std::string>(data_.sensors))
+        if (auto const why = unusable(sensor, repetition[i], names[i]); !why.empty()) {
+          std::erase(data_.sensors, sensor);
+          data_.remarks.push_back(fmt::format("{} is left out: {}", sensor, why));
+        }
   if (data_.sensors.empty())
     throw thermal::InputError(fmt::format("no sensor is left: {}", fmt::join(data_.remarks, "; ")));
+}
+
+/// What is left out is remarked.
+WorldReader::Rows WorldReader::complete(output::Dataset const& data, std::string const& name,
+                                        std::vector<std::string>& remarks) const {
+  std::vector<output::Channel const*> channels;
+  for (auto const& sensor : data_.sensors) channels.push_back(channel_of(data.readings, sensor));
+  if (auto const* error = channel_of(data.displacements, world_.error)) channels.push_back(error);
+  return complete_rows(channels, name, remarks);
 }
 
 /// "T1 3, E_Z 12", of what models get to see.
@@ -148,64 +182,72 @@ std::vector<std::string> WorldReader::components() const {
   return result;
 }
 
-Eigen::MatrixXd WorldReader::rises(View const& view) const {
-  Eigen::MatrixXd rise;
+Eigen::MatrixXd WorldReader::rises(View const& view, Rows const& rows) const {
+  Eigen::MatrixXd rise(Index(rows.size()), Index(data_.sensors.size()));
   for (std::size_t j = 0; j < data_.sensors.size(); ++j) {
     auto const& values = channel_of(view.readings, data_.sensors[j])->values;
-    rise.conservativeResize(values.size(), Index(j) + 1);
-    rise.col(Index(j)) = values.array() - values[0];
+    rise.col(Index(j)) = values(rows).array() - values[rows[0]];
   }
   return rise;
 }
 
-models::Batch WorldReader::batch(View const& view, Eigen::VectorXd const& time, std::string const& name) const {
+models::Batch WorldReader::batch(View const& view, Eigen::VectorXd const& time, Rows const& rows,
+                                 std::string const& name) const {
   auto const* error = channel_of(view.displacements, world_.error);
   if (!error)
     throw thermal::InputError(fmt::format("{} has no displacement '{}'; {}", name, world_.error,
                                           thermal::did_you_mean(world_.error, names_of(view.displacements))));
-  models::Batch batch{name, time, data_.sensors, components(), rises(view), error->values};
-  for (Index i = 0; i < time.size(); ++i)
-    if (!std::isfinite(error->values[i]))
-      throw thermal::InputError(fmt::format("{}: {} has no value at {:g} s", name, world_.error, time[i]));
-  return batch;
+  return {name, time(rows), data_.sensors, components(), rises(view, rows), error->values(rows)};
 }
 
 models::AxisRecord WorldReader::record(View const& readings, View const& errors, Eigen::VectorXd const& time,
-                                       std::string const& name) const {
+                                       Rows const& rows, std::string const& name) const {
   auto const axis = world_.error.substr(slope_prefix.size());
-  return axis_record({name, time, data_.sensors, components(), rises(readings), {}},
+  return axis_record({name, time(rows), data_.sensors, components(), rises(readings, rows), {}},
                      laser_of(errors.positioning, axis, name), world_.from, world_.to);
 }
 
-StudyRun WorldReader::run_of(output::Dataset const& data, std::string const& name) const {
-  View const seen{data.readings, data.displacements, data.positioning};
-  View const true_ones{data.truth_readings, data.truth_displacements, data.truth_positioning};
+View seen_of(output::Dataset const& data) { return {data.readings, data.displacements, data.positioning}; }
+
+View truth_of(output::Dataset const& data) {
+  return {data.truth_readings, data.truth_displacements, data.truth_positioning};
+}
+
+models::Batch WorldReader::true_batch(output::Dataset const& data, Rows const& rows, std::string const& name) const {
+  auto const truth = truth_of(data);
+  return world_.slope() ? models::slope_batch(record(truth, truth, data.time_s, rows, name))
+                        : batch(truth, data.time_s, rows, name);
+}
+
+StudyRun WorldReader::run_of(output::Dataset const& data, std::string const& name,
+                             std::vector<std::string>& remarks) const {
+  auto const rows = complete(data, name, remarks);
+  auto const seen = seen_of(data);
   bool const known = !data.truth_readings.empty();
-  if (!world_.slope())
-    return {batch(seen, data.time_s, name),
-            known ? std::optional(batch(true_ones, data.time_s, name)) : std::nullopt,
-            {},
-            {}};
-  auto const axis = record(seen, seen, data.time_s, name);
-  return {models::slope_batch(axis),
-          known ? std::optional(models::slope_batch(record(true_ones, true_ones, data.time_s, name))) : std::nullopt,
-          axis, record(seen, known ? true_ones : seen, data.time_s, name)};
+  auto const truth = known ? std::optional(true_batch(data, rows, name)) : std::nullopt;
+  if (!world_.slope()) return {batch(seen, data.time_s, rows, name), truth, {}, {}, rows};
+  auto const axis = record(seen, seen, data.time_s, rows, name);
+  return {models::slope_batch(axis), truth, axis, record(seen, known ? truth_of(data) : seen, data.time_s, rows, name),
+          rows};
 }
 
 WorldData WorldReader::read() {
   data_.sensors = candidates();
   check_sensors();
-  remark_measured();
   if (world_.slope()) data_.unit = "um/m";
+  auto const names = run_names();
   for (auto const& repetition : runs_.runs) {
+    bool const first = data_.train.empty();
     auto& train = data_.train.emplace_back();
     auto& test = data_.test.emplace_back();
-    for (std::size_t i = 0; i < repetition.size(); ++i)
-      if (i < world_.train.size())
-        train.push_back(run_of(repetition[i], world_.train[i]));
-      else
-        test.push_back(run_of(repetition[i], world_.test[i - world_.train.size()]));
+    for (std::size_t i = 0; i < repetition.size(); ++i) {
+      std::vector<std::string> remarks;
+      (i < world_.train.size() ? train : test).push_back(run_of(repetition[i], names[i], remarks));
+      for (auto const& remark : remarks)
+        if (first) data_.remarks.push_back(names[i] + ": " + remark);
+    }
   }
+  remark_measured();
   check_instants();
   data_.no_modes = runs_.no_modes;
   if (runs_.mode_shapes.size() == 0) return std::move(data_);
@@ -219,8 +261,9 @@ WorldData WorldReader::read() {
 
 }  // namespace
 
-models::Batch true_batch(StudyWorld const& world, WorldData const& data, output::Dataset const& dataset) {
-  return WorldReader(world, data).run_of(dataset, "the twin").truth.value();
+models::Batch true_batch(StudyWorld const& world, WorldData const& data, output::Dataset const& dataset,
+                         std::vector<Index> const& rows) {
+  return WorldReader(world, data).true_batch(dataset, rows, "the twin");
 }
 
 std::vector<WorldData> study_data(Study const& study, std::function<void(double)> const& progress,

@@ -66,7 +66,8 @@ struct StudyWorld {
              "one model on all of 'train', or one on each, which then predicts the others");
     f("from", &StudyWorld::from, dimension::length, "judged positions of a laser: first", Range{0.0});
     f("to", &StudyWorld::to, dimension::length, "last", Range{0.0});
-    f("instant", &StudyWorld::instants, "instants at which the error over the axis is judged; 'error' is a slope");
+    f("instant", &StudyWorld::instants,
+      "instants at which the error over the axis is judged; 'error' is a slope, 'fit' is together");
   }
 };
 

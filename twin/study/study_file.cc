@@ -72,6 +72,10 @@ void check_world(Value const& table, StudyWorld const& world) {
                     fmt::format("an 'instant' judges the error over an axis, but 'error' is '{}'; give a slope, for "
                                 "example \"slope z\"",
                                 world.error));
+  if (!world.instants.empty() && world.fit == "each")
+    throw FileError(place_of_item(table, "instant", 0),
+                    "an 'instant' is judged by the one model of all of 'train', but 'fit' is each; give fit = "
+                    "\"together\", or no 'instant'");
   std::vector<std::string> runs = world.train;
   runs.insert(runs.end(), world.test.begin(), world.test.end());
   for (std::size_t i = 0; i < world.instants.size(); ++i)

@@ -116,17 +116,22 @@ TwinRuns twin_runs(StudyWorld const& world, WorldData const& data, int repetitio
   }
 }
 
-std::string twin_key(StudyWorld const& world, int repetition, Question const& question) {
+std::string twin_key(StudyWorld const& world, WorldData const& data, int repetition, Question const& question) {
   std::string key =
       fmt::format("{}|{}|{}|{}|{}|{}|{}", world.machine, world.added, fmt::join(world.changes, ","),
                   fmt::join(world.train, ","), fmt::join(world.test, ","), world.sampling.value_or(0.0), repetition);
-  for (auto const& part : question.parts) key += fmt::format("|{}:{}+{}", part.run, part.first, part.count);
+  auto const& train = data.train[std::size_t(repetition)];
+  for (std::size_t r = 0; r < train.size(); ++r)
+    for (auto const& window : windows_of(question.parts, r, train[r].seen.time))
+      key += fmt::format("|{}: {} to {}", r, window.from, window.to);
   return key;
 }
 
-Question less_twin(Question question, StudyWorld const& world, WorldData const& data, TwinRuns const& twin) {
+Question less_twin(Question question, StudyWorld const& world, WorldData const& data, int repetition,
+                   TwinRuns const& twin) {
   std::vector<models::Batch> said;
-  for (auto const& run : twin.runs) said.push_back(true_batch(world, data, run));
+  for (auto const* list : {&data.train[std::size_t(repetition)], &data.test[std::size_t(repetition)]})
+    for (auto const& run : *list) said.push_back(true_batch(world, data, twin.runs[said.size()], run.rows));
   for (auto const& asked : question.asked)
     if (data.runs->measured[asked.run]) said[asked.run].error.array() += zero_of(question, asked, said[asked.run]);
   for (std::size_t k = 0; k < question.training.size(); ++k) {

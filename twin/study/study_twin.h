@@ -28,12 +28,13 @@ struct TwinRuns {
                                  Question const& question);
 
 /// Worlds that differ by what they ask of the same runs share a twin: it is the same for questions of one key.
-[[nodiscard]] std::string twin_key(StudyWorld const& world, int repetition, Question const& question);
+[[nodiscard]] std::string twin_key(StudyWorld const& world, WorldData const& data, int repetition,
+                                   Question const& question);
 
 /// The question for a model that has a twin to help it: readings and errors to learn from are what the machine shows
 /// less what the twin says; what it predicts is added to what the twin says. A measured displacement has a zero of its
 /// own in each run: it is that of the training rows, or of the first instant where a run has none.
-[[nodiscard]] Question less_twin(Question question, StudyWorld const& world, WorldData const& data,
+[[nodiscard]] Question less_twin(Question question, StudyWorld const& world, WorldData const& data, int repetition,
                                  TwinRuns const& twin);
 
 }  // namespace thermotwin::twin
