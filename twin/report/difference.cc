@@ -111,8 +111,10 @@ Eigen::MatrixXd residuals(ShownRun const& first, ShownRun const& second, Machine
   for (std::size_t s = 0; s < machine.sensors.size(); ++s)
     for (auto const& mine : first.data.readings)
       for (auto const& theirs : second.data.readings)
-        if (mine.name == machine.sensors[s].description.name && theirs.name == mine.name)
-          values.col(Eigen::Index(s)) = mine.values - output::at_times(theirs.values, second.data.time_s, times);
+        if (mine.name == machine.sensors[s].description.name && theirs.name == mine.name) {
+          auto const known = samples_of(second, theirs.values);
+          values.col(Eigen::Index(s)) = mine.values - output::at_times(known.values, known.time_s, times);
+        }
   return values;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "thermal/error.h"
 #include "twin/file/output_path.h"
@@ -9,14 +10,29 @@
 namespace thermotwin::twin {
 namespace {
 
+using output::FigureLine;
+
+/// A curve is called "T1", or "T1, monday" among several data sets.
+std::string channel_of(FigureLine const& line) { return line.name.substr(0, line.name.find(", ")); }
+std::string data_set_of(FigureLine const& line) { return line.name.substr(line.name.find(", ") + 2); }
+
+void add_new(std::vector<std::string>& names, std::string const& name) {
+  if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+/// Per panel what `only` takes, and where several data sets are drawn, which.
 std::string list_of(std::vector<FigurePanel> const& panels) {
   std::string text;
   for (auto const& panel : panels) {
     auto const& figure = panel.figure;
+    std::vector<std::string> channels, data_sets;
+    for (auto const& line : figure.lines) add_new(channels, channel_of(line));
+    if (!panel.runs.empty())
+      for (auto const& line : figure.lines) add_new(data_sets, data_set_of(line));
     text += fmt::format("{:<34}", panel.name);
     if (!figure.rows.empty()) text += fmt::format(" {} rows", figure.rows.size());
-    for (auto const& line : figure.lines)
-      if (!line.name.empty()) text += " " + line.name + (&line == &figure.lines.back() ? "" : ",");
+    if (!channels.empty()) text += fmt::format(" {}", fmt::join(channels, ", "));
+    if (!data_sets.empty()) text += fmt::format(" (of {})", fmt::join(data_sets, ", "));
     text += "\n";
   }
   return text;
@@ -52,9 +68,8 @@ void keep(FigurePanel& panel, std::vector<std::string> const& names) {
 /// Of one channel alone, each data set has its colour beside its dashes, as on the page.
 void colour_by_run(FigurePanel& panel) {
   auto& lines = panel.figure.lines;
-  auto const channel = [](auto const& line) { return line.name.substr(0, line.name.find(", ")); };
   for (auto const& line : lines)
-    if (panel.runs.empty() || channel(line) != channel(lines[0])) return;
+    if (panel.runs.empty() || channel_of(line) != channel_of(lines[0])) return;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     auto const dashes = lines[i].dashes;
     output::set_style(lines[i], panel.runs[i]);

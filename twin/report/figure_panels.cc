@@ -10,6 +10,7 @@
 #include "output/report_page.h"
 #include "output/viridis.h"
 #include "thermal/error.h"
+#include "twin/diagnosis/estimate_text.h"
 #include "twin/file/text_file.h"
 #include "twin/report/figure_files.h"
 #include "twin/report/shown_run.h"
@@ -23,8 +24,6 @@ using output::FigureLine;
 using output::Json;
 
 using Channels = std::vector<Channel> const& (*)(output::Dataset const&);
-
-constexpr double two_sided_95 = 1.96;
 
 std::string unit_text(std::string const& unit) {
   static std::map<std::string, std::string> const symbols = {{"degC", "°C"}, {"um", "µm"}, {"urad", "µrad"}};
@@ -113,14 +112,13 @@ class CoursesOfRuns {
  public:
   CoursesOfRuns(TimeFigure figure, bool several) : figure_(std::move(figure)), several_(several) {}
 
-  void add(std::string const& channel, ShownRun const& run, std::size_t r, Eigen::VectorXd const& time_s,
-           Eigen::VectorXd const& values) {
+  void add(std::string const& channel, ShownRun const& run, std::size_t r, Samples const& samples) {
     static std::vector<std::vector<double>> const dashes = {{}, {4.0, 2.0}, {1.0, 1.5}, {6.0, 2.0, 1.0, 2.0}};
     auto const known = std::find(names_.begin(), names_.end(), channel);
     auto const i = std::size_t(known - names_.begin());
     if (known == names_.end()) names_.push_back(channel);
     auto const name = several_ ? fmt::format("{}, {}", channel, run.path.stem().string()) : channel;
-    auto& line = figure_.add(name, time_s, values);
+    auto& line = figure_.add(name, samples.time_s, samples.values);
     output::set_style(line, i);
     if (!several_) return;
     if (i >= 7)  // dashes tell runs apart here: later channels are pale
@@ -144,7 +142,7 @@ FigurePanel courses(std::vector<ShownRun> const& runs, Channels channels, std::s
   CoursesOfRuns panel(TimeFigure(axis_text(quantity_of(unit), unit), start, end), runs.size() > 1);
   for (std::size_t r = 0; r < runs.size(); ++r)
     for (auto const& channel : channels(runs[r].data))
-      if (channel.unit == unit) panel.add(channel.name, runs[r], r, runs[r].data.time_s, channel.values);
+      if (channel.unit == unit) panel.add(channel.name, runs[r], r, samples_of(runs[r], channel.values));
   return panel.take(name);
 }
 
@@ -158,10 +156,12 @@ FigurePanel residuals(std::vector<ShownRun> const& runs, Channels channels, std:
   for (std::size_t r = 1; r < runs.size(); ++r) {
     if (!driven_alike(runs[0], runs[r])) continue;
     for (auto const& mine : channels(reference))
-      for (auto const& other : channels(runs[r].data))
-        if (mine.unit == unit && other.name == mine.name)
-          panel.add(mine.name, runs[r], r, reference.time_s,
-                    mine.values - output::at_times(other.values, runs[r].data.time_s, reference.time_s));
+      for (auto const& other : channels(runs[r].data)) {
+        if (mine.unit != unit || other.unit != unit || other.name != mine.name) continue;
+        auto const theirs = samples_of(runs[r], other.values);
+        Eigen::VectorXd const left = mine.values - output::at_times(theirs.values, theirs.time_s, reference.time_s);
+        panel.add(mine.name, runs[r], r, samples_of(runs[0], left));
+      }
   }
   return panel.take(name);
 }
@@ -201,18 +201,19 @@ bool is_held(output::Channel const& input) {
   return units.contains(input.unit);
 }
 
-/// Each value until the next sample.
-void add_held(TimeFigure& figure, output::Channel const& input, Eigen::VectorXd const& time_s) {
+/// Each value until the next sample, where there is one.
+void add_held(TimeFigure& figure, std::string const& name, Samples const& samples) {
+  auto const& [time_s, held] = samples;
   Eigen::Index const steps = time_s.size() - 1;
   Eigen::VectorXd time(2 * steps + 1), values(2 * steps + 1);
   for (Eigen::Index i = 0; i <= steps; ++i) {
     time[2 * i] = time_s[i];
-    values[2 * i] = input.values[i];
+    values[2 * i] = held[i];
     if (i == steps) break;
     time[2 * i + 1] = time_s[i + 1];
-    values[2 * i + 1] = input.values[i];
+    values[2 * i + 1] = std::isnan(held[i + 1]) ? held[i + 1] : held[i];
   }
-  figure.add(input.name, time, values);
+  figure.add(name, time, values);
 }
 
 void add_inputs(std::vector<FigurePanel>& panels, ShownRun const& run) {
@@ -222,10 +223,11 @@ void add_inputs(std::vector<FigurePanel>& panels, ShownRun const& run) {
     bool any = false;
     for (auto const& input : run.data.inputs)
       if (input.unit == unit && varies(input.values)) {
+        auto const samples = samples_of(run, input.values);
         if (is_held(input))
-          add_held(figure, input, run.data.time_s);
+          add_held(figure, input.name, samples);
         else
-          figure.add(input.name, run.data.time_s, input.values);
+          figure.add(input.name, samples.time_s, samples.values);
         any = true;
       }
     if (any) panels.push_back({"input_" + file_part(unit), figure.take()});
@@ -244,7 +246,8 @@ void add_runs(std::vector<FigurePanel>& panels, std::vector<ShownRun> runs) {
   bool made = false;
   for (auto const& channel : runs[0].data.heat)
     if ((channel.values.array() != 0.0).any()) {
-      heat.add(channel.name, runs[0].data.time_s, channel.values);
+      auto const samples = samples_of(runs[0], channel.values);
+      heat.add(channel.name, samples.time_s, samples.values);
       made = true;
     }
   if (made) panels.push_back({"heat", heat.take()});

@@ -44,6 +44,22 @@ Machine build_beside(std::string const& text, std::string const& settings, std::
   return Machine::build(document);
 }
 
+/// None when the run names no machine.
+std::optional<Machine> named_machine(ShownRun const& run) {
+  if (run.machine.empty()) return {};
+  auto beside = run.path.parent_path() / run.machine;
+  if (beside.extension() != ".toml") beside += ".toml";
+  if (std::filesystem::exists(beside)) return Machine::read(beside);
+  try {
+    return Machine::read(machine_file(run.machine));
+  } catch (thermal::InputError const&) {
+    throw thermal::InputError(
+        fmt::format("{} says that it was '{}', but there is no {} beside it, and none such is shipped; name its file "
+                    "with --machine",
+                    run.path.filename().string(), run.machine, beside.filename().string()));
+  }
+}
+
 Json surface_json(Surface const& surface, FieldMesh const& mesh, ReportPage& page) {
   Eigen::MatrixXd points(Eigen::Index(surface.points.size()), 3);
   for (std::size_t i = 0; i < surface.points.size(); ++i)
@@ -157,7 +173,7 @@ Json shape_json(Machine const& machine, FieldMesh const& mesh, Surface const& su
 std::optional<Machine> machine_of(ShownRun const& run) {
   auto const& provenance = run.data.provenance;
   auto const text = provenance.find("machine.file");
-  if (text == provenance.end()) return {};
+  if (text == provenance.end()) return named_machine(run);
   auto const settings = provenance.find("settings");
   std::string const set = settings == provenance.end() ? "" : settings->second;
   try {

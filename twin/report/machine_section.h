@@ -11,8 +11,9 @@
 
 namespace thermotwin::twin {
 
-/// The machine that a run was made with, built again from the run's own echo of its file and settings; none without
-/// such an echo. InputError when the echo no longer makes a machine.
+/// The machine that a run was made with, built again from the run's own echo of its file and settings; without such an
+/// echo the one that a measurement file names, from the file of that name beside it, or else the shipped one; none when
+/// neither says. InputError when the echo no longer makes a machine, or none has that name.
 [[nodiscard]] std::optional<Machine> machine_of(ShownRun const& run);
 
 /// The machine as the page draws it: its surface, body by body, and its sensors.

@@ -34,6 +34,8 @@ ShownRun const* drawn_run(std::vector<ShownRun> const& runs) {
     if (run.data.node_temperatures && run.data.provenance.contains("machine.file")) return &run;
   for (auto const& run : runs)
     if (run.data.provenance.contains("machine.file")) return &run;
+  for (auto const& run : runs)
+    if (!run.machine.empty()) return &run;
   return nullptr;
 }
 

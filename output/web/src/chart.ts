@@ -1,6 +1,6 @@
 // The only file that knows uPlot.
 import uPlot from 'uplot';
-import type {Course} from './course';
+import {interrupted, type Course} from './course';
 import {make} from './dom';
 import {minus} from './format';
 import type {Signal} from './signal';
@@ -118,13 +118,12 @@ export class Chart {
   }
 
   private data(): uPlot.AlignedData {
-    const tables = this.options.lines.map((line) => [
-      Array.from(line.time, (t) => t / this.xScale),
-      Array.from(line.values, (v) => (Number.isFinite(v) ? v : null)),
+    const tables = this.options.lines.map(interrupted).map(({time, values}) => [
+      time.map((t) => t / this.xScale), values,
     ] as uPlot.AlignedData);
     if (tables.length === 0) return [this.options.x.range.map((t) => t / this.xScale), [null, null]];
-    const shared = this.options.lines.every((line) => line.time === this.options.lines[0]!.time);
-    return shared ? [tables[0]![0], ...tables.map((t) => t[1]!)] as uPlot.AlignedData : uPlot.join(tables);
+    const x = tables[0]![0], shared = tables.every(([own]) => own.length === x.length && own.every((t, i) => t === x[i]));
+    return shared ? [x, ...tables.map((t) => t[1]!)] as uPlot.AlignedData : uPlot.join(tables);
   }
 
   private settings(width: number, height: number): uPlot.Options {

@@ -5,6 +5,8 @@ export interface Course {
   values: ArrayLike<number>;
   /** Each value holds until the next: what the machine was told, not what follows from it. */
   held?: boolean;
+  /** Samples farther apart have nothing between them, others are one course; without it, each missing one interrupts. */
+  longestGap?: number;
 }
 
 /** The last index whose time is at or before t; 0 before the first. */
@@ -18,14 +20,42 @@ export function rowAt(time: ArrayLike<number>, t: number): number {
   return low;
 }
 
-/** Along straight lines, or held; NaN outside, and next to a missing sample. */
+/** Along straight lines, or held; NaN outside, in a gap, and next to a sample that is missing unless gaps are told by their length. */
 export function valueAt(course: Course, t: number): number {
-  const {time, values} = course, n = time.length;
+  const {time, values, longestGap} = course, n = time.length;
   if (n === 0 || t < time[0]! - 1e-6 || t > time[n - 1]! + 1e-6) return NaN;
-  const i = rowAt(time, t);
-  if (course.held || i === n - 1 || t <= time[i]!) return values[i]!;
-  const share = (t - time[i]!) / (time[i + 1]! - time[i]!);
-  return values[i]! + share * (values[i + 1]! - values[i]!);
+  let i = rowAt(time, t), next = t > time[i]! ? Math.min(i + 1, n - 1) : i;
+  if (longestGap !== undefined) {
+    while (i > 0 && !Number.isFinite(values[i])) --i;
+    while (next < n - 1 && !Number.isFinite(values[next])) ++next;
+    if (time[next]! - time[i]! > longestGap) return NaN;
+  }
+  if (i === next || course.held) return values[i]!;
+  return values[i]! + ((t - time[i]!) / (time[next]! - time[i]!)) * (values[next]! - values[i]!);
+}
+
+/**
+ * As a line is drawn: null where it is interrupted, undefined where it goes on to the next sample. A gap without rows
+ * gets one, just behind the row before it.
+ */
+export function interrupted({time, values, longestGap}: Course): {time: number[]; values: (number | null | undefined)[]} {
+  const times: number[] = [], drawn: (number | null | undefined)[] = [];
+  let known = -Infinity, behind = 0;  // when the last sample was, and what follows it
+  for (let i = 0; i < time.length; ++i) {
+    const now = time[i]!, step = i > 0 ? now - time[i - 1]! : 0;
+    if (longestGap !== undefined && step > longestGap) {
+      times.push(time[i - 1]! + 1e-3 * step);
+      drawn.push(null);
+    }
+    if (Number.isFinite(values[i])) {
+      if (longestGap !== undefined && now - known <= longestGap) drawn.fill(undefined, behind);
+      known = now;
+      behind = drawn.length + 1;
+    }
+    times.push(now);
+    drawn.push(Number.isFinite(values[i]) ? values[i]! : null);
+  }
+  return {time: times, values: drawn};
 }
 
 export function resampled(course: Course, times: ArrayLike<number>): Float32Array {

@@ -13,6 +13,8 @@ export interface Channel {
   title: string;
   values?: NumberRef;
   constant?: number;
+  /** Of what was measured: samples farther apart [s] have nothing between them. */
+  longest_gap?: number;
 }
 
 export interface Positioning {
@@ -148,6 +150,7 @@ export interface DiagnosisSection {
   experiment_distance?: number;
   experiment_wanted_distance?: number;
   estimates: {name: string; estimate: number; standard_error: number; prior: number}[];
+  doubts?: {run: string; channel: string; text: string}[];
   remarks: string[];
 }
 

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {extent, residual, rootMeanSquare, rowAt, valueAt, windows} from '../src/course';
+import {extent, interrupted, residual, rootMeanSquare, rowAt, valueAt, windows} from '../src/course';
 
 const course = {time: [0, 10, 30, 40], values: [1, 3, NaN, 5]};
 
@@ -18,6 +18,24 @@ test('values lie on straight lines, and are missing outside and beside a gap', (
 
 test('what is set holds until the next row', () => {
   assert.deepEqual([0, 9, 10, 35].map((t) => valueAt({...course, held: true}, t)).map(String), ['1', '1', '3', 'NaN']);
+});
+
+test('where rows are farther apart than a gap there is nothing between them', () => {
+  const apart = {time: [0, 10, 110, 120], values: [1, 2, 3, 4], longestGap: 50};
+  assert.deepEqual([10, 11, 60, 109, 110, 115].map((t) => String(valueAt(apart, t))), ['2', 'NaN', 'NaN', 'NaN', '3', '3.5']);
+  assert.ok(Number.isNaN(valueAt({...apart, held: true}, 60)));
+  assert.deepEqual(interrupted(apart), {time: [0, 10, 10.1, 110, 120], values: [1, 2, null, 3, 4]});
+  assert.deepEqual(interrupted({...apart, longestGap: undefined}), {time: apart.time, values: apart.values});
+  const whole = {time: [0, 60, 120], values: [5, 5, 5]};
+  assert.deepEqual([...residual(whole, apart)].map(String), ['4', 'NaN', '1']);
+});
+
+test('a course goes on where rows are those of another table, and not where samples are missing for longer than a gap', () => {
+  const sparse = {time: [0, 10, 20, 30, 40, 50, 100], values: [NaN, 1, NaN, 3, NaN, NaN, 7], longestGap: 50};
+  assert.deepEqual(interrupted(sparse).values, [null, 1, undefined, 3, null, null, 7]);
+  assert.deepEqual([0, 5, 10, 15, 20, 35, 60, 100].map((t) => String(valueAt(sparse, t))), ['NaN', 'NaN', '1', '1.5', '2', 'NaN', 'NaN', '7']);
+  assert.equal(valueAt({...sparse, held: true}, 25), 1);
+  assert.deepEqual(interrupted({...sparse, longestGap: undefined}).values, [null, 1, null, 3, null, null, 7]);
 });
 
 test('the residual is reference minus other, on the times of the reference', () => {

@@ -72,6 +72,27 @@ async function table(page: Page, name: string): Promise<{heads: string[]; rows: 
   return {heads: heads!, rows: texts.map((row) => row.map((x) => (x === '' ? NaN : Number(x)))), texts};
 }
 
+/** run.h5 as a measurement in K, mm and mrad, without its rows between two hours and three where `gap` is set. */
+function putMeasurement(name: string, gap: boolean): void {
+  thermotwin('export', 'run.h5', '-o', 'exported.csv');
+  const [heads, ...rows] = readFileSync(at('exported.csv'), 'utf8').trim().split('\n').map((line) => line.split(','));
+  const others: Record<string, {unit: string; factor: number; zero: number}> = {
+    degC: {unit: 'K', factor: 1, zero: 273.15}, um: {unit: 'mm', factor: 1e-3, zero: 0},
+    urad: {unit: 'mrad', factor: 1e-3, zero: 0}, rpm: {unit: 'rpm', factor: 1, zero: 0},
+  };
+  const columns = heads!.flatMap((head, i) => {
+    const [, channel, unit] = /^(spindle\.speed|ambient\.temperature|\w+)_(degC|um|urad|rpm)$/.exec(head) ?? [];
+    return channel ? [{i, channel, ...others[unit!]!}] : [];
+  });
+  const table = rows.filter((row) => !gap || Number(row[0]) <= 7200 || Number(row[0]) >= 10800)
+    .map((row) => [row[0], ...columns.map(({i, factor, zero}) => (row[i] === '' ? '' : zero + factor * Number(row[i])))].join());
+  writeFileSync(at(`${name}.csv`), [['t', ...columns.map((c) => c.channel)].join(), ...table].join('\n') + '\n');
+  const list = (key: string, given: boolean): string => columns.filter(({channel}) => channel.includes('.') === given)
+    .map(({channel, unit}) => `{column = "${channel}", ${key} = "${channel}", unit = "${unit}"}`).join();
+  writeFileSync(at(`${name}.toml`), `title = "Montag, Aufwärmen"\nmachine = "v450"\n[[table]]\nfile = "${name}.csv"
+time_column = "t"\ninput = [${list('channel', true)}]\nreading = [${list('sensor', false)}]\n`);
+}
+
 before(async () => {
   folder = mkdtempSync(join(tmpdir(), 'thermotwin-page-'));
   thermotwin('run', 'spindle_standard', '-m', 'v450', '--nodes', '-q', '-o', 'run.h5');
@@ -239,6 +260,52 @@ test('two runs: the worst channel is chosen, with residual, map and table', asyn
   const kelvin = bars.filter((b) => b.rms.endsWith(' K')).sort((a, b) => parseFloat(b.rms) - parseFloat(a.rms));
   assert.equal(chosen, kelvin[0]!.name);
   assert.ok(parseFloat(kelvin[0]!.rms) > 0.5);
+  const {heads, rows} = await table(page, 'Residual of every channel'), column = (name: string): number => heads.indexOf(name);
+  for (const row of rows) {
+    const [rms, offset, left] = ['rms', 'offset', 'rms_offset_taken_off'].map((name) => row[column(name)]!) as [number, number, number];
+    assert.ok(Math.abs(Math.hypot(offset, left) - rms) < 1e-4 * (1 + rms), `${rms}, of which ${offset} and ${left}`);
+  }
+  assert.match((await page.locator('[data-panel="residual_sensor_temperatures_degC"] > .words').last().textContent())!,
+    /^RMS \d\.\d\d K; \d\.\d\d K with one constant per channel taken off, as compare does$/);
+  await page.close();
+});
+
+test('a run and the same in K and mm are one', async () => {
+  putMeasurement('same', false);
+  thermotwin('report', 'same.toml', 'run.h5', '-o', 'same.html');
+  const {page, complaints} = await open(browser, at('same.html'), 1440);
+  for (const name of ['sensor_temperatures', 'displacements', 'residual_displacements', 'tilt', 'input_K', 'input_degC'])
+    assert.equal(await page.locator(`[data-panel^="${name}"]`).count(), name === 'input_K' ? 0 : 1, name);
+  const {heads, rows, texts} = await table(page, 'Residual of every channel');
+  assert.ok(rows.length >= 13, `${rows.length} channels`);
+  rows.forEach((row, i) => assert.ok(row[heads.indexOf('largest')]! < 1e-4, texts[i]!.join()));
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test('a measurement has its title and its machine, and nothing where nobody recorded', async () => {
+  putMeasurement('gap', true);
+  thermotwin('report', 'gap.toml', '-o', 'gap.html');
+  const {page, complaints} = await open(browser, at('gap.html'), 1440);
+  assert.equal(await page.locator('h1').textContent(), 'Montag, Aufwärmen');
+  assert.equal(await page.locator('.sensor[aria-label^="Sensor T8,"]').count(), 1);
+  await page.locator('[data-panel="sensor_temperatures_degC"]').scrollIntoViewIfNeeded();
+  await settled(page);
+  const [before, within, after] = await page.locator('[data-panel="sensor_temperatures_degC"] .plot').evaluate((plot) => {
+    const canvas = plot.querySelector('canvas')!, whole = canvas.getBoundingClientRect(), scale = canvas.width / whole.width;
+    const area = plot.querySelector('.u-over')!.getBoundingClientRect(), input = document.querySelector<HTMLInputElement>('.time-bar input')!;
+    const {data} = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+    return [6480, 9000, 11_700].map((t) => {
+      const x = Math.round((area.left - whole.left + (area.width * (t - +input.min)) / (+input.max - +input.min)) * scale);
+      const rows = Array.from({length: Math.floor(area.height * scale)}, (_, y) => 4 * ((y + Math.round((area.top - whole.top) * scale)) * canvas.width + x));
+      return rows.filter((i) => Math.max(...data.slice(i, i + 3)) - Math.min(...data.slice(i, i + 3)) > 60).length;
+    });
+  });
+  assert.ok(before! > 0 && after! > 0, 'nothing is drawn beside the gap');
+  assert.equal(within, 0);
+  await slider(page).fill('9000');
+  assert.equal(await page.locator('[data-panel="sensor_temperatures_degC"] [data-channel="T1"] .value').textContent(), '–');
+  assert.deepEqual(complaints, []);
   await page.close();
 });
 
@@ -280,6 +347,21 @@ test('a diagnosis names the effect, its rivals and its evidence', async () => {
   assert.equal(await page.locator('[data-panel="residual_heat_map"] .cell').count(), 2 * (gaps.fitted.length + gaps.held_out.length));
   assert.equal(await page.locator('[data-panel="unaccounted_heat"] .chip').count(), rest.unaccounted_heat.length);
   assert.equal((await table(page, 'Unknowns of the final fit')).rows.length, rest.estimates.length);
+  await page.close();
+});
+
+test('what speaks against the data stands above a verdict that knows no name', async () => {
+  const {effects, ...rest} = found(), one = {...effects[0]!, group: 0, weight: 1}, other = {...one, group: 1};
+  writeFileSync(at('none_known.json'), JSON.stringify({...rest, verdict: 'none_known', effects: [one, other],
+    doubts: [{run: 'day1', channel: 'E_Z', text: 'E_Z moves against the machine'}]}));
+  thermotwin('report', 'none_known.json', '-o', 'none_known.html');
+  const {page, complaints} = await open(browser, at('none_known.html'), 1440), name = `${one.effect.replaceAll('_', ' ')} at ${one.site}`;
+  assert.equal(await page.locator('.verdict .tag').textContent(), 'None known');
+  assert.equal(await page.locator('.verdict h2').textContent(),
+    `Something is missing that none of the effects tried explains. What stands in for it: ${name}; and ${name}.`);
+  assert.deepEqual(await page.locator('.diagnosis > .remark:nth-child(-n + 2)').allTextContents(),
+    ['Look at the data first; all that follows takes them as they are:', 'day1: E_Z moves against the machine']);
+  assert.deepEqual(complaints, []);
   await page.close();
 });
 

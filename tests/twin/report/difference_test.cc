@@ -16,6 +16,7 @@
 
 #include "output/dataset_file.h"
 #include "tests/output/temporary_directory.h"
+#include "tests/twin/report/in_other_units.h"
 #include "thermal/error.h"
 #include "thermal/growth_field.h"
 #include "twin/experiment_file.h"
@@ -190,6 +191,13 @@ TEST_F(Difference, OfAMeasurementIsTheResidualAtItsSensors) {
   EXPECT_EQ(shown.size(), placed);
   EXPECT_TRUE(field.array().isNaN().any());  // bodies that bear no sensor
   EXPECT_EQ(cells_of(folder / "out/field_0003.vtu", "displacement_difference_um", 54).size(), 0);
+}
+
+TEST_F(Difference, OfTheSameInOtherUnitsIsNothing) {
+  difference(tests::put_in_other_units(dataset, folder), written("run.h5").string());
+  auto const shown = points_of(folder / "out/sensors_0003.vtp", "temperature_residual_K");
+  EXPECT_GT(shown.size(), 5U);
+  for (auto const& [name, value] : shown) EXPECT_NEAR(value, 0.0, 1e-9) << name;
 }
 
 /// The twin is a file: it is run through what the measurement went through.

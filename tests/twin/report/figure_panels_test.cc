@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "output/dataset_file.h"
 #include "tests/output/temporary_directory.h"
+#include "tests/twin/report/in_other_units.h"
 #include "thermal/error.h"
 #include "twin/report/figure_files.h"
 
@@ -27,6 +29,17 @@ output::Dataset warm_up(double shift) {
                    {"T2", "degC", "motor", (20.0 + 25.0 * rise.array()).matrix()}};
   data.displacements = {{"E_Z", "um", "", 40.0 * rise}, {"A", "urad", "", -9.0 * rise}};
   data.heat = {{"bearing", "W", "", 100.0 * rise}, {"idle", "W", "", zero}};
+  return data;
+}
+
+/// Without the rows between one hour and two.
+output::Dataset interrupted(output::Dataset data) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index row = 0; row < data.time_s.size(); ++row)
+    if (data.time_s[row] <= 3600.0 || data.time_s[row] >= 7200.0) kept.push_back(row);
+  data.time_s = data.time_s(kept).eval();
+  for (auto* channels : {&data.inputs, &data.readings, &data.displacements, &data.heat})
+    for (auto& channel : *channels) channel.values = channel.values(kept).eval();
   return data;
 }
 
@@ -84,6 +97,40 @@ TEST_F(FigurePanels, ResidualIsTheFirstLessTheOther) {
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_TRUE((lines[0].y.array() + 1.5).abs().maxCoeff() < 1e-9);
   EXPECT_LT(lines[1].y.cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST_F(FigurePanels, TheSameInOtherUnitsIsTheSame) {
+  auto const other = tests::put_in_other_units(warm_up(0.0), folder);
+  auto const panels = figure_panels({other, written("a.h5", 0.0)});
+  EXPECT_THAT(names_of(panels),
+              ElementsAre("input_rpm", "sensor_temperatures_degC", "residual_sensor_temperatures_degC",
+                          "displacements_um", "residual_displacements_um", "tilt_urad", "residual_tilt_urad"));
+  for (char const* name : {"residual_sensor_temperatures_degC", "residual_displacements_um", "residual_tilt_urad"}) {
+    ASSERT_FALSE(panel(panels, name).lines.empty()) << name;
+    for (auto const& line : panel(panels, name).lines) EXPECT_LT(line.y.cwiseAbs().maxCoeff(), 1e-9) << name;
+  }
+}
+
+/// Whether a curve is drawn at x.
+bool is_drawn(output::FigureLine const& line, double x) {
+  for (Eigen::Index i = 1; i < line.x.size(); ++i)
+    if (line.x[i - 1] <= x && x <= line.x[i] && std::isfinite(line.y[i - 1]) && std::isfinite(line.y[i])) return true;
+  return false;
+}
+
+/// Neither a course nor a residual goes through an hour without rows; a value that is set does not hold for it.
+TEST_F(FigurePanels, WhereRowsAreFarApartCurvesAreInterrupted) {
+  output::write(interrupted(warm_up(0.0)), folder / "gap.h5");
+  auto const panels = figure_panels({folder / "gap.h5"});
+  for (char const* name : {"input_rpm", "sensor_temperatures_degC", "displacements_um", "heat"}) {
+    auto const& line = panel(panels, name).lines[0];
+    for (double const hours : {0.5, 0.99, 2.01, 2.5}) EXPECT_TRUE(is_drawn(line, hours)) << name << hours;
+    for (double const hours : {1.01, 1.3, 1.7, 1.99}) EXPECT_FALSE(is_drawn(line, hours)) << name << hours;
+  }
+  auto const against = figure_panels({written("a.h5", 0.0), folder / "gap.h5"});
+  EXPECT_TRUE(is_drawn(panel(against, "residual_displacements_um").lines[0], 0.5));
+  EXPECT_FALSE(is_drawn(panel(against, "residual_displacements_um").lines[0], 1.5));
+  EXPECT_TRUE(is_drawn(panel(against, "sensor_temperatures_degC").lines[0], 1.5));
 }
 
 TEST_F(FigurePanels, RunsHaveTheirDashesAndOfOneChannelTheirColours) {
@@ -149,7 +196,10 @@ TEST_F(FigurePanels, RankingHasTheBestFirst) {
 
 TEST_F(FigurePanels, AreChosenByNameAndTheirCurves) {
   auto const path = written("a.h5", 0.0);
-  EXPECT_THAT(write_figure_files({{path}, "", {}, ""}), HasSubstr("sensor_temperatures_degC           T1, T2"));
+  EXPECT_THAT(write_figure_files({{path}, "", {}, ""}), HasSubstr("sensor_temperatures_degC           T1, T2\n"));
+  EXPECT_THAT(write_figure_files({{path, written("b.h5", 1.0)}, "", {}, ""}),
+              testing::AllOf(HasSubstr("\nsensor_temperatures_degC           T1, T2 (of a, b)\n"),
+                             HasSubstr("\nresidual_sensor_temperatures_degC  T1, T2\n")));
   EXPECT_THAT(write_figure_files({{path}, "heat", {}, folder / "heat.pdf"}), HasSubstr("84 mm by 56 mm"));
   EXPECT_THAT(refusal({{path}, "heats", {}, folder / "x.svg"}), HasSubstr("they have input_rpm, sensor_"));
   EXPECT_THAT(refusal({{path}, "heat", {"T1"}, folder / "x.svg"}), HasSubstr("no curve 'T1'"));

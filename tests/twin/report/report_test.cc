@@ -8,6 +8,7 @@
 #include "output/field_mesh.h"
 #include "tests/output/page_reader.h"
 #include "tests/output/temporary_directory.h"
+#include "tests/twin/report/in_other_units.h"
 #include "thermal/error.h"
 #include "thermal/growth_field.h"
 #include "twin/experiment_file.h"
@@ -89,6 +90,40 @@ TEST_F(Report, ComparesOnlyWhatWentThroughTheSame) {
   EXPECT_TRUE(runs["sets"][1]["compared"]);
   EXPECT_FALSE(runs["sets"][2]["compared"]);
   EXPECT_THAT(runs["remarks"].dump(), testing::HasSubstr("faster.h5 was driven otherwise than run.h5"));
+}
+
+/// The page subtracts what it is given: a measurement must come in the units of a run.
+TEST_F(Report, HasTheSameInOtherUnitsInThoseOfARun) {
+  auto const page = report({tests::put_in_other_units(dataset, folder), written("run.h5")});
+  auto const &mine = section(page, "runs")["sets"][0], &theirs = section(page, "runs")["sets"][1];
+  for (char const* group : {"readings", "displacements"}) {
+    ASSERT_EQ(mine[group].size(), theirs[group].size());
+    for (std::size_t c = 0; c < mine[group].size(); ++c) {
+      EXPECT_EQ(mine[group][c]["unit"], theirs[group][c]["unit"]);
+      EXPECT_EQ(page.numbers<float>(mine[group][c]["values"]), page.numbers<float>(theirs[group][c]["values"]));
+    }
+  }
+  EXPECT_TRUE(theirs["compared"]);
+  EXPECT_EQ(mine["readings"][0]["longest_gap"], 6000.0);
+  EXPECT_FALSE(theirs["readings"][0].contains("longest_gap"));
+}
+
+/// By the name in the measurement file: a file beside it, or else a machine that comes with the program.
+TEST_F(Report, DrawsTheMachineThatAMeasurementNames) {
+  auto const given = [&](std::string const& machine) {
+    return report(
+        {tests::put_in_other_units(dataset, folder, "title = \"Montag, Aufwärmen\"\nmachine = \"" + machine + "\"\n")});
+  };
+  auto const shipped = given("v450");
+  EXPECT_EQ(shipped.document["title"], "Montag, Aufwärmen");
+  EXPECT_TRUE(section(shipped, "runs").contains("machine"));
+  auto const unknown = given("mine");
+  EXPECT_FALSE(section(unknown, "runs").contains("machine"));
+  EXPECT_THAT(section(unknown, "runs")["remarks"].dump(),
+              testing::HasSubstr("other.toml says that it was 'mine', but there is no mine.toml beside it, and none "
+                                 "such is shipped; name its file with --machine"));
+  text("mine.toml", text_of_file(machine_file("v450")));
+  EXPECT_TRUE(section(given("mine"), "runs").contains("machine"));
 }
 
 TEST_F(Report, TellsAnInputThatNeverChangesAsOneNumber) {

@@ -1,5 +1,5 @@
 import {Chart, watchPointer, type Line} from '../chart';
-import {courseColours, setColours} from '../colours';
+import {courseStyles, setColours, swatch, type LineStyle} from '../colours';
 import {residual, valueAt} from '../course';
 import {make, panel, svg} from '../dom';
 import {axisText, statesOf, timeUnitFor, unitText, valueText} from '../format';
@@ -48,12 +48,13 @@ export function coursesPanel(options: CoursesOptions): HTMLElement {
   const {state, runs, sets, kind, range} = options, channels = namesOf(runs), unit = channels[0]!.unit;
   const chosen = (): string | null => (state.selection.value?.kind === kind ? state.selection.value.name : null);
   const isChannel = (name: string | null): boolean => channels.some((c) => c.name === name);
-  const colourOf = (i: number): string => courseColours(channels.length, state.dark.value)[i]!;
+  const styleOf = (i: number): LineStyle => courseStyles(channels.length, sets > 1, state.dark.value)[i]!;
+  const colourOf = (i: number): string => styleOf(i).colour;
   const byRun = (): boolean => sets > 1 && kind !== null && (channels.length === 1 || isChannel(chosen()));
   const colourOfRun = (run: ShownRun): string => setColours(sets, state.dark.value)[run.index]!;
   /** Of a chip: the lines that its channel has. */
   const swatchOf = (i: number): string => {
-    if (!byRun() || (channels.length > 1 && channels[i]!.name !== chosen())) return colourOf(i);
+    if (!byRun() || (channels.length > 1 && channels[i]!.name !== chosen())) return swatch(styleOf(i));
     const parts = runs.map((run, r) => `${colourOfRun(run)} ${(100 * r) / runs.length}% ${(100 * (r + 1)) / runs.length}%`);
     return `linear-gradient(to right, ${parts.join()})`;
   };
@@ -61,7 +62,7 @@ export function coursesPanel(options: CoursesOptions): HTMLElement {
   const lines: Line[] = runs.flatMap((run) => run.channels.map((course) => {
     const i = channels.findIndex((c) => c.name === course.name);
     return {
-      ...course, dash: runs.length > 1 ? dashesOf(run.index) : undefined,
+      ...course, dash: runs.length > 1 ? dashesOf(run.index) : styleOf(i).dash,
       colour: () => {
         const name = chosen();
         if (isChannel(name) && name !== course.name) return faint(colourOf(i));
@@ -142,7 +143,7 @@ export function residualRuns(runs: Run[], pick: (run: Run) => NamedCourse[]): Sh
   return others.filter((other) => other.set.compared).map((other) => ({
     name: `${reference!.name} − ${other.name}`, index: other.index,
     channels: pick(reference!).flatMap((mine) => {
-      const theirs = pick(other).find((c) => c.name === mine.name);
+      const theirs = pick(other).find((c) => c.name === mine.name && c.unit === mine.unit);
       if (!theirs) return [];
       const unit = mine.unit === 'degC' ? 'K' : mine.unit;
       return [{...mine, unit, values: residual(mine, theirs)}];

@@ -9,8 +9,10 @@ import {freeHeatPanel} from './free_heat';
 import {heatCell} from './heat_cell';
 
 const verdicts: Record<string, string> = {
-  nothing: 'Nothing missing', effect: 'Effect found', either: 'Either, or', sensor: 'Sensor at fault', none_known: 'Unknown heat',
+  nothing: 'Nothing evident', effect: 'Effect found', either: 'Either, or', sensor: 'Sensor at fault', none_known: 'None known',
 };
+
+const tagOf = ({verdict, heat}: DiagnosisSection): string => (heat ? 'Unknown heat' : verdicts[verdict] ?? verdict);
 
 /** What a diagnosis found, in the order in which one asks: what, how sure, how much better, where else. */
 export function diagnosisSection(section: DiagnosisSection, state: PageState): HTMLElement {
@@ -27,8 +29,9 @@ export function diagnosisSection(section: DiagnosisSection, state: PageState): H
     estimatesPanel(section),
   ].filter((p) => p !== false && p !== undefined);
   return make('section', {class: 'diagnosis', 'data-kind': 'diagnosis'},
+    ...doubtsOf(section).map((words) => make('p', {class: 'remark'}, words)),
     make('div', {class: `verdict ${section.verdict}`},
-      make('div', {}, make('p', {class: 'tag'}, verdicts[section.verdict] ?? section.verdict), make('h2', {}, section.sentence)),
+      make('div', {}, make('p', {class: 'tag'}, tagOf(section)), make('h2', {}, section.sentence)),
       make('dl', {class: 'figures'},
         figure('gap before', size(before)), figure('gap after', size(after)),
         figure('left of it', `${((100 * after) / before).toFixed(0)} %`)),
@@ -36,6 +39,12 @@ export function diagnosisSection(section: DiagnosisSection, state: PageState): H
       ...actsOn(section.where).map((words) => make('p', {class: 'remark'}, words))),
     make('div', {class: 'flow'}, ...panels),
     ...section.remarks.map((remark) => make('p', {class: 'remark'}, remark)));
+}
+
+/** What speaks against the data, before all that takes them as they are. */
+function doubtsOf({doubts = []}: DiagnosisSection): string[] {
+  const told = doubts.map(({run, text}) => `${run}: ${text}`);
+  return told.length > 0 ? ['Look at the data first; all that follows takes them as they are:', ...told] : [];
 }
 
 /** A sentence per body. */

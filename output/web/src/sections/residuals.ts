@@ -1,10 +1,10 @@
 import {cells, Chart} from '../chart';
 import {cividis, css, gradient} from '../colours';
-import {extent, windows} from '../course';
+import {extent, rootMeanSquare, windows} from '../course';
 import {colourBar, make, panel} from '../dom';
 import {axisText, roundTicks, timeUnitFor, unitText, valueText} from '../format';
 import type {PageState} from '../signal';
-import type {Misfit, NamedCourse} from './run_data';
+import {misfit, type Misfit, type NamedCourse} from './run_data';
 
 const window_count = 48;
 
@@ -42,7 +42,17 @@ export function residualMap(title: string, file: string, differences: Difference
   ], ...charts.filter((c) => c !== null), colourBar(gradient(cividis), ticks, axisText('RMS', unit)));
 }
 
-/** RMS and largest residual per channel, a row each. */
+/** A sentence per pair: the RMS over the channels' RMS, as it is, and as `compare` counts it. */
+export function misfitWords(differences: Difference[]): HTMLElement[] {
+  return differences.map(({name, channels}) => {
+    const unit = channels[0]!.unit, misfits = channels.map((c) => misfit(c.name, c.unit, c.values));
+    const whole = (of: 'rms' | 'spread'): string => `${valueText(rootMeanSquare(misfits.map((m) => m[of])), unit)} ${unitText(unit)}`;
+    const subject = differences.length > 1 ? `${name}: RMS` : 'RMS';
+    return make('p', {class: 'words'}, `${subject} ${whole('rms')}; ${whole('spread')} with one constant per channel taken off, as compare does`);
+  });
+}
+
+/** RMS, with and without a constant, and largest residual per channel, a row each. */
 export function misfitTable(runs: {name: string; misfits: Misfit[]}[], state: PageState): HTMLElement {
   const largest: Record<string, number> = {};
   for (const {misfits} of runs) for (const m of misfits) largest[m.unit] = Math.max(largest[m.unit] ?? 0, m.rms);
@@ -52,17 +62,18 @@ export function misfitTable(runs: {name: string; misfits: Misfit[]}[], state: Pa
     return strip;
   };
   const rows = runs.flatMap((run) => run.misfits.map((m) => make('tr', {},
-    runs.length > 1 && make('td', {}, run.name),
+    runs.length > 1 && make('td', {class: 'pair'}, run.name),
     make('th', {scope: 'row'}, make('button', {class: 'quiet', onclick: () => state.choose(
       {kind: m.unit === 'K' ? 'sensor' : 'displacement', name: m.name})}, m.name)),
     make('td', {class: 'wide'}, bar(m)),
-    make('td', {class: 'number'}, `${valueText(m.rms, m.unit)} ${unitText(m.unit)}`),
-    make('td', {class: 'number'}, `${valueText(m.largest, m.unit)} ${unitText(m.unit)}`))));
+    ...[m.rms, m.largest, m.offset, m.spread].map((value) => make('td', {class: 'number'}, `${valueText(value, m.unit)} ${unitText(m.unit)}`)))));
   return panel('Residual of every channel', 'residual_summary', () => {
     const all = runs.flatMap((run) => run.misfits.map((m) => ({run: run.name, ...m})));
     return [{name: 'run', values: all.map((m) => m.run)}, {name: 'channel', values: all.map((m) => m.name)},
       {name: 'unit', values: all.map((m) => m.unit)}, {name: 'rms', values: all.map((m) => m.rms)},
-      {name: 'largest', values: all.map((m) => m.largest)}];
+      {name: 'largest', values: all.map((m) => m.largest)}, {name: 'offset', values: all.map((m) => m.offset)},
+      {name: 'rms_offset_taken_off', values: all.map((m) => m.spread)}];
   }, make('div', {class: 'scroll'}, make('table', {}, make('tr', {}, runs.length > 1 && make('th', {}, 'pair'),
-    make('th', {}, 'channel'), make('th', {}), make('th', {class: 'number'}, 'RMS'), make('th', {class: 'number'}, 'largest')), ...rows)));
+    make('th', {}, 'channel'), make('th', {}),
+    ...['RMS', 'largest', 'offset', 'RMS, offset taken off'].map((head) => make('th', {class: 'number'}, head))), ...rows)));
 }

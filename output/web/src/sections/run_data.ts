@@ -1,4 +1,5 @@
 import {extent, rootMeanSquare, type Course} from '../course';
+import {mean} from '../statistics';
 import type {Channel, Numbers, RunSet, RunsSection} from '../data';
 
 export interface NamedCourse extends Course {
@@ -21,7 +22,7 @@ export interface Run {
 
 function courses(channels: Channel[], time: Float32Array, numbers: Numbers): NamedCourse[] {
   return channels.filter((c) => c.values).map((c) =>
-    ({name: c.name, unit: c.unit, title: c.title, time, values: numbers.single(c.values!)}));
+    ({name: c.name, unit: c.unit, title: c.title, time, longestGap: c.longest_gap, values: numbers.single(c.values!)}));
 }
 
 /** The reference comes first: what was measured, or else the first. */
@@ -57,9 +58,9 @@ const held = new Set(['rpm', 'mm/min', '1', 'W', 'kg/s']);
 export function shownInputs(run: Run, numbers: Numbers): NamedCourse[] {
   const {time, set} = run, ends = [time[0] ?? 0, time[time.length - 1] ?? 1];
   const shown: NamedCourse[] = [];
-  for (const {name, unit, title, values, constant} of set.inputs) {
+  for (const {name, unit, title, values, constant, longest_gap: longestGap} of set.inputs) {
     if (values ? derived.test(name) : !(always.test(name) && constant)) continue;
-    const course = values ? {time, values: numbers.single(values)} : {time: ends, values: [constant!, constant!]};
+    const course = values ? {time, longestGap, values: numbers.single(values)} : {time: ends, values: [constant!, constant!]};
     shown.push({name, unit, title, ...course, held: held.has(unit)});
   }
   return shown;
@@ -83,9 +84,16 @@ export interface Misfit {
   unit: string;
   rms: number;
   largest: number;
+  /** The mean: what an instrument's offset or a displacement's zero may be, which `compare` takes off. */
+  offset: number;
+  /** RMS without it. */
+  spread: number;
 }
 
 export function misfit(name: string, unit: string, difference: ArrayLike<number>): Misfit {
-  const [low, high] = extent([difference]);
-  return {name, unit, rms: rootMeanSquare(difference), largest: Math.max(Math.abs(low), Math.abs(high))};
+  const [low, high] = extent([difference]), known = Array.from(difference).filter(Number.isFinite), offset = mean(known);
+  return {
+    name, unit, rms: rootMeanSquare(known), largest: Math.max(Math.abs(low), Math.abs(high)),
+    offset, spread: rootMeanSquare(known.map((x) => x - offset)),
+  };
 }

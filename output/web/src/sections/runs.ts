@@ -8,8 +8,11 @@ import {timeBar} from '../time_bar';
 import {bodyPanel} from './body';
 import {coursesPanel, residualRuns} from './courses';
 import {positioningPanels} from './positioning';
-import {misfitTable, residualMap} from './residuals';
+import {misfitTable, misfitWords, residualMap} from './residuals';
 import {misfit, runsOf, shownInputs, tellingTime, timeRange, type NamedCourse, type Run} from './run_data';
+
+/** A unit in the name of a panel and of its file, as `figure` has it. */
+const filePart = (unit: string): string => unit.replace(/\W/g, '_');
 
 const quantities: Record<string, string> = {
   rpm: 'Speed', 'mm/min': 'Feed', degC: 'Temperature', K: 'Temperature', W: 'Heat', um: 'Displacement', urad: 'Tilt',
@@ -40,7 +43,7 @@ export function runsSection(section: RunsSection, numbers: Numbers, state: PageS
   state.time.value = tellingTime(runs);
 
   const inputs = [...byUnit(shownInputs(reference, numbers))].map(([unit, channels]) => coursesPanel({
-    title: `${inputTitle(unit, channels)}${ofRun(reference, runs)}`, file: `input_${unit.replace(/\W/g, '_')}`,
+    title: `${inputTitle(unit, channels)}${ofRun(reference, runs)}`, file: `input_${filePart(unit)}`,
     quantity: quantities[unit] ?? 'Value', runs: [{...reference, channels}], sets: runs.length, kind: null, state, range,
     height: 152,
   }));
@@ -77,14 +80,17 @@ function channelPanels(runs: Run[], state: PageState, range: [number, number]): 
     for (const unit of units) {
       const ofUnit = (run: Run): NamedCourse[] => pick(run).filter((c) => c.unit === unit);
       const shown = runs.map((run) => ({...run, channels: ofUnit(run)})).filter((run) => run.channels.length > 0);
-      const heading = unit === 'urad' ? 'Tilt' : title, file = `${heading.toLowerCase().replaceAll(' ', '_')}_${unit}`;
+      const heading = unit === 'urad' ? 'Tilt' : title, file = `${heading.toLowerCase().replaceAll(' ', '_')}_${filePart(unit)}`;
       const quantity = quantities[unit] ?? 'Value';
       panels.push(coursesPanel({title: heading, file, quantity, runs: shown, sets: runs.length, kind, state, range, height: kind === 'sensor' ? 250 : 200}));
       const differences = residualRuns(runs, ofUnit);
-      if (differences.length) panels.push(coursesPanel({
+      if (differences.length === 0) continue;
+      const courses = coursesPanel({
         title: `Residual of ${heading.toLowerCase()}`, file: `residual_${file}`, quantity: 'Residual',
         runs: differences, sets: runs.length, kind, state, range, height: 160,
-      }), residualMap(`${heading}: residual by window`, `residual_map_${file}`, differences, state, range));
+      });
+      courses.append(...misfitWords(differences));
+      panels.push(courses, residualMap(`${heading}: residual by window`, `residual_map_${file}`, differences, state, range));
     }
   };
   add('sensor', 'Sensor temperatures', (run) => run.readings);
