@@ -7,8 +7,22 @@
 
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
+#include "thermal/units.h"
 
 namespace thermotwin::thermal {
+namespace {
+
+void check_unit(Network const& network, InputChannel const& channel) {
+  auto const& shares = network.shares();
+  if (std::find(shares.begin(), shares.end(), channel.name) == shares.end()) return;
+  if (dimension_of(channel.unit) == dimension::dimensionless) return;
+  throw InputError(
+      fmt::format("the machine takes the input '{}' as a share between 0 and 1, and the experiment gives it in {}; a "
+                  "share is for example machine.on or spindle.running",
+                  channel.name, channel.unit));
+}
+
+}  // namespace
 
 CourseInputs::CourseInputs(Network const& network, Course const& course)
     : course_(&course), raw_(course.channels().size()), values_(std::size_t(network.channels())) {
@@ -21,6 +35,7 @@ CourseInputs::CourseInputs(Network const& network, Course const& course)
       throw InputError(fmt::format("the machine needs the input '{}', which the experiment does not give; {}", name,
                                    did_you_mean(name, given)));
     source_.push_back(std::size_t(it - given.begin()));
+    check_unit(network, course.channels()[source_.back()]);
   }
 }
 

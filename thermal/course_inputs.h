@@ -12,7 +12,8 @@ namespace thermotwin::thermal {
 /// A course, asked by the order of a network's channels, one piece between two jumps at a time. Holds scratch memory.
 class CourseInputs {
  public:
-  /// InputError, with the nearest name, for a channel of the network that the course does not give.
+  /// InputError, with the nearest name, for a channel of the network that the course does not give; also for a
+  /// share that it gives with a unit.
   CourseInputs(Network const& network, Course const& course);
 
   /// Enters the piece that follows t and returns where it ends.

@@ -181,6 +181,11 @@ int NetworkBuilder::weight_channel(Port average, int entry) const {
 
 int NetworkBuilder::channel(std::string const& name) { return find_or_add(network_.channels_, name); }
 
+int NetworkBuilder::share(std::string const& name) {
+  find_or_add(network_.shares_, name);
+  return channel(name);
+}
+
 int NetworkBuilder::add_relay(std::string const& name, Port measured, Port reference, double high, double low,
                               double minimum_off_time, int enable_channel) {
   if (!(high > low)) throw InputError(fmt::format("relay '{}': switches on at {} K, off at {} K", name, high, low));

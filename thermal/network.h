@@ -100,6 +100,8 @@ class Network {
 
   /// Names of the operating point's channels: first those that a course must give, then the relays' states.
   [[nodiscard]] std::vector<std::string> const& channel_names() const { return channels_; }
+  /// Of those, the ones between 0 and 1.
+  [[nodiscard]] std::vector<std::string> const& shares() const { return shares_; }
   [[nodiscard]] std::vector<NodeRange> const& ranges() const { return ranges_; }
   [[nodiscard]] std::vector<Boundary> const& boundaries() const { return boundaries_; }
   [[nodiscard]] std::vector<Average> const& averages() const { return averages_; }
@@ -145,7 +147,7 @@ class Network {
   std::vector<Average> averages_;
   std::vector<ElementGroup> groups_;
   std::vector<Relay> relays_;
-  std::vector<std::string> channels_, parts_;
+  std::vector<std::string> channels_, shares_, parts_;
   int external_channels_ = 0;
   Eigen::SparseMatrix<double> pattern_;
   std::vector<Grid> grids_;
@@ -169,6 +171,8 @@ class NetworkBuilder {
 
   /// Index of an input channel, created when first named.
   int channel(std::string const& name);
+  /// The same for one that is between 0 and 1: a course must give it without a unit.
+  int share(std::string const& name);
   /// A relay's state is a channel of its own, named `<name>.state`; returns its index.
   int add_relay(std::string const& name, Port measured, Port reference, double high, double low,
                 double minimum_off_time = 0.0, int enable_channel = -1);

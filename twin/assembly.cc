@@ -1,6 +1,7 @@
 #include "twin/assembly.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <optional>
 
@@ -151,18 +152,18 @@ Assembly::Assembly(std::map<std::string, thermal::Body> const& bodies, std::vect
   for (auto const& name : order) first_nodes_[name] = add_to(builder_, part_, bodies_.at(name)).index;
 }
 
-thermal::Body const& Assembly::body(std::string const& name) const {
+thermal::Body const& Assembly::body(std::string const& name, std::vector<std::string> const& or_else) const {
   auto const it = bodies_.find(name);
   if (it != bodies_.end()) return it->second;
-  std::vector<std::string> names;
+  auto names = or_else;
   for (auto const& entry : bodies_) names.push_back(entry.first);
   throw InputError(fmt::format("unknown body '{}'; {}", name, thermal::did_you_mean(name, names)));
 }
 
 int Assembly::first_node(std::string const& name) const { return first_nodes_.at(body(name).name); }
 
-Place Assembly::place(std::string const& text) const {
-  Body const& found = body(parse_place(text).body);
+Place Assembly::place(std::string const& text, std::vector<std::string> const& or_else) const {
+  Body const& found = body(parse_place(text).body, or_else);
   return {text, &found, first_nodes_.at(found.name), site_of(found, text)};
 }
 
@@ -215,6 +216,28 @@ void Assembly::add_air_terms() {
       if (!term.channel.empty()) follows.push_back({builder_.channel(term.channel), term.rise});
       builder_.add_to_boundary(port, term.gradient * (height - term.reference_height), follows);
     }
+}
+
+double Assembly::rated_speed(std::optional<double> own, std::string const& channel) const {
+  if (own && !(*own > 0.0)) throw InputError("'rated_speed' must be above 0");
+  if (!own && !(maximum_spindle_speed_ > 0.0) && !channel.starts_with("spindle."))
+    throw InputError(fmt::format("what follows '{}' needs a rated_speed: the machine has no spindle", channel));
+  return own.value_or(maximum_spindle_speed_);
+}
+
+void Assembly::displace(InputTerm term) {
+  if (!std::isfinite(term.coefficient) || !std::isfinite(term.power))
+    throw InputError(fmt::format("the displacement '{}' would be {} u^{}, u the input '{}'", term.displacement,
+                                 term.coefficient, term.power, term.channel));
+  static_cast<void>(channel(term.channel));
+  input_terms_.push_back(std::move(term));
+}
+
+void Assembly::displace(TemperatureTerm term) {
+  if (!std::isfinite(term.coefficient))
+    throw InputError(fmt::format("the displacement '{}' would change by {} per kelvin of '{}'", term.displacement,
+                                 term.coefficient, term.place.text));
+  temperature_terms_.push_back(std::move(term));
 }
 
 thermal::Port Assembly::boundary(std::string const& channel, double offset) {

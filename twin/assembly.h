@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,8 +84,9 @@ class Assembly {
   [[nodiscard]] int part() const { return part_; }
   void begin_part(std::string const& name) { part_ = builder_.part(name); }
 
-  /// Resolves a place; InputError that names the nearest body or the faces that there are.
-  [[nodiscard]] Place place(std::string const& text) const;
+  /// Resolves a place; InputError that names the nearest body, or what else may stand there, or the faces that there
+  /// are.
+  [[nodiscard]] Place place(std::string const& text, std::vector<std::string> const& or_else = {}) const;
   /// The same, where heat passes a surface: a bar or a lump without a face means its "surface".
   [[nodiscard]] Place surface(std::string const& text) const;
 
@@ -98,12 +100,18 @@ class Assembly {
   [[nodiscard]] thermal::Port boundary(std::string const& channel, double offset = 0.0);
 
   [[nodiscard]] int channel(std::string const& name) { return builder_.channel(name); }
+  /// The same for one that is between 0 and 1: a run must not give it in rpm.
+  [[nodiscard]] int share(std::string const& name) { return builder_.share(name); }
   [[nodiscard]] double maximum_spindle_speed() const { return maximum_spindle_speed_; }
-  [[nodiscard]] thermal::Body const& body(std::string const& name) const;
+  /// At which the numbers of a part hold: its own, or the spindle's maximum [rad/s]. InputError if that is not above 0,
+  /// unless the part acts by a channel of the spindle: one that the machine does not have never turns.
+  [[nodiscard]] double rated_speed(std::optional<double> own, std::string const& channel = "spindle.speed") const;
+  [[nodiscard]] thermal::Body const& body(std::string const& name, std::vector<std::string> const& or_else = {}) const;
   [[nodiscard]] int first_node(std::string const& name) const;
 
-  void displace(InputTerm term) { input_terms_.push_back(std::move(term)); }
-  void displace(TemperatureTerm term) { temperature_terms_.push_back(std::move(term)); }
+  /// InputError for a coefficient that is not finite; a run must give the channel that an input term follows.
+  void displace(InputTerm term);
+  void displace(TemperatureTerm term);
   void warm_air(AirTerm term) { air_terms_.push_back(std::move(term)); }
   /// Gives all boundaries of air what the parts add to them, whichever came first; once, when all parts are there.
   void add_air_terms();

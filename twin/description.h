@@ -207,7 +207,8 @@ struct ChannelDescription : LineDescription {
 ///   ΔE = weight · ∫ α θ ds over the place `of` (a stretch of a bar, a cylinder or a block, along its axis);
 ///   for a lump, weight · α · length · θ;
 ///   with `rotation`, lever · Δ(rotation channel);
-///   with `against`, weight · ½ α (θ_of − θ_against) length²/height: bending of a bed or column.
+///   with `against`, weight · ½ α (θ_of − θ_against) length²/height: bending of a bed or column;
+///   in a rotation the angle of its end, weight · α (θ_of − θ_against) length/height.
 struct LoopSegment {
   std::string of, against, rotation;
   double weight = 1.0;
@@ -217,7 +218,7 @@ struct LoopSegment {
   template <class Fields>
   static void fields(Fields& f) {
     f("of", &LoopSegment::of, "place whose growth counts");
-    f("against", &LoopSegment::against, "place on the cold side, for bending");
+    f("against", &LoopSegment::against, "place on the cold side, for bending; in a rotation, the angle of the end");
     f("rotation", &LoopSegment::rotation, "rotation channel that moves the tool by its lever");
     f("weight", &LoopSegment::weight, dimension::dimensionless, "sign along the loop, or share");
     f("growth_factor", &LoopSegment::growth_factor, dimension::dimensionless,
@@ -266,7 +267,8 @@ struct DisplacementDescription {
              "in which influence weights are taken");
     f("segment", &DisplacementDescription::segment, "steps along the structural loop");
     f("influence", &DisplacementDescription::influence, "blocks with influence weights");
-    f("base", &DisplacementDescription::base, dimension::length, "of a rotation: distance between the two ends");
+    f("base", &DisplacementDescription::base, dimension::length,
+      "of a rotation: distance between the two ends that grow; bending has its height");
     f("closure", &DisplacementDescription::closure, dimension::length,
       "signed length around the loop; checked, so that a wrong sign is found");
   }

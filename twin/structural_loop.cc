@@ -68,7 +68,8 @@ void StructuralLoop::add_segment(Displacement& channel, DisplacementDescription 
   }
   if (!segment.height)
     throw InputError(fmt::format("bending of '{}' against '{}' needs a height", segment.of, segment.against));
-  double const factor = segment.weight * 0.5 * alpha * length * length / *segment.height;
+  double const lever = channel.rotation ? 1.0 : 0.5 * length;  // the end turns by its curvature over the length
+  double const factor = segment.weight * alpha * length * lever / *segment.height;
   add_growth(channel.weights, of, factor);
   add_growth(channel.weights, assembly_.place(segment.against), -factor);
 }
@@ -89,7 +90,9 @@ void StructuralLoop::check_closure(DisplacementDescription const& description) c
 
 void StructuralLoop::add(DisplacementDescription const& description, bool rotation) {
   Displacement channel{description.name, description.title, rotation, {}, {}};
-  if (rotation && !description.base && !description.segment.empty())
+  bool const grows = std::any_of(description.segment.begin(), description.segment.end(),
+                                 [](LoopSegment const& segment) { return segment.against.empty(); });
+  if (rotation && !description.base && grows)
     throw InputError(fmt::format("rotation '{}': 'base' is missing", description.name));
   for (auto const& segment : description.segment) add_segment(channel, description, segment);
   for (auto const& influence : description.influence)

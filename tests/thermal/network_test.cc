@@ -177,6 +177,17 @@ TEST(Network, RelayStatesComeAfterWhatACourseMustGive) {
   EXPECT_EQ(network.groups().back().inputs, (std::vector<int>{1, 0}));
 }
 
+TEST(Network, KnowsWhichOfItsChannelsAreShares) {
+  NetworkBuilder builder;
+  Port const body = sound_body(builder);
+  builder.add<SwitchedHeat>(builder.part("pump"), {body}, {5.0}, {builder.share("pump.on")});
+  builder.add<SwitchedHeat>(builder.part("motor"), {body}, {5.0}, {builder.channel("speed")});
+  EXPECT_EQ(builder.share("pump.on"), builder.channel("pump.on"));
+  Network const network = builder.build();
+  EXPECT_THAT(network.shares(), testing::ElementsAre("pump.on"));
+  EXPECT_THAT(network.channel_names(), testing::ElementsAre("pump.on", "speed"));
+}
+
 TEST(Network, MeanOverlapIsTheOverlapAveragedOverTheCentre) {
   double const low = 0.2, high = 0.3, window = 0.08, from = 0.1, to = 0.27;
   double sum = 0.0;

@@ -193,6 +193,29 @@ segment = [{ of = "head", against = "column", height = "450 mm", length = "1 m" 
   EXPECT_NEAR(response(built, channel(built, "E_Z"), one_kelvin), 0.0, 1e-18);
 }
 
+TEST(Displacement, BendingTurnsTheEndByTheCurvatureOverTheLength) {  // physics.md 3.5: φ = κ L = α Δθ L/H
+  for (char const* const base : {"", "base = \"5 mm\"\n", "base = \"500 mm\"\n"}) {
+    auto const built = machine(fmt::format(R"(
+[[rotation]]
+name = "A"
+{}segment = [{{ of = "head", against = "column", height = "450 mm", length = "2 m", weight = -1 }}]
+)",
+                                           base));
+    auto const warm_head = [](std::string const& body, Eigen::Vector3d const&) { return body == "head" ? 1.0 : 0.0; };
+    EXPECT_NEAR(response(built, channel(built, "A"), warm_head), -10.5e-6 * 2.0 / 0.45, 1e-12) << base;
+    EXPECT_NEAR(response(built, channel(built, "A"), one_kelvin), 0.0, 1e-18) << base;
+  }
+}
+
+TEST(Displacement, GrowthInARotationNeedsItsBase) {
+  EXPECT_THAT(message_of(R"(
+[[rotation]]
+name = "A"
+segment = [{ of = "head", length = "1 m" }]
+)"),
+              HasSubstr("rotation 'A': 'base' is missing"));
+}
+
 constexpr char const* axial = R"(
 [[displacement]]
 name = "E_Z"
@@ -246,6 +269,28 @@ weight = -1
     EXPECT_NEAR(d.input_terms[0].coefficient * std::pow(speed, d.input_terms[0].power),
                 -thermal::centrifugal_ball_shift(bearing, 300.0, speed), 1e-14);
   }
+}
+
+TEST(Displacement, BearingThatCannotBeIsRefused) {
+  auto const message = [](char const* ball, char const* pitch, char const* preload) {
+    return message_of(fmt::format(R"(
+[[displacement]]
+name = "E_Z"
+[[bearing_shift]]
+name = "front"
+displacement = "E_Z"
+inner = "shaft[0 mm .. 50 mm]"
+outer = "head"
+ball_diameter = "{}"
+pitch_diameter = "{}"
+preload = "{}"
+)",
+                                  ball, pitch, preload));
+  };
+  EXPECT_EQ(message("12 mm", "90 mm", "300 N"), "nothing was thrown");
+  EXPECT_THAT(message("12 mm", "90 mm", "0 N"), HasSubstr("bearing_shift 'front': 'preload' must be above 0"));
+  for (auto const& [ball, pitch] : {std::pair("12 mm", "0 mm"), {"0 mm", "90 mm"}, {"90 mm", "90 mm"}})
+    EXPECT_THAT(message(ball, pitch, "300 N"), HasSubstr("bearing_shift 'front': the balls are above 0"));
 }
 
 TEST(Displacement, HeldShaftShowsOnlyItsShareInFront) {

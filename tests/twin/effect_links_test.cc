@@ -1,7 +1,9 @@
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numeric>
 
+#include "tests/scenarios/refusal.h"
 #include "tests/twin/effect_bench.h"
 #include "thermal/annular_gap.h"
 #include "thermal/ball_conductance.h"
@@ -15,6 +17,9 @@
 /// What the films, links and boundaries of the catalogue show in data (physics.md 2 and 7).
 namespace thermotwin::twin {
 namespace {
+
+using testing::HasSubstr;
+using thermotwin::tests::refusal;
 
 /// Heat into lump `a` with `a` at one temperature and all others at another [W].
 double into_a(Snippet const& effect, double a, double others, Inputs const& inputs = {}, Changes const& changes = {}) {
@@ -53,6 +58,26 @@ TEST(FanCooling, DoesNothingAtAColdStartAndAtStop) {
   EXPECT_NEAR(total_at(fan, 303.15, with(still_air, "spindle.speed", rated)), -2.0 * 10.0, 1e-9);
   EXPECT_NEAR(total_at(fan, 303.15, with(still_air, "spindle.speed", 0.5 * rated)), -2.0 * 10.0 * std::pow(0.5, 0.8),
               1e-9);
+}
+
+TEST(FanCooling, NeedsARatedSpeed) {
+  auto const& fan = snippet("fan_cooling");
+  EXPECT_THAT(refusal([&] {
+                (void)Machine::build(bench(fan, {{"rated_speed", "0 rpm"}}));
+              }),
+              HasSubstr("'rated_speed' must be above 0"));
+  auto const without_spindle = [](std::string const& more) {
+    return refusal([&] {
+      (void)Machine::build(
+          parse_toml("name = \"axis\"\n[[lump]]\nname = \"a\"\nheat_capacity = \"1 kJ/K\"\n"
+                     "[[fan_cooling]]\nname = \"pulley\"\nat = \"a\"\nconductance = \"2 W/K\"\n"
+                     "speed = \"z.speed\"\n" +
+                         more,
+                     "axis.toml"));
+    });
+  };
+  EXPECT_THAT(without_spindle(""), HasSubstr("what follows 'z.speed' needs a rated_speed: the machine has no spindle"));
+  EXPECT_EQ(without_spindle("rated_speed = \"2400 rpm\"\n"), "accepted");
 }
 
 TEST(Draught, BlowsOnlyWhileTheDoorIsOpen) {
@@ -164,6 +189,14 @@ TEST(Fit, IsTheFilmOfPhysics2_3) {
                                         {{"clearance", std::to_string(clearance) + " um"}});
     EXPECT_NEAR(now, area * thermal::fit_film<double>(fit, gap, 0.026), 1e-6 * now);
   }
+}
+
+TEST(Fit, HasMetalOnBothSidesOfItsSeat) {
+  auto const& fit = snippet("fit", "interference");
+  for (Changes const& changes : {Changes{{"inner_bore", "110 mm"}}, Changes{{"inner_bore", "120 mm"}},
+                                 Changes{{"outer_diameter", "110 mm"}}, Changes{{"outer_diameter", "90 mm"}}})
+    EXPECT_THAT(refusal([&] { (void)Machine::build(bench(fit, changes)); }),
+                HasSubstr("fit 'interference': the seat lies between inner_bore and outer_diameter"));
 }
 
 TEST(ContactJoint, GrowsWithPressure) {

@@ -45,6 +45,20 @@ TEST(EffectPage, ShowsTheTablesOfAMachineFile) {
     }
 }
 
+TEST(EffectPage, ShowsDefaultsOfListsAndWhatIsRequired) {
+  for (auto const& table : describe_machine()) {
+    auto const page = table_page(table);
+    if (table.name == "block") {
+      EXPECT_NE(page.find("list of number; default [10, 10, 10]"), std::string::npos) << page;
+      EXPECT_NE(page.find("three times length [m]; required"), std::string::npos) << page;
+      EXPECT_NE(page.find("default [\"0 mm\", \"0 mm\", \"0 mm\"]"), std::string::npos) << page;
+    }
+    if (table.name == "channel") {
+      EXPECT_NE(page.find("face: wall"), std::string::npos) << page;
+    }
+  }
+}
+
 TEST(EffectsMarkdown, IsWhatTheDocumentationHolds) {
   std::ifstream file(std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "docs" / "effects.md");
   std::stringstream text;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "thermal/error.h"
 #include "twin/experiment_file.h"
 #include "twin/run.h"
 
@@ -116,6 +117,19 @@ TEST(DisplacementStep, ComesAndGoesWithItsInput) {
   EXPECT_NEAR(moved[6], 0.0, 1e-9);
   EXPECT_NEAR(moved[30], 3.0, 1e-9);
   EXPECT_NEAR(moved[80], 0.0, 1e-9);
+}
+
+TEST(DisplacementStep, FollowsNoInputThatTheExperimentDoesNotGive) {
+  try {
+    (void)made(
+        "[[displacement_step]]\nname = \"clamp\"\ndisplacement = \"E_Z\"\nstep = \"3 um\"\n"
+        "follows = \"spindle.runing\"");
+    FAIL() << "it found one";
+  } catch (thermal::InputError const& error) {
+    std::string const message = error.what();
+    EXPECT_NE(message.find("needs the input 'spindle.runing'"), std::string::npos) << message;
+    EXPECT_NE(message.find("did you mean 'spindle.running'?"), std::string::npos) << message;
+  }
 }
 
 TEST(Readings, OfAnUnknownInstrumentAreRefused) {

@@ -1,7 +1,9 @@
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numeric>
 
+#include "tests/scenarios/refusal.h"
 #include "tests/twin/effect_bench.h"
 #include "thermal/evaluation.h"
 #include "thermal/lubricant.h"
@@ -175,6 +177,23 @@ TEST(MotorLoss, FallsAboveTheBaseSpeed) {
               1e-3);
 }
 
+TEST(MotorLoss, NeedsARatedSpeedWhereNoSpindleTurns) {
+  auto const message = [](std::string const& more) {
+    return thermotwin::tests::refusal([&] {
+      (void)Machine::build(
+          parse_toml("name = \"axis\"\n[[lump]]\nname = \"a\"\nheat_capacity = \"1 kJ/K\"\n"
+                     "[[film]]\nname = \"a\"\non = \"a\"\narea = \"1 m2\"\n"
+                     "[[motor_loss]]\nname = \"drive\"\nat = \"a\"\neddy = \"30 W\"\n" +
+                         more,
+                     "axis.toml"));
+    });
+  };
+  EXPECT_EQ(message(""), "accepted");
+  EXPECT_THAT(message("while_on = \"machine.on\"\n"),
+              testing::HasSubstr("what follows 'machine.on' needs a rated_speed: the machine has no spindle"));
+  EXPECT_EQ(message("while_on = \"machine.on\"\nrated_speed = \"3000 rpm\"\n"), "accepted");
+}
+
 TEST(LossCurve, IsLinearBetweenItsPointsAndConstantBeyond) {
   auto const& effect = snippet("loss_curve");
   double const rpm = M_PI / 30.0;
@@ -273,6 +292,16 @@ TEST(HydraulicUnit, PutsItsPowerIntoTankAndConsumers) {
   EXPECT_NEAR(heat[std::size_t(machine.network().range("tank").first)], 80.0, 1e-9);
   EXPECT_NEAR(total_heat(effect, {{"spindle.speed", 0.0}}), 120.0, 1e-9);
   EXPECT_EQ(total_heat(effect, {{"machine.on", 0.0}}), 0.0);
+}
+
+TEST(HydraulicUnit, ThrottlesNoMoreThanItsPumpTakes) {
+  auto const& effect = snippet("hydraulic_unit");
+  auto const message = [&](Changes const& changes) {
+    return thermotwin::tests::refusal([&] { (void)Machine::build(bench(effect, changes)); });
+  };
+  EXPECT_EQ(message({{"volume_flow", "1.79 L/min"}}), "accepted");  // 119 W of the 120 W
+  EXPECT_THAT(message({{"volume_flow", "1.81 L/min"}}),
+              testing::HasSubstr("hydraulic_unit 'plain': the consumers throttle more than the pump takes"));
 }
 
 TEST(CuttingHeat, SharesThePower) {

@@ -2,12 +2,23 @@
 
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
+
+#include "thermal/error.h"
 
 namespace thermotwin::twin {
 
 std::string_view name_of(SensorFault fault) {
   constexpr std::array<std::string_view, 6> names{"good", "missing", "stale", "stuck", "jumped", "out of range"};
   return names[std::size_t(fault)];
+}
+
+SensorWatch::SensorWatch(WatchSettings const& settings) : settings_(settings) {
+  if (!(settings.lowest < settings.highest))
+    throw thermal::InputError(
+        fmt::format("a sensor may show {:g} degC at least and {:g} degC at most: the highest must be above the lowest; "
+                    "write them as temperatures, for example \"120 degC\"",
+                    settings.lowest, settings.highest));
 }
 
 bool SensorWatch::within_reach(double value, double time, Point const& from) const {

@@ -39,7 +39,8 @@ struct WatchSettings {
 /// ends it.
 class SensorWatch {
  public:
-  explicit SensorWatch(WatchSettings const& settings) : settings_(settings) {}
+  /// InputError unless the highest reading is above the lowest.
+  explicit SensorWatch(WatchSettings const& settings);
 
   /// `value`: NaN when the sender says that it has none. False when the time is not later than that of the last
   /// reading, which then stands.

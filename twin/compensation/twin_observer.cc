@@ -75,10 +75,12 @@ void TwinObserver::list_inputs() {
   scenarios::Experiment any;
   any.duration = 1.0;
   auto const known = scenarios::ExperimentCourse(any, machine_.limits).channels();
-  inputs_.push_back({"ambient.temperature", "degC", false, true});
-  for (auto const& channel : channels_)
-    if (channel.name != floor_temperature && channel.name != "ambient.temperature")
-      inputs_.push_back({channel.name, unit_of(known, channel.name), false, true});
+  auto const add = [&](std::string const& name) { inputs_.push_back({name, unit_of(known, name), false, true}); };
+  add("ambient.temperature");
+  for (auto const& channel : channels_) {
+    if (channel.name != floor_temperature && channel.name != "ambient.temperature") add(channel.name);
+    if (channel.name == "ambient.gradient") add("ambient.reference_height");
+  }
   for (std::size_t s = 0; s < machine_.sensors.size(); ++s)
     if (!machine_.sensors[s].weights.empty()) {
       inputs_.push_back({machine_.sensors[s].description.name, "degC", true, false});
@@ -93,9 +95,13 @@ double TwinObserver::given(std::string const& name, std::span<double const> valu
 }
 
 /// The air is taken to be as warm below as above unless the gradient is among the inputs.
+double TwinObserver::floor_air(std::span<double const> values) const {
+  return given("ambient.temperature", values, 0.0) -
+         given("ambient.gradient", values, 0.0) * given("ambient.reference_height", values, 0.0);
+}
+
 void TwinObserver::set_channels(std::span<double const> values) {
-  double const air = given("ambient.temperature", values, 0.0);
-  for (auto& channel : channels_) channel.value = given(channel.name, values, air);
+  for (auto& channel : channels_) channel.value = given(channel.name, values, floor_air(values));
 }
 
 double TwinObserver::seen(NodeWeights const& weights) const {
@@ -124,14 +130,23 @@ double TwinObserver::displaced() const {
   return um_per_m * sum;
 }
 
-void TwinObserver::start(double time, std::span<double const> values) {
+/// All that has a place is as warm as the air at its height.
+void TwinObserver::start_in_air(std::span<double const> values) {
   auto const& network = machine_.network();
-  set_channels(values);
-  for (auto& channel : channels_) channel.first = channel.value;
-  double const air = given("ambient.temperature", values, 0.0);
+  double const floor = floor_air(values), gradient = given("ambient.gradient", values, 0.0);
+  VectorXd temperatures = VectorXd::Constant(network.nodes(), floor);
+  for (auto const& body : machine_.geometry)
+    for (std::size_t i = 0; i < body.cells.size(); ++i)
+      temperatures[body.first_node + Index(i)] = floor + gradient * centre(body.cells[i]).dot(machine_.up);
   state_.resize(network.nodes());
   for (int i = 0; i < network.nodes(); ++i)
-    state_[i] = network.state_of_temperature(i, network.signals()[std::size_t(i)] ? 0.0 : air);
+    state_[i] = network.state_of_temperature(i, network.signals()[std::size_t(i)] ? 0.0 : temperatures[i]);
+}
+
+void TwinObserver::start(double time, std::span<double const> values) {
+  set_channels(values);
+  for (auto& channel : channels_) channel.first = channel.value;
+  start_in_air(values);
   covariance_ = MatrixXd::Zero(state_.size(), state_.size());
   zero_readings_ = VectorXd::Map(values.data(), Index(values.size())).tail(Index(sensors_.size()));
   for (std::size_t const s : sensors_) zero_seen_.push_back(seen(machine_.sensors[s].weights));

@@ -26,9 +26,9 @@ struct ObserverOptions {
 /// integrated with ROS2 (Verwer, Spee, Blom, Hundsdorfer, SIAM J. Sci. Comput. 20 (1999) 1456: two stages, L-stable,
 /// order 2), its sensors taken one by one. The error is what its displacement channel makes of its nodes.
 ///
-/// The machine is at the temperature of the air when the first readings come; readings count as changes since then, so
-/// that constant offsets of the sensors do not matter. A sensor that is not believed is left out, and the twin goes on;
-/// an input that is missing leaves it without an estimate.
+/// The machine is at the temperature of the air around it when the first readings come; readings count as changes since
+/// then, so that constant offsets of the sensors do not matter. A sensor that is not believed is left out, and the twin
+/// goes on; an input that is missing leaves it without an estimate.
 class TwinObserver {
  public:
   /// InputError for a displacement that the machine does not have, a machine with relays (whose switching the observer
@@ -53,8 +53,10 @@ class TwinObserver {
   void list_channels();
   void list_inputs();
   void start(double time, std::span<double const> values);
+  void start_in_air(std::span<double const> values);
   void set_channels(std::span<double const> values);
   [[nodiscard]] double given(std::string const& name, std::span<double const> values, double otherwise) const;
+  [[nodiscard]] double floor_air(std::span<double const> values) const;  ///< at the machine's zero [K]
   void advance(double time);
   void step(double h);
   void correct(std::span<double const> values, double elapsed);

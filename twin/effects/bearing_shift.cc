@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "thermal/error.h"
 #include "thermal/shaft_deformation.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
@@ -39,6 +40,9 @@ struct BearingShift {
   [[nodiscard]] thermal::BallBearing bearing() const { return {balls, ball_diameter, pitch_diameter, contact_angle}; }
 
   void add_to(Assembly& assembly) const {
+    if (!(ball_diameter > 0.0 && ball_diameter < pitch_diameter))
+      throw thermal::InputError("bearing_shift '" + name + "': the balls are above 0 and smaller than pitch_diameter");
+    if (!(preload > 0.0)) throw thermal::InputError("bearing_shift '" + name + "': 'preload' must be above 0");
     auto const per_kelvin = [&](double inner_rise, double outer_rise) {
       return weight * thermal::spring_preload_shift<double>(bearing(), expansion, inner_rise, outer_rise);
     };

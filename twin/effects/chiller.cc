@@ -52,13 +52,13 @@ struct Chiller : GivenTemperature {
     if (kind == "relay") return add_relay(assembly, cooled, probe);
     auto const integral = assembly.network().add_signal("integral of chiller '" + name + "'");
     assembly.network().add<InverterHeat>(assembly.part(), {cooled, probe, set_point(assembly), integral},
-                                         {gain, integral_time, power}, {assembly.channel(while_on)});
+                                         {gain, integral_time, power}, {assembly.share(while_on)});
   }
 
  private:
   void add_relay(Assembly& assembly, thermal::Port cooled, thermal::Port probe) const {
     int const state = assembly.network().add_relay("chiller." + name, probe, set_point(assembly), 0.5 * hysteresis,
-                                                   -0.5 * hysteresis, minimum_off_time, assembly.channel(while_on));
+                                                   -0.5 * hysteresis, minimum_off_time, assembly.share(while_on));
     assembly.network().add<thermal::SwitchedHeat>(assembly.part(), {cooled}, {-power}, {state});
   }
   [[nodiscard]] thermal::Port set_point(Assembly& assembly) const {

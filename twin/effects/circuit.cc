@@ -29,7 +29,7 @@ struct Circuit {
     auto const stations = ports(assembly);
     for (std::size_t i = 0; i < stations.size(); ++i)
       assembly.network().add<thermal::Advection>(assembly.part(), {stations[i], stations[(i + 1) % stations.size()]},
-                                                 {capacity_rate}, {assembly.channel(while_on)});
+                                                 {capacity_rate}, {assembly.share(while_on)});
   }
 
  private:

@@ -42,7 +42,7 @@ struct CoolantFlow {
     for (auto const& contact : place.site.contacts)
       assembly.network().add<MeanTemperatureFlow>(
           assembly.part(), {assembly.node(place, contact.node), assembly.boundary(inlet, inlet_offset)},
-          {contact.share * flow * density * specific_heat}, {assembly.channel(while_on)});
+          {contact.share * flow * density * specific_heat}, {assembly.share(while_on)});
   }
 };
 

@@ -57,7 +57,7 @@ struct CopperLoss {
     assembly.network().add<CopperHeat>(
         assembly.part(), {slot_port, end_windings.empty() ? slot_port : assembly.port(end_windings)},
         {phases * resistance, harmonics, magnetising_current, torque / torque_constant, slot_share},
-        {assembly.channel(while_on), assembly.channel(while_loaded)});
+        {assembly.share(while_on), assembly.share(while_loaded)});
   }
 };
 

@@ -30,7 +30,7 @@ struct Draught {
     for (auto const& contact : place.site.contacts)
       assembly.network().add<thermal::SwitchedConductance>(
           assembly.part(), {assembly.node(place, contact.node), assembly.air(contact.centre)},
-          {contact.area / (1.0 / coefficient + contact.half_resistance)}, {assembly.channel(while_on)});
+          {contact.area / (1.0 / coefficient + contact.half_resistance)}, {assembly.share(while_on)});
   }
 };
 

@@ -41,9 +41,9 @@ struct Evaporation {
     Place wet = assembly.place(from);
     wet.site = thermal::with_area(wet.site, area);
     for (auto const& contact : wet.site.contacts)
-      assembly.network().add<EvaporationHeat>(
-          assembly.part(), {assembly.node(wet, contact.node), assembly.air(contact.centre)},
-          {contact.area, coefficient, lewis, humidity}, {assembly.channel(while_on)});
+      assembly.network().add<EvaporationHeat>(assembly.part(),
+                                              {assembly.node(wet, contact.node), assembly.air(contact.centre)},
+                                              {contact.area, coefficient, lewis, humidity}, {assembly.share(while_on)});
   }
 };
 

@@ -44,8 +44,7 @@ struct FanCooling {
     for (auto const& contact : place.site.contacts)
       assembly.network().add<FanConductance>(
           assembly.part(), {assembly.node(place, contact.node), assembly.air(contact.centre)},
-          {conductance * contact.share, exponent, rated_speed.value_or(assembly.maximum_spindle_speed())},
-          {assembly.channel(speed)});
+          {conductance * contact.share, exponent, assembly.rated_speed(rated_speed, speed)}, {assembly.channel(speed)});
   }
 };
 

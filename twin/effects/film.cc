@@ -165,7 +165,7 @@ struct Film {
                              {contact.area, contact.half_resistance, size(), needed(), emissivity, factor}, {input});
   }
   [[nodiscard]] thermal::Port fluid(Assembly& assembly, Eigen::Vector3d const& point) const {
-    return to == "ambient" ? assembly.air(point) : assembly.port(to);
+    return to == "ambient" ? assembly.air(point) : assembly.port(assembly.place(to, {"ambient"}));
   }
   [[nodiscard]] double size() const {
     bool const round = correlation.find("cylinder") != std::string::npos || correlation.starts_with("rotating_disc");

@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include "thermal/contact.h"
+#include "thermal/error.h"
 #include "thermal/joint.h"
 #include "thermal/laws.h"
 #include "twin/assembly.h"
@@ -69,6 +70,8 @@ struct FitPart {
   }
 
   void add_to(Assembly& assembly) const {
+    if (!(inner_bore < diameter && diameter < outer_diameter))
+      throw thermal::InputError("fit '" + name + "': the seat lies between inner_bore and outer_diameter");
     Place const a = joint_side(assembly, inner), b = joint_side(assembly, outer);
     double const area = std::numbers::pi * diameter * width;
     double const contact = thermal::contact_film<double>(fit().contact, 1.0);

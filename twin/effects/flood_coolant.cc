@@ -33,7 +33,7 @@ struct FloodCoolant {
     for (auto const& contact : place.site.contacts)
       assembly.network().add<thermal::SwitchedConductance>(
           assembly.part(), {assembly.node(place, contact.node), coolant},
-          {contact.area / (1.0 / coefficient + contact.half_resistance)}, {assembly.channel(while_on)});
+          {contact.area / (1.0 / coefficient + contact.half_resistance)}, {assembly.share(while_on)});
   }
 };
 

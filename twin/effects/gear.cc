@@ -47,9 +47,9 @@ struct Gear {
     auto const viscosity = thermal::mineral_oil_viscosity(oil);
     assembly.network().add<GearHeat>(
         assembly.part(), {assembly.port(at)},
-        {churning, exponent, rated_speed.value_or(assembly.maximum_spindle_speed()), viscosity.scale,
-         viscosity.temperature, thermal::transmission_loss<double>(efficiency, transmitted_power)},
-        {assembly.channel(speed), assembly.channel(while_loaded)});
+        {churning, exponent, assembly.rated_speed(rated_speed, speed), viscosity.scale, viscosity.temperature,
+         thermal::transmission_loss<double>(efficiency, transmitted_power)},
+        {assembly.channel(speed), assembly.share(while_loaded)});
   }
 };
 

@@ -49,11 +49,11 @@ struct GreaseRunIn {
     if (!decay_time && !decay_revolutions)
       throw thermal::InputError("grease_run_in '" + name + "' needs a decay_time or decay_revolutions");
     auto const rate = [](std::optional<double> const& decay) { return decay ? 1.0 / *decay : 0.0; };
-    assembly.network().add<RunInHeat>(assembly.part(), {assembly.port(inner), assembly.port(outer)},
-                                      {power, rated_speed.value_or(assembly.maximum_spindle_speed()), rate(decay_time),
-                                       rate(decay_revolutions), inner_share},
-                                      {assembly.channel("spindle.speed"), assembly.channel("spindle.time_running"),
-                                       assembly.channel("spindle.revolutions")});
+    assembly.network().add<RunInHeat>(
+        assembly.part(), {assembly.port(inner), assembly.port(outer)},
+        {power, assembly.rated_speed(rated_speed), rate(decay_time), rate(decay_revolutions), inner_share},
+        {assembly.channel("spindle.speed"), assembly.channel("spindle.time_running"),
+         assembly.channel("spindle.revolutions")});
   }
 };
 

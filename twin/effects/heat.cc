@@ -22,7 +22,7 @@ struct Heat {
 
   void add_to(Assembly& assembly) const {
     assembly.network().add<thermal::SwitchedHeat>(assembly.part(), {assembly.port(at)}, {power},
-                                                  {assembly.channel(while_on)});
+                                                  {assembly.share(while_on)});
   }
 };
 

@@ -44,7 +44,7 @@ struct HotNeighbour : GivenTemperature {
     for (auto const& contact : place.site.contacts)
       assembly.network().add<NeighbourHeat>(assembly.part(), {assembly.node(place, contact.node), neighbour},
                                             {emissivity, area * contact.share, view, conductance * contact.share},
-                                            {assembly.channel(while_on)});
+                                            {assembly.share(while_on)});
   }
 };
 

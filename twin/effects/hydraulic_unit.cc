@@ -1,4 +1,5 @@
 #include "thermal/drive_loss.h"
+#include "thermal/error.h"
 #include "thermal/laws.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
@@ -29,6 +30,8 @@ struct HydraulicUnit {
   void add_to(Assembly& assembly) const {
     double const throttled = consumers.empty() ? 0.0 : thermal::throttling_heat<double>(pressure_drop, volume_flow);
     double const all = thermal::hydraulic_unit_heat<double>(electric_power, duty);
+    if (throttled > all)
+      throw thermal::InputError("hydraulic_unit '" + name + "': the consumers throttle more than the pump takes");
     add(assembly, tank, all - throttled);
     if (!consumers.empty()) add(assembly, consumers, throttled);
   }
@@ -36,7 +39,7 @@ struct HydraulicUnit {
  private:
   void add(Assembly& assembly, std::string const& place, double heat) const {
     assembly.network().add<thermal::SwitchedHeat>(assembly.part(), {assembly.port(place)}, {heat},
-                                                  {assembly.channel(while_on)});
+                                                  {assembly.share(while_on)});
   }
 };
 

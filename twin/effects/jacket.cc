@@ -82,7 +82,7 @@ struct Jacket : GivenTemperature {
     double const section = channel_width * channel_height, perimeter = 2.0 * (channel_width + channel_height);
     double const wetted = area.value_or((perimeter - channel_width) * length);
     auto const reference = thermal::properties(thermal::fluid(fluid), flow_temperature);
-    std::vector<int> const inputs = {assembly.channel(while_on)};
+    std::vector<int> const inputs = {assembly.share(while_on)};
     for (auto const& contact : place.site.contacts) {
       std::vector<thermal::Port> const ports = {assembly.node(place, contact.node), inlet};
       std::vector<double> const numbers = {wetted,

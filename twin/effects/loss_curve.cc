@@ -50,7 +50,7 @@ struct LossCurve {
     for (int i = 0; i < most_points; ++i) numbers.push_back(at_point(speeds, i) + extra(i));
     for (int i = 0; i < most_points; ++i) numbers.push_back(at_point(losses, i));
     assembly.network().add<LossCurveHeat>(assembly.part(), {assembly.port(at)}, numbers,
-                                          {assembly.channel(speed), assembly.channel(while_on)});
+                                          {assembly.channel(speed), assembly.share(while_on)});
   }
 
  private:

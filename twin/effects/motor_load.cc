@@ -35,7 +35,7 @@ struct MotorLoad {
  private:
   void add(Assembly& assembly, std::string const& place, double heat) const {
     assembly.network().add<thermal::SwitchedHeat>(assembly.part(), {assembly.port(place)}, {heat},
-                                                  {assembly.channel(while_loaded)});
+                                                  {assembly.share(while_loaded)});
   }
 };
 

@@ -43,8 +43,8 @@ struct MotorLoss {
   void add_to(Assembly& assembly) const {
     assembly.network().add<NoLoadLoss>(
         assembly.part(), {assembly.port(at)},
-        {constant, hysteresis, eddy, base_speed_ratio, rated_speed.value_or(assembly.maximum_spindle_speed())},
-        {assembly.channel("spindle.speed"), assembly.channel(while_on)});
+        {constant, hysteresis, eddy, base_speed_ratio, assembly.rated_speed(rated_speed, while_on)},
+        {assembly.channel("spindle.speed"), assembly.share(while_on)});
   }
 };
 

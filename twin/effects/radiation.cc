@@ -51,7 +51,8 @@ struct Radiation {
     for (auto const& contact : place.site.contacts)
       assembly.network().add<RadiationLaw>(
           assembly.part(),
-          {assembly.node(place, contact.node), to == "ambient" ? assembly.air(contact.centre) : assembly.port(to)},
+          {assembly.node(place, contact.node),
+           to == "ambient" ? assembly.air(contact.centre) : assembly.port(assembly.place(to, {"ambient"}))},
           {both, contact.area, view});
   }
 };

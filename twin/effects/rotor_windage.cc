@@ -88,10 +88,9 @@ struct RotorWindage {
     int const part = assembly.part(), speed = assembly.channel("spindle.speed");
     auto& network = assembly.network();
     if (kind == "known")
-      network.add<KnownWindage>(part, {rotor_port, stator_port},
-                                {rotor_share, other_share, given(power, "power"), exponent,
-                                 rated_speed.value_or(assembly.maximum_spindle_speed())},
-                                {speed});
+      network.add<KnownWindage>(
+          part, {rotor_port, stator_port},
+          {rotor_share, other_share, given(power, "power"), exponent, assembly.rated_speed(rated_speed)}, {speed});
     else if (kind == "gap")
       network.add<GapWindage>(
           part, {rotor_port, stator_port},

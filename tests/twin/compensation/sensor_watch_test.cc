@@ -1,7 +1,10 @@
 #include "twin/compensation/sensor_watch.h"
 
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "thermal/error.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -97,6 +100,15 @@ TEST(InputWatch, LetsInputsLeapAndStandStill) {
     EXPECT_EQ(watch.fault(time), SensorFault::none) << value;
   }
   EXPECT_EQ(watch.fault(time + 61.0), SensorFault::stale);
+}
+
+/// --highest "120 K" is -153.15 degC: every reading would be out of range.
+TEST(SensorWatch, RefusesARangeUpsideDown) {
+  EXPECT_THAT(([] {
+                SensorWatch const watch({60.0, 600.0, 0.3, 0.02, -20.0, -153.15});
+              }),
+              testing::ThrowsMessage<thermal::InputError>(testing::HasSubstr(
+                  "-20 degC at least and -153.15 degC at most: the highest must be above the lowest")));
 }
 
 }  // namespace
