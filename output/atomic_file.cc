@@ -1,5 +1,6 @@
 #include "output/atomic_file.h"
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -40,6 +41,7 @@ class Descriptor {
   Descriptor(Descriptor const&) = delete;
   Descriptor& operator=(Descriptor const&) = delete;
 
+  [[nodiscard]] bool is_open() const { return fd_ >= 0; }
   [[nodiscard]] bool write(std::string_view bytes) const {
     if (fd_ < 0) return false;
     SizeLimitAsError const guard;
@@ -63,13 +65,20 @@ class Descriptor {
       fmt::format("cannot write '{}': {}{}", path.string(), reason, old ? " (the old file is as it was)" : ""));
 }
 
-void replace(fs::path const& path, std::string_view contents) {
+/// A name that no other writer of this process has, nor one of another process at this time.
+fs::path temporary_beside(fs::path const& path) {
+  static std::atomic<unsigned> number = 0;
   fs::path temporary = path;
-  temporary += ".tmp";
-  Descriptor const file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+  return temporary += fmt::format(".{}-{}.tmp", ::getpid(), number++);
+}
+
+void replace(fs::path const& path, std::string_view contents) {
+  fs::path const temporary = temporary_beside(path);
+  Descriptor const file(temporary, O_WRONLY | O_CREAT | O_EXCL);
+  if (!file.is_open() && errno == EEXIST) return replace(path, contents);  // somebody's, to be left alone
   if (file.write(contents) && file.synchronise() && ::rename(temporary.c_str(), path.c_str()) == 0) return;
   std::string const reason = std::strerror(errno);
-  ::unlink(temporary.c_str());
+  if (file.is_open()) ::unlink(temporary.c_str());
   fail(path, reason);
 }
 

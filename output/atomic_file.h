@@ -6,7 +6,8 @@
 namespace thermotwin::output {
 
 /// After this, `path` holds all of `contents`; whatever happens on the way (kill, power cut, disk full), it holds what
-/// it held before. The bytes go to `<path>.tmp` in the same directory, are synchronised to the disk, and renamed.
+/// it held before. The bytes go to a new file `<path>.<process>-<number>.tmp` in the same directory, are synchronised
+/// to the disk, and renamed; no file that is there already is touched, and two processes may write one `path`.
 ///
 /// A symbolic link is followed. A device or a pipe (`/dev/stdout`) is written straight through. Throws OutputError and
 /// leaves no `.tmp` behind when the directory is missing or not writable, the disk is full or a size limit is met.

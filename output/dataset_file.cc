@@ -21,6 +21,19 @@ void set_row(char const* group, std::vector<Channel>& channels, Eigen::VectorXd 
   for (std::size_t i = 0; i < channels.size(); ++i) channels[i].values[row] = values[static_cast<Eigen::Index>(i)];
 }
 
+/// Of the place of a partial file: what an interrupted run left there may go, anything else is somebody's.
+void refuse_foreign(std::filesystem::path const& partial) {
+  if (!std::filesystem::exists(partial)) return;
+  try {
+    if (!read(partial).complete) return;
+  } catch (thermal::InputError const&) {  // no data set at all
+  }
+  throw OutputError(
+      fmt::format("'{}' is not what an interrupted run left, and a run keeps its rows in a file of this name; move it, "
+                  "or name another output",
+                  partial.string()));
+}
+
 }  // namespace
 
 void write(Dataset const& dataset, std::filesystem::path const& path) { write_atomically(path, to_hdf5(dataset)); }
@@ -31,6 +44,7 @@ DatasetWriter::DatasetWriter(std::filesystem::path path, Dataset head,
   dataset_.complete = false;
   if (std::filesystem::is_directory(path_))
     throw OutputError(fmt::format("cannot write '{}': it is a directory", path_.string()));
+  refuse_foreign(partial_path());
   checkpoint();
 }
 

@@ -33,9 +33,9 @@ void CampaignCommand::show_run(Campaign const& campaign) const {
 std::string text_of(CampaignReport const& report, Share rank) {
   if (report.made == 0) return "";
   return fmt::format(
-      "{} runs{} in {:.1f} s on {} threads: {:.3f} ms of a thread each, and {:.1f} us for the campaign\n", report.made,
+      "{} runs{} in {:.1f} s on {} threads: {:.3f} ms of a thread each, and {:.3f} ms for the campaign\n", report.made,
       rank.count > 1 ? fmt::format(" by rank {} of {}", rank.index, rank.count) : "", report.seconds, report.threads,
-      1e3 * report.run_seconds / double(report.made), 1e6 * report.overhead());
+      1e3 * report.run_seconds / double(report.made), 1e3 * report.overhead());
 }
 
 void CampaignCommand::operator()(std::atomic<bool> const& stop) const {

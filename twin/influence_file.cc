@@ -54,14 +54,18 @@ std::vector<fs::path> neighbours(fs::path const& own) {
 
 fs::path weights_file(fs::path const& machine_file) { return fs::path(machine_file).replace_extension(".weights"); }
 
-void write_solutions(fs::path const& path, std::map<std::string, Solution> const& solutions) {
+std::string text_of(std::map<std::string, Solution> const& solutions) {
   std::string text;
   for (auto const& [key, solution] : solutions) {
     text += fmt::format("# {}\n{}", solution.remark, key);
     for (double const sum : solution.sums) text += fmt::format(",{:.9g}", sum);
     text += '\n';
   }
-  output::write_atomically(path, text);
+  return text;
+}
+
+void write_solutions(fs::path const& path, std::map<std::string, Solution> const& solutions) {
+  output::write_atomically(path, text_of(solutions));
 }
 
 std::optional<std::vector<double>> find_solution(fs::path const& machine_file, std::string const& key) {

@@ -17,8 +17,9 @@ struct Solution {
 /// The elastic solutions that a machine's displacements rest on: `v450.weights` beside `v450.toml`.
 [[nodiscard]] std::filesystem::path weights_file(std::filesystem::path const& machine_file);
 
-/// Writes solutions by their keys as text: for each a line `# remark` and a line with its key and its sums to nine
-/// digits, separated by commas.
+/// Solutions by their keys as text: for each a line `# remark` and a line with its key and its sums to nine digits,
+/// separated by commas.
+[[nodiscard]] std::string text_of(std::map<std::string, Solution> const& solutions);
 void write_solutions(std::filesystem::path const& path, std::map<std::string, Solution> const& solutions);
 
 /// The solution of this key from the file beside the machine's, or from that of a neighbour: a machine file that was

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <map>
 #include <set>
 
 #include "thermal/block.h"
@@ -11,7 +10,6 @@
 #include "thermal/nearest_name.h"
 #include "twin/description.h"
 #include "twin/elastic_solution.h"
-#include "twin/influence_file.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -108,12 +106,18 @@ std::vector<NeededSolution> needed_solutions(Value const& document) {
   return collector.needed();
 }
 
-int write_weights(std::filesystem::path const& machine_file, std::ostream& progress) {
-  auto const needed = needed_solutions(read_toml(machine_file));
-  auto const path = weights_file(machine_file);
+std::map<std::string, Solution> known_solutions(std::filesystem::path const& machine_file, Value const& document) {
   std::map<std::string, Solution> solutions;
-  for (auto const& one : needed)
+  for (auto const& one : needed_solutions(document))
     if (auto const known = find_solution(machine_file, one.key)) solutions[one.key] = {one.remark(), *known};
+  return solutions;
+}
+
+int write_weights(std::filesystem::path const& machine_file, std::ostream& progress) {
+  Value const document = read_toml(machine_file);
+  auto const needed = needed_solutions(document);
+  auto const path = weights_file(machine_file);
+  auto solutions = known_solutions(machine_file, document);
   int const due = int(needed.size() - solutions.size());
   int solved = 0;
   for (auto const& one : needed) {

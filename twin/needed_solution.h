@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "twin/elastic_block.h"
 #include "twin/file/value.h"
+#include "twin/influence_file.h"
 
 namespace thermotwin::twin {
 
@@ -22,6 +24,10 @@ struct NeededSolution {
 /// All of them, each once. Only the tables of materials, blocks, displacements and rotations are read, for a machine
 /// cannot be built before its weights are there.
 [[nodiscard]] std::vector<NeededSolution> needed_solutions(Value const& document);
+
+/// Those of them that stand beside the machine file or in the files of its neighbours, by their keys.
+[[nodiscard]] std::map<std::string, Solution> known_solutions(std::filesystem::path const& machine_file,
+                                                              Value const& document);
 
 /// Solves with CalculiX what a machine file needs and the files of solutions beside it have not yet, and writes
 /// `<machine>.weights` after each; says on `progress` what it does. Returns how many it solved.

@@ -12,6 +12,7 @@
 #include "twin/experiment_file.h"
 #include "twin/file/text_file.h"
 #include "twin/influence_file.h"
+#include "twin/needed_solution.h"
 #include "twin/setting.h"
 #include "twin/version.h"
 
@@ -116,11 +117,12 @@ std::string differences(output::Dataset const& a, output::Dataset const& b) {
 
 }  // namespace
 
-std::map<std::string, std::string> origin(fs::path const& machine, fs::path const& experiment,
+std::map<std::string, std::string> origin(fs::path const& machine, Value const& document, fs::path const& experiment,
                                           std::string const& settings, scenarios::Experiment const& nominal) {
   std::map<std::string, std::string> texts = {
       {"machine.file", text_of_file(machine)}, {"experiment.file", text_of_file(experiment)}, {"settings", settings}};
-  if (auto const weights = weights_file(machine); fs::exists(weights)) texts["machine.weights"] = text_of_file(weights);
+  if (auto const solutions = known_solutions(machine, document); !solutions.empty())
+    texts["machine.weights"] = text_of(solutions);
   for (std::size_t i = 0; i < nominal.recorded.size(); ++i)
     texts[recording_key(i)] = text_of_file(scenarios::resolved_path(nominal.recorded[i].file, nominal.directory));
   return texts;
@@ -131,6 +133,11 @@ Replay replay(fs::path const& dataset, fs::path const& output, std::function<voi
   auto const data = output::read(dataset);
   if (!data.complete)
     throw thermal::InputError(fmt::format("'{}' is partial: the run that wrote it did not end", dataset.string()));
+  if (auto const model = data.provenance.find("model"); model != data.provenance.end() && model->second == "reduced")
+    throw thermal::InputError(fmt::format(
+        "'{}' is of a reduced model (run --reduced), which is not made anew; the same run without --reduced "
+        "can be",
+        dataset.string()));
   Origin const origin(data, dataset);
   Folder const folder;
   auto const [machine, experiment] = made_from(origin, folder);

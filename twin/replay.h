@@ -5,13 +5,15 @@
 #include <string>
 
 #include "scenarios/experiment.h"
+#include "twin/file/value.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
 
 /// All that a run was made from, as its provenance keeps it: the texts of the machine's and the experiment's files, the
-/// settings line by line, recorded inputs, and the elastic solutions that stand beside the machine's file.
-[[nodiscard]] std::map<std::string, std::string> origin(std::filesystem::path const& machine,
+/// settings line by line, recorded inputs, and the elastic solutions that the machine's displacements rest on, from
+/// whichever file beside it. `document` is the machine's with the settings.
+[[nodiscard]] std::map<std::string, std::string> origin(std::filesystem::path const& machine, Value const& document,
                                                         std::filesystem::path const& experiment,
                                                         std::string const& settings,
                                                         scenarios::Experiment const& nominal);
@@ -23,7 +25,8 @@ struct Replay {
 };
 
 /// Runs again what a data set says it was made from, with no other file, and compares the two byte for byte. `output`
-/// keeps the new data set. InputError when the data set does not hold its origin: a measured one, a partial one.
+/// keeps the new data set. InputError when the data set does not hold its origin: a measured one, a partial one; and of
+/// a reduced model.
 [[nodiscard]] Replay replay(std::filesystem::path const& dataset, std::filesystem::path const& output,
                             std::function<void(double)> const& progress, std::atomic<bool> const* stop);
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <random>
+#include <regex>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -123,6 +124,8 @@ Undisturbed undisturbed(TemporaryDirectory const& directory, std::string const& 
   begin = Clock::now();
   auto const text = answer(program + " campaign " + file + " -o " + (directory / "whole").string());
   EXPECT_NE(text.find("200 runs, 0 of them failed"), std::string::npos) << text;
+  EXPECT_TRUE(std::regex_search(text, std::regex("[0-9.]+ ms of a thread each, and [0-9.]+ ms for the campaign\n")))
+      << text;
   result.whole = seconds_since(begin) - result.start;
   result.files = files_in(directory / "whole");
   return result;

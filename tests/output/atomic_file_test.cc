@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <string>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "output/error.h"
@@ -57,6 +58,43 @@ TEST(AtomicFile, WritesAndReplaces) {
   write_atomically(directory / "a.csv", "first");
   write_atomically(directory / "a.csv", std::string("sec\0nd", 6));
   EXPECT_EQ(contents(directory / "a.csv"), std::string("sec\0nd", 6));
+  EXPECT_THAT(directory.files(), ElementsAre("a.csv"));
+}
+
+TEST(AtomicFile, LeavesFilesThatLookTemporaryAlone) {
+  TemporaryDirectory const directory;
+  std::string const process = std::to_string(getpid());
+  put(directory / "a.csv.tmp", "mine");
+  for (int i = 0; i < 1000; ++i) put(directory / ("a.csv." + process + "-" + std::to_string(i) + ".tmp"), "mine");
+  write_atomically(directory / "a.csv", "new");
+  EXPECT_EQ(contents(directory / "a.csv"), "new");
+  auto const files = directory.files();
+  EXPECT_EQ(files.size(), 1002U);
+  for (auto const& name : files) EXPECT_EQ(contents(directory / name), name == "a.csv" ? "new" : "mine") << name;
+}
+
+TEST(AtomicFile, TwoProcessesMayWriteOneFile) {
+  TemporaryDirectory const directory;
+  std::string const ours(100'000, 'a'), theirs(100'000, 'b');
+  auto const write_often = [&](std::string const& text) {
+    for (int i = 0; i < 50; ++i) write_atomically(directory / "a.csv", text);
+  };
+  pid_t const child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    try {
+      write_often(theirs);
+    } catch (OutputError const&) {
+      _exit(1);
+    }
+    _exit(0);
+  }
+  EXPECT_NO_THROW(write_often(ours));
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  auto const written = contents(directory / "a.csv");
+  EXPECT_TRUE(written == ours || written == theirs);
   EXPECT_THAT(directory.files(), ElementsAre("a.csv"));
 }
 

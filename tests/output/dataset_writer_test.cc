@@ -105,6 +105,25 @@ TEST(DatasetWriter, LeavesTheRowsOfAFailedRun) {
   expect_first_rows(partial, 300);
 }
 
+TEST(DatasetWriter, TakesThePlaceOfAnInterruptedRunAndOfNothingElse) {
+  TemporaryDirectory const directory;
+  auto const partial = directory / "run.h5.partial";
+  {
+    DatasetWriter writer(directory / "run.h5", head(), always);
+    writer.append(row_at(0));
+  }
+  DatasetWriter(directory / "run.h5", head(), always).finish();
+  EXPECT_THAT(directory.files(), ElementsAre("run.h5"));
+  auto const expect_refusal = [&](std::string const& theirs) {
+    put(partial, theirs);
+    EXPECT_THAT([&] { DatasetWriter(directory / "run.h5", head()); },
+                ThrowsMessage<OutputError>(HasSubstr("run.h5.partial' is not what an interrupted run left")));
+    EXPECT_EQ(contents(partial), theirs);
+  };
+  expect_refusal("mine");
+  expect_refusal(contents(directory / "run.h5"));
+}
+
 TEST(DatasetWriter, LeavesNothingWhenThereIsNoRow) {
   TemporaryDirectory const directory;
   { DatasetWriter const writer(directory / "run.h5", head()); }

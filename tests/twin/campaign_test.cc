@@ -312,5 +312,51 @@ TEST(Campaign, MistakesAreToldWithTheirPlace) {
   EXPECT_NE(refusal(changed("part = 7", "prt = 7")).find("unknown key 'prt'; did you mean 'part'?"), std::string::npos);
 }
 
+/// Of long lists the first twenty are tried, but each keeps to the time axis.
+TEST(Campaign, NoCaseHasATimeAxisOfItsOwn) {
+  std::string text = "experiments = [\"golden_b_2000\"]\nmachine = \"v450\"\n";
+  for (int c = 0; c < 20; ++c) text += "[[case]]\nset = [\"experiment.ambient.mean=20 degC\"]\n";
+  EXPECT_EQ(refusal(text), "no complaint");
+  EXPECT_EQ(refusal(text + "[[case]]\nset = [\"experiment.sampling=120 s\"]\n"),
+            "campaign.toml:43:1: 'experiment.sampling' cannot be varied: all runs share one time axis; see 'every'");
+  EXPECT_EQ(refusal(text + "[[case]]\nset = [\"experiment.duration=2 h\"]\n"),
+            "campaign.toml:43:1: 'experiment.duration' cannot be varied: all runs share one time axis; see 'every'");
+}
+
+TEST(Campaign, AReducedModelIsOfOneMachine) {
+  std::string const head = "experiments = [\"golden_b_2000\"]\nmachine = \"v450\"\nmodel = \"reduced\"\n";
+  auto const grid = [](std::string const& path) { return "[[grid]]\npath = \"" + path + "\"\nvalues = [0.4, 0.5]\n"; };
+  std::string const reason =
+      " cannot be varied: a reduced model is of one machine, with model = \"reduced\" only "
+      "experiments may vary";
+  EXPECT_EQ(refusal(head + "[[grid]]\npath = \"experiment.ambient.mean\"\nvalues = [\"18 degC\", \"20 degC\"]\n"),
+            "no complaint");
+  EXPECT_EQ(refusal(head + grid("bearing.front.grease_factor")),
+            "campaign.toml:5:8: 'bearing.front.grease_factor'" + reason);
+  EXPECT_EQ(refusal(head + "[[case]]\nset = [\"bearing.front.grease_factor=0.5\"]\n"),
+            "campaign.toml:4:1: 'bearing.front.grease_factor'" + reason);
+}
+
+TEST(Campaign, VariesNoProgrammeThatARecordingReplaces) {
+  TemporaryDirectory const directory;
+  tests::put(directory / "air.csv", "time_s,room\n0,20\n3600,21\n7200,22\n");
+  tests::put(directory / "day.toml",
+             "machine = \"v450\"\nduration = \"2 h\"\n[[recorded]]\nfile = \"air.csv\"\nmax_gap = \"1 h\"\n"
+             "columns = [{column = \"room\", channel = \"ambient.temperature\", unit = \"degC\"}]\n");
+  auto const with = [&](std::string const& path, std::string const& values) {
+    try {
+      auto const grid = "[[grid]]\npath = \"experiment.ambient." + path + "\"\nvalues = " + values + "\n";
+      return std::to_string(read(directory, "experiments = [\"day.toml\"]\n" + grid).runs()) + " runs";
+    } catch (thermal::InputError const& error) {
+      std::string const what = error.what();
+      return what.substr(what.find("campaign.toml"));
+    }
+  };
+  EXPECT_EQ(with("mean", "[\"18 degC\", \"24 degC\"]"),
+            "campaign.toml:3:8: parameter 'experiment.ambient.mean' would change nothing: 'ambient.temperature' is "
+            "recorded in 'air.csv'");
+  EXPECT_EQ(with("stratification", "[\"0 K/m\", \"1 K/m\"]"), "2 runs");
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

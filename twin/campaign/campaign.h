@@ -54,8 +54,9 @@ struct CampaignExperiment {
 /// leave the machine alone stand behind the cases.
 class Campaign {
  public:
-  /// FileError with line and column for unknown keys, paths that no machine or experiment has, ranges without order
-  /// or of two units, a parameter given twice, experiments of different sampling without `every`.
+  /// FileError with line and column for unknown keys, paths that no machine or experiment has or whose programme is
+  /// replaced by a recording, ranges without order or of two units, a parameter given twice, experiments of different
+  /// sampling without `every`, another duration or sampling in some runs, another machine with a reduced model.
   static Campaign read(std::filesystem::path const& file);
 
   CampaignDescription description;
@@ -87,6 +88,7 @@ class Campaign {
   void read_experiments();
   void read_machine();
   void read_parameters(Value const& document);
+  void check_paths(Value const& document) const;
   void check_settings(Value const& document) const;
   void check_sampling(Value const& document) const;
   void try_setting(Location const& where, std::vector<Setting> const& settings) const;

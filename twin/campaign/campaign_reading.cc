@@ -110,6 +110,13 @@ CampaignParameter grid_parameter(Value const& table, GridDescription const& grid
   return parameter;
 }
 
+void refuse_time_axis(std::vector<Setting> const& settings) {
+  for (auto const& setting : settings)
+    if (setting.path == "experiment.duration" || setting.path == "experiment.sampling")
+      throw thermal::InputError(
+          fmt::format("'{}' cannot be varied: all runs share one time axis; see 'every'", setting.path));
+}
+
 void check_keep(Value const& document, std::vector<std::string> const& keep) {
   std::vector<std::string> const groups = {"readings", "displacements", "inputs", "truth", "summary"};
   std::set<std::string> seen;
@@ -162,13 +169,12 @@ void Campaign::try_setting(Location const& where, std::vector<Setting> const& se
   try {
     auto run = nominal(0);
     run.settings.insert(run.settings.end(), settings.begin(), settings.end());
-    for (auto const& setting : settings)
-      if (setting.path == "experiment.duration" || setting.path == "experiment.sampling")
-        throw thermal::InputError(
-            fmt::format("'{}' cannot be varied: all runs share one time axis; see 'every'", setting.path));
     auto const machine = Machine::build(this->machine(run));
-    for (; run.experiment < experiments.size(); ++run.experiment)
-      scenarios::ExperimentCourse const course(experiment(run), machine.limits);
+    for (; run.experiment < experiments.size(); ++run.experiment) {
+      auto const programme = experiment(run);
+      for (auto const& setting : run.settings) refuse_replaced(setting, programme);
+      scenarios::ExperimentCourse const course(programme, machine.limits);
+    }
   } catch (thermal::InputError const& error) {
     throw FileError(where, error.what());
   }
@@ -192,8 +198,34 @@ void Campaign::check_settings(Value const& document) const {
     try_setting(tables(document, "case")[c].where, cases_[c]);
 }
 
+/// Of every case, also of those that are not tried, and of every parameter.
+void Campaign::check_paths(Value const& document) const {
+  auto const check = [&](Location const& where, std::vector<Setting> const& settings) {
+    try {
+      refuse_time_axis(settings);
+    } catch (thermal::InputError const& error) {
+      throw FileError(where, error.what());
+    }
+    for (auto const& setting : settings)
+      if (description.model == "reduced" && !setting.of_experiment())
+        throw FileError(where, fmt::format("'{}' cannot be varied: a reduced model is of one machine, with model = "
+                                           "\"reduced\" only experiments may vary",
+                                           setting.path));
+  };
+  for (auto const* parameters : {&grid, &samples})
+    for (auto const& parameter : *parameters) check(parameter.where, {{parameter.path, ""}});
+  for (std::size_t c = 0; c < cases_.size(); ++c) check(tables(document, "case")[c].where, cases_[c]);
+}
+
 void Campaign::check_sampling(Value const& document) const {
-  if (description.every) return;
+  if (description.every) {
+    for (std::size_t e = 0; e < experiments.size(); ++e) try {
+        scenarios::check_readings(experiment(nominal(e)));
+      } catch (thermal::InputError const& error) {
+        throw FileError(place_of_key(document, "every"), error.what());
+      }
+    return;
+  }
   double const first = experiment(nominal(0)).sampling;
   for (std::size_t e = 1; e < experiments.size(); ++e)
     if (double const sampling = experiment(nominal(e)).sampling; sampling != first)
@@ -240,6 +272,7 @@ Campaign Campaign::read(fs::path const& file) {
   if (campaign.count() > most_runs)
     throw FileError(document.where,
                     fmt::format("these are {:.3g} runs; at most {:.0e} are possible", campaign.count(), most_runs));
+  campaign.check_paths(document);
   campaign.check_settings(document);
   campaign.check_sampling(document);
   return campaign;

@@ -41,8 +41,9 @@ std::map<std::string, std::string> sources_of(Campaign const& campaign) {
       {"campaign.file", campaign.text},          {"machine.file", campaign.machine_text},
       {"runs", std::to_string(campaign.runs())}, {"runs_per_part", std::to_string(campaign.runs_per_part())},
       {"version", std::string(version())},       {"commit", std::string(commit())}};
+  Value const machine = campaign.machine(campaign.nominal(0));
   for (auto const& experiment : campaign.experiments)
-    for (auto const& [key, text] : origin(campaign.machine_file, experiment.file, "", experiment.nominal))
+    for (auto const& [key, text] : origin(campaign.machine_file, machine, experiment.file, "", experiment.nominal))
       if (key == "experiment.file")
         texts["experiment." + experiment.name] = text;
       else if (key.starts_with("recorded.") || key == "machine.weights")
@@ -79,20 +80,10 @@ std::vector<Setting> machine_settings(CampaignRun const& order) {
 /// The nominal machine through a reduced model, for all threads.
 struct ReducedMachine {
   explicit ReducedMachine(Campaign const& campaign)
-      : machine(Machine::build(campaign.machine(campaign.nominal(0)))),
-        twin(machine, {}, cache_folder()),
-        settings(machine_settings(campaign.nominal(0))) {}
-
-  [[nodiscard]] ReducedResult run(Campaign const& campaign, CampaignRun const& order) const {
-    if (machine_settings(order) != settings)
-      throw thermal::InputError(
-          "a reduced model is of one machine: with model = \"reduced\" only experiments may vary");
-    return twin.run(campaign.experiment(order));
-  }
+      : machine(Machine::build(campaign.machine(campaign.nominal(0)))), twin(machine, {}, cache_folder()) {}
 
   Machine machine;
   ReducedTwin twin;
-  std::vector<Setting> settings;
 };
 
 /// Makes runs one by one, and keeps the machine while it stays the same.
@@ -113,7 +104,7 @@ class RunMaker {
     try {
       auto const order = campaign_.run(number);
       if (reduced_) {
-        auto const seen = reduced_->run(campaign_, order);
+        auto const seen = reduced_->twin.run(campaign_.experiment(order));
         result.numbers = form_.kept(seen);
         result.rows = std::int64_t(seen.dataset.time_s.size());
         return result;
