@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <regex>
@@ -129,6 +131,31 @@ inline std::vector<CommandBlock> command_blocks(std::filesystem::path const& pag
   if (inside == indented) end(is_typed(text));
   end_paragraph();
   return blocks;
+}
+
+/// What a page quotes of the program's answers: its lines that begin with "> ".
+inline std::vector<std::string> quotes(std::filesystem::path const& page) {
+  std::istringstream lines(contents(page));
+  std::vector<std::string> quoted;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("> ")) quoted.push_back(line.substr(2));
+  return quoted;
+}
+
+/// The quote stands in the text, blanks aside and each number to a fifth.
+inline bool is_said(std::string const& quote, std::string const& text) {
+  static std::regex const token(R"([0-9]+(\.[0-9]+)?|\S)");
+  auto const tokens = [](std::string const& of) {
+    return std::vector<std::string>(std::sregex_token_iterator(of.begin(), of.end(), token), {});
+  };
+  auto const alike = [](std::string const& a, std::string const& b) {
+    auto const is_number = [](std::string const& word) { return std::isdigit(static_cast<unsigned char>(word[0])); };
+    if (!is_number(a) || !is_number(b)) return a == b;
+    double const x = std::stod(a), y = std::stod(b);
+    return std::abs(x - y) <= 0.2 * std::max(x, y);
+  };
+  auto const said = tokens(text), sought = tokens(quote);
+  return std::search(said.begin(), said.end(), sought.begin(), sought.end(), alike) != said.end();
 }
 
 /// A page without its fenced blocks and comments.

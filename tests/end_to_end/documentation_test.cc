@@ -71,15 +71,19 @@ timeout --signal=INT 0.5 '{0}' "$@"
     fs::create_directory_symlink(root / name, folder / name);
 }
 
-/// What a page's commands print, run one after the other in a folder that looks like the repository.
+/// What a page's commands print, run one after the other in a folder that looks like the repository; what the page
+/// quotes stands in it.
 std::string answer_of(std::string const& chapter, TemporaryDirectory const& folder) {
   put_program(folder);
   auto const script =
       std::regex_replace(script_of(chapter, folder), std::regex("1883"), std::to_string(tests::free_port()));
   tests::put(folder / "page.sh", script);
-  return tests::answer("cd '" + folder.path().string() + "' && THERMOTWIN='" + root.string() +
-                       "' THERMOTWIN_MEASURED_DATA='" + measured_data().string() + "' PATH='" +
-                       (folder / "build").string() + "':\"$PATH:/usr/sbin\" bash page.sh");
+  auto const text = tests::answer("cd '" + folder.path().string() + "' && THERMOTWIN='" + root.string() +
+                                  "' THERMOTWIN_MEASURED_DATA='" + measured_data().string() + "' PATH='" +
+                                  (folder / "build").string() + "':\"$PATH:/usr/sbin\" bash page.sh");
+  for (auto const& quote : tests::quotes(root / chapter))
+    EXPECT_TRUE(tests::is_said(quote, text)) << chapter << ": nothing said so: " << quote;
+  return text;
 }
 
 TEST(Tutorial, EveryCommandDoesWhatItSays) {
@@ -90,6 +94,9 @@ TEST(Tutorial, EveryCommandDoesWhatItSays) {
   auto const last = text.substr(text.rfind("Missing: 1 effect"));
   ASSERT_TRUE(std::regex_search(last, found, std::regex("at column_rear: power = ([0-9.]+) W"))) << last;
   EXPECT_NEAR(std::stod(found[1]), 60.0, 10.0);
+  ASSERT_TRUE(std::regex_search(last, found, std::regex(R"(\n  A +urad +([0-9.]+) +([0-9.]+) )"))) << last;
+  EXPECT_NEAR(std::stod(found[1]), 4.7, 0.2);
+  EXPECT_LT(std::stod(found[2]), 0.01 * std::stod(found[1]));
   EXPECT_THAT(tests::contents(folder / "tutorial" / "amended.toml"), HasSubstr("[[heat]]\nname = \"diagnosed_1\""));
   for (char const* made : {"expected.html", "monday.html", "found/report.html", "tuesday.html", "gap.svg"})
     EXPECT_TRUE(fs::exists(folder / "tutorial" / made)) << made;
@@ -112,6 +119,15 @@ TEST(Documentation, MeasuresAndCalibrates) {
   auto const text = answer_of("docs/measuring.md", folder);
   EXPECT_THAT(text, HasSubstr("bearing.front.grease_factor"));
   EXPECT_TRUE(fs::exists(folder / "calibrated.toml"));
+}
+
+TEST(Documentation, QuotesWhatTheProgramSays) {
+  std::string const said = "Missing: 1 effect.\n\n  heat at bed: power = 59.6 W ± 21 W\n";
+  EXPECT_TRUE(tests::is_said("Missing: 1 effect. heat at bed: power = 60.2 W ± 23 W", said));
+  EXPECT_FALSE(tests::is_said("heat at bed: power = 90 W ± 21 W", said));
+  EXPECT_FALSE(tests::is_said("heat at head: power = 59.6 W ± 21 W", said));
+  EXPECT_GE(tests::quotes(root / "docs/tutorial.md").size(), 2U);
+  EXPECT_GE(tests::quotes(root / "README.md").size(), 1U);
 }
 
 /// Chapters whose commands no test above runs.
