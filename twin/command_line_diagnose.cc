@@ -122,15 +122,18 @@ void add_challenge_command(CLI::App& app) {
   auto options = std::make_shared<ChallengeOptions>();
   auto folder = std::make_shared<std::string>(), kind = std::make_shared<std::string>();
   auto further = std::make_shared<std::string>();
-  command->add_option("--machine,-m", options->machine, "the nominal machine, file or name")->capture_default_str();
-  command->add_option("--seed", options->seed, "the same seed draws the same challenge")->capture_default_str();
+  command->add_option("--machine,-m", options->machine,
+                      "the nominal machine, file or name; default: v450, with --run the folder's");
+  command->add_option("--seed", options->seed,
+                      "the same seed draws the same challenge; default: 1, with --run the folder's");
   command->add_option("--kind", *kind, "one, none, outside, two or sensor; default: what the seed stands for");
   auto* to = command->add_option_group("to");
   to->add_option("--output,-o", *folder, "folder to write; it must be empty or absent");
   auto key = std::make_shared<bool>(false);
-  to->add_flag("--key", *key, "write nothing, and print what would be hidden");
+  auto* sealed = to->add_flag("--key", *key, "write nothing, and print what would be hidden");
   to->require_option(1);
-  command->add_option("--run", *further, "experiment file: one more run of the challenge that is in the folder");
+  command->add_option("--run", *further, "experiment file: one more run of the challenge that is in the folder")
+      ->excludes(sealed);
   command->callback([options, folder, kind, further, key] {
     options->folder = *folder;
     if (!further->empty()) options->further_run = *further;

@@ -8,6 +8,7 @@
 #include "thermal/error.h"
 #include "twin/checkpoint.h"
 #include "twin/experiment_file.h"
+#include "twin/experiment_remarks.h"
 #include "twin/file/output_path.h"
 #include "twin/progress.h"
 #include "twin/reduced_summary.h"
@@ -79,7 +80,9 @@ void RunCommand::run_reduced(Machine const& machine, scenarios::Experiment const
                              RunOptions const& options) const {
   if (options.fields || options.picture || options.node_temperatures || options.checkpoint)
     throw thermal::InputError("--reduced gives readings and displacements: no fields, picture, nodes or checkpoint");
-  ReducedTwin const twin(machine, {}, cache_folder());
+  std::function<void(std::string const&)> progress;
+  if (!quiet) progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
+  ReducedTwin const twin(machine, {}, cache_folder(), progress);
   auto result = twin.run(programme);
   for (auto const& [key, text] : options.provenance) result.dataset.provenance[key] = text;
   if (options.dataset) output::write(result.dataset, *options.dataset);
@@ -110,8 +113,14 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   machine_document = read_toml(path);
   for (auto const& text : settings) apply(setting(text), machine_document, experiment_document);
   auto const programme = read_experiment(experiment_document, experiment_path);
+  for (auto const& text : settings) refuse_replaced(setting(text), programme);
   check_outputs(path, experiment_path, programme);
   Machine const built = Machine::build(machine_document);
+  if (!quiet) {
+    auto const remarks =
+        in_experiment(experiment_document, [&] { return experiment_remarks(experiment_document, programme, built); });
+    for (auto const& remark : remarks) fmt::print(stderr, "warning: {}\n", remark);
+  }
 
   RunOptions options;
   options.integration.relative_tolerance = tolerance;
@@ -123,7 +132,8 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   if (!(options.field_interval > 0.0))
     throw thermal::InputError(fmt::format("--field-interval {}: a time above 0 is due", field_interval));
   options.node_temperatures = nodes;
-  options.provenance = origin(path, experiment_path, fmt::format("{}", fmt::join(settings, "\n")), programme);
+  options.provenance =
+      origin(path, machine_document, experiment_path, fmt::format("{}", fmt::join(settings, "\n")), programme);
   set_checkpoint(options);
   if (reduced) return in_experiment(experiment_document, [&] { run_reduced(built, programme, options); });
   options.stop = &stop;

@@ -19,12 +19,19 @@ std::pair<std::string, int> take_step(std::string& path) {
   return {step.substr(0, bracket), std::atoi(step.c_str() + bracket + 1)};
 }
 
+/// Whether an experiment has the field with which a path begins; "speeds.csv" is none.
+bool begins_with_field(std::string path) {
+  auto const fields = list_fields<scenarios::Experiment>();
+  return std::any_of(fields.begin(), fields.end(),
+                     [key = take_step(path).first](auto const& field) { return field.key == key; });
+}
+
 }  // namespace
 
 thermal::InputError located_in(Value const& document, thermal::InputError const& error) {
   std::string const message = error.what();
   std::string path = message.substr(0, message.find(": "));
-  if (path.find_first_of("/: ") != std::string::npos) return error;  // it names a file of its own
+  if (path.find_first_of("/: ") != std::string::npos || !begins_with_field(path)) return error;  // it names a file
   Value const* here = &document;
   while (!path.empty() && here->is_table()) {
     auto const [key, index] = take_step(path);
@@ -43,6 +50,7 @@ scenarios::Experiment read_experiment(Value const& document, std::filesystem::pa
   experiment.directory = file.has_parent_path() ? file.parent_path() : ".";
   try {
     scenarios::check(experiment);
+    scenarios::check_readings(experiment);
   } catch (FileError const&) {
     throw;
   } catch (thermal::InputError const& error) {

@@ -10,10 +10,13 @@
 #include "thermal/error.h"
 #include "twin/campaign/campaign.h"
 #include "twin/diagnosis/measured_data.h"
+#include "twin/diagnosis/measured_run.h"
 #include "twin/error_model_file.h"
 #include "twin/experiment_file.h"
+#include "twin/experiment_remarks.h"
 #include "twin/file/document.h"
 #include "twin/file/tables.h"
+#include "twin/history.h"
 #include "twin/machine.h"
 #include "twin/placement/candidate_sites.h"
 #include "twin/setting.h"
@@ -92,30 +95,15 @@ std::string checked_error_model(std::filesystem::path const& file) {
                      saved.runs.empty() ? "nobody knows what" : counted(saved.runs.size(), "run"));
 }
 
-std::string checked_study(std::filesystem::path const& file) {
-  auto const study = read_study(file);
-  check_worlds(study);
-  auto const& description = study.description;
-  return fmt::format("a study of {}, {} and {}", counted(description.worlds.size(), "world"),
-                     counted(description.selections.size(), "selection"), counted(description.models.size(), "model"));
-}
-
 std::string checked_campaign(std::filesystem::path const& file) {
   auto const campaign = Campaign::read(file);
   return fmt::format("a campaign of {} on {}", counted(std::size_t(campaign.runs()), "run"),
                      campaign.machine_file.stem().string());
 }
 
-std::string checked_record(std::filesystem::path const& file, std::vector<std::string>& warnings) {
-  auto const data = read_measured_data(file);
-  std::size_t const first = warnings.size();
-  warnings.insert(warnings.end(), data.remarks.begin(), data.remarks.end());
-  static_cast<void>(channels_of(data, warnings));
-  for (std::size_t i = first; i < warnings.size(); ++i) warnings[i] = file.string() + ": " + warnings[i];
-  return fmt::format("a record of {:.2f} h: {}, {}, {}, {}", data.time[data.time.size() - 1] / 3600.0,
-                     counted(std::size_t(data.time.size()), "row"), counted(data.inputs.size(), "input"),
-                     counted(data.readings.size(), "sensor"),
-                     counted(data.displacements.size(), "displacement channel"));
+std::vector<std::string> remarks_on(std::filesystem::path const& file, std::vector<std::string> remarks) {
+  for (auto& remark : remarks) remark = file.string() + ": " + remark;
+  return remarks;
 }
 
 struct CheckedMachine {
@@ -129,6 +117,77 @@ struct CheckedExperiment {
   Value document;
   scenarios::Experiment experiment;
 };
+
+struct CheckedRecord {
+  std::filesystem::path file;
+  std::string machine;  ///< that the file names
+};
+
+void check_together(CheckedExperiment const& checked, CheckedMachine const& machine) {
+  std::optional<scenarios::ExperimentCourse> course;
+  try {
+    course.emplace(checked.experiment, machine.machine.limits);
+    check_laser(machine.machine, checked.experiment);
+  } catch (thermal::InputError const& error) {
+    throw located_in(checked.document, error);
+  }
+  try {
+    thermal::CourseInputs const inputs(machine.machine.network(), *course);
+  } catch (thermal::InputError const& error) {
+    throw FileError(place_of(machine.document, error.what()), error.what());
+  }
+}
+
+/// The experiment by that name in a world of a study; none where the run was measured.
+std::optional<CheckedExperiment> experiment_of(std::string const& run, std::filesystem::path const& study_folder) {
+  std::filesystem::path const given = run;
+  auto const suffix = given.extension();
+  auto const measured = std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "scenarios/measured" / (run + ".toml");
+  if (suffix == ".h5" || suffix == ".csv" || (suffix != ".toml" && std::filesystem::exists(measured))) return {};
+  auto const file = suffix == ".toml" ? study_folder / given : experiment_file(run);
+  Value const document = read_toml(file);
+  if (!document.find("duration")) return {};
+  return CheckedExperiment{file, document, read_experiment(document, file)};
+}
+
+/// The machine of a world, as the world changes it.
+CheckedMachine machine_in(StudyWorld const& world, std::filesystem::path const& study_folder) {
+  std::filesystem::path const given = world.machine;
+  bool const beside = given.extension() == ".toml" && std::filesystem::exists(study_folder / given);
+  auto const file = beside ? study_folder / given : machine_file(world.machine);
+  Value document = read_toml(file);
+  for (auto const& change : world.changes) {
+    auto const [path, value] = setting(change);
+    set_parameter(document, path, value);
+  }
+  Value const added = parse_toml(world.added, "add");
+  for (auto const& [kind, where, tables] : std::get<Value::Table>(added.content))
+    for (auto const* table : items_of(tables)) append_table(document, kind, *table);
+  return {file, document, Machine::build(document)};
+}
+
+/// The experiments that a world runs, each with the machine; a complaint says which.
+void check_experiments(StudyWorld const& world, std::filesystem::path const& study_folder) {
+  auto const machine = machine_in(world, study_folder);
+  auto runs = world.train;
+  runs.insert(runs.end(), world.test.begin(), world.test.end());
+  for (auto const& run : runs) {
+    try {
+      if (auto const checked = experiment_of(run, study_folder)) check_together(*checked, machine);
+    } catch (thermal::InputError const& error) {
+      throw about(world, fmt::format("'{}': {}", run, error.what()));
+    }
+  }
+}
+
+std::string checked_study(std::filesystem::path const& file) {
+  auto const study = read_study(file);
+  check_worlds(study);
+  auto const& description = study.description;
+  for (auto const& world : description.worlds) check_experiments(world, study.directory);
+  return fmt::format("a study of {}, {} and {}", counted(description.worlds.size(), "world"),
+                     counted(description.selections.size(), "selection"), counted(description.models.size(), "model"));
+}
 
 class FileChecker {
  public:
@@ -149,36 +208,38 @@ class FileChecker {
   }
   void read(std::filesystem::path const& file, std::size_t i);
   void read_machine(std::filesystem::path const& file, Value const& document, FileCheck& check);
+  void read_record(std::filesystem::path const& file, std::size_t i);
+  void check_experiment(CheckedExperiment const& checked, FileCheck& check) const;
+  void check_record(CheckedRecord const& record, FileCheck& check) const;
   void check_candidates(CandidateRules const& rules, FileCheck& check) const;
+  [[nodiscard]] CheckedMachine const* machine_among(std::string const& named) const;
   [[nodiscard]] CheckedMachine machine_for(CheckedExperiment const& checked) const;
 
   std::vector<FileCheck> checks_;
   std::vector<CheckedMachine> machines_;
   std::vector<std::pair<std::size_t, CheckedExperiment>> experiments_;
+  std::vector<std::pair<std::size_t, CheckedRecord>> records_;
   std::vector<std::pair<std::size_t, CandidateRules>> candidates_;
 };
 
 void FileChecker::read(std::filesystem::path const& file, std::size_t i) {
   auto& check = checks_[i];
   auto const suffix = file.extension();
-  if (suffix == ".h5" || suffix == ".csv") {
-    check.text = checked_record(file, check.warnings);
-    return;
-  }
+  if (suffix == ".h5" || suffix == ".csv") return read_record(file, i);
   Value const document = read_toml(file);
   if (document.find("duration")) {
-    find_implausible(document, list_fields<scenarios::Experiment>(), check.warnings);
     experiments_.push_back({i, {file, document, read_experiment(document, file)}});
+    find_implausible(document, list_fields<scenarios::Experiment>(), check.warnings);
     return;
   }
-  if (has_any(document, {"predicts", "model"}))
+  if (has_any(document, {"experiments", "grid", "latin_hypercube"}))
+    check.text = checked_campaign(file);
+  else if (has_any(document, {"predicts", "model"}))
     check.text = checked_error_model(file);
   else if (has_any(document, {"world", "selections", "models"}))
     check.text = checked_study(file);
-  else if (has_any(document, {"experiments", "grid", "latin_hypercube"}))
-    check.text = checked_campaign(file);
   else if (has_any(document, {"table"}))
-    check.text = checked_record(file, check.warnings);
+    read_record(file, i);
   else if (has_any(document, {"site", "body", "forbidden", "most", "budget"}))
     candidates_.emplace_back(i, read_candidate_rules(file));
   else
@@ -196,30 +257,48 @@ void FileChecker::read_machine(std::filesystem::path const& file, Value const& d
   machines_.push_back({file, document, machine});
 }
 
-CheckedMachine FileChecker::machine_for(CheckedExperiment const& checked) const {
-  if (machines_.size() == 1) return machines_[0];
-  auto const named = std::find_if(machines_.begin(), machines_.end(), [&](auto const& machine) {
-    return machine.machine.name == checked.experiment.machine ||
-           machine.file.filename() == std::filesystem::path(checked.experiment.machine).filename();
+void FileChecker::read_record(std::filesystem::path const& file, std::size_t i) {
+  auto const data = read_measured_data(file);
+  auto remarks = data.remarks;
+  static_cast<void>(channels_of(data, remarks));
+  checks_[i].warnings = remarks_on(file, remarks);
+  checks_[i].text =
+      fmt::format("a record of {:.2f} h: {}, {}, {}, {}", data.time[data.time.size() - 1] / 3600.0,
+                  counted(std::size_t(data.time.size()), "row"), counted(data.inputs.size(), "input"),
+                  counted(data.readings.size(), "sensor"), counted(data.displacements.size(), "displacement channel"));
+  records_.push_back({i, {file, data.machine}});
+}
+
+/// The only one, or the one that is named; null where that is not among the files.
+CheckedMachine const* FileChecker::machine_among(std::string const& named) const {
+  if (machines_.size() == 1) return &machines_[0];
+  auto const found = std::find_if(machines_.begin(), machines_.end(), [&](auto const& machine) {
+    return machine.machine.name == named || machine.file.filename() == std::filesystem::path(named).filename();
   });
-  if (named != machines_.end()) return *named;
+  return found == machines_.end() ? nullptr : &*found;
+}
+
+CheckedMachine FileChecker::machine_for(CheckedExperiment const& checked) const {
+  if (auto const* machine = machine_among(checked.experiment.machine)) return *machine;
   auto const file = machine_of(checked.experiment, checked.file);
   Value const document = read_toml(file);
   return {file, document, Machine::build(document)};
 }
 
-void check_together(CheckedExperiment const& checked, CheckedMachine const& machine) {
-  std::optional<scenarios::ExperimentCourse> course;
-  try {
-    course.emplace(checked.experiment, machine.machine.limits);
-  } catch (thermal::InputError const& error) {
-    throw located_in(checked.document, error);
-  }
-  try {
-    thermal::CourseInputs const inputs(machine.machine.network(), *course);
-  } catch (thermal::InputError const& error) {
-    throw FileError(place_of(machine.document, error.what()), error.what());
-  }
+void FileChecker::check_experiment(CheckedExperiment const& checked, FileCheck& check) const {
+  auto const machine = machine_for(checked);
+  check_together(checked, machine);
+  auto const remarks = experiment_remarks(checked.document, checked.experiment, machine.machine);
+  check.warnings.insert(check.warnings.end(), remarks.begin(), remarks.end());
+  check.text =
+      fmt::format("an experiment of {:.2f} h on {}", checked.experiment.duration / 3600.0, machine.machine.name);
+}
+
+void FileChecker::check_record(CheckedRecord const& record, FileCheck& check) const {
+  auto const* machine = machine_among(record.machine);
+  if (!machine) return;
+  check.warnings = remarks_on(record.file, read_measured_run(record.file, machine->machine).remarks);
+  check.text += ", on " + machine->machine.name;
 }
 
 void FileChecker::check_candidates(CandidateRules const& rules, FileCheck& check) const {
@@ -237,12 +316,9 @@ void FileChecker::check_candidates(CandidateRules const& rules, FileCheck& check
 
 std::vector<FileCheck> FileChecker::operator()() {
   for (auto const& [i, checked] : experiments_)
-    noting(checks_[i], [&, &check = checks_[i], &checked = checked] {
-      auto const machine = machine_for(checked);
-      check_together(checked, machine);
-      check.text =
-          fmt::format("an experiment of {:.2f} h on {}", checked.experiment.duration / 3600.0, machine.machine.name);
-    });
+    noting(checks_[i], [&, &check = checks_[i], &checked = checked] { check_experiment(checked, check); });
+  for (auto const& [i, record] : records_)
+    noting(checks_[i], [&, &check = checks_[i], &record = record] { check_record(record, check); });
   for (auto const& [i, rules] : candidates_)
     noting(checks_[i], [&, &check = checks_[i], &rules = rules] { check_candidates(rules, check); });
   return std::move(checks_);

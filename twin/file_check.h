@@ -9,7 +9,7 @@ namespace thermotwin::twin {
 /// What `thermotwin check` says of one file.
 struct FileCheck {
   std::string text;                   ///< what it is, for people
-  std::vector<std::string> warnings;  ///< numbers outside of what is plausible, with their places
+  std::vector<std::string> warnings;  ///< what is odd or not plausible, with its place
   std::string mistake;                ///< with its place; empty: none
 };
 
@@ -17,8 +17,9 @@ struct FileCheck {
 /// studies (`world`), campaigns (`experiments`), candidates of a placement (`site`), measurement files (`table`), and
 /// tables and data sets of runs by their suffix. An experiment is looked at together with the machine among the files
 /// that it names, or the only one; without any, with the machine that it names: every input of the machine must be
-/// given. Candidates are looked at together with the only machine. A mistake in one file does not keep the others from
-/// being looked at.
+/// given. So are the experiments of a study's worlds, and a record of a run with the machine among the files, where
+/// there is one. Candidates are looked at together with the only machine. A mistake in one file does not keep the
+/// others from being looked at.
 [[nodiscard]] std::vector<FileCheck> check_files(std::vector<std::filesystem::path> const& files);
 
 }  // namespace thermotwin::twin

@@ -113,15 +113,20 @@ void misread_displacements(History const& history, output::Dataset& dataset) {
             to_um * (term.drift * times.array() + term.per_air * (air.array() - air[0])).matrix();
 }
 
+Screw const& screw_of_laser(Machine const& machine, scenarios::LaserMeasurement const& laser) {
+  auto const screw = std::find_if(machine.screws.begin(), machine.screws.end(),
+                                  [&](auto const& s) { return s.description.axis == laser.axis; });
+  if (screw == machine.screws.end())
+    throw thermal::InputError(
+        fmt::format("laser.axis: the laser measures axis '{}', but the machine has no ball_screw on it", laser.axis));
+  return *screw;
+}
+
 void measure_positions(History const& history, scenarios::Experiment const& experiment, InstrumentChannel channel,
                        output::Dataset& dataset) {
   if (!experiment.laser) return;
   auto const& machine = *history.machine;
-  auto const screw = std::find_if(machine.screws.begin(), machine.screws.end(),
-                                  [&](auto const& s) { return s.description.axis == experiment.laser->axis; });
-  if (screw == machine.screws.end())
-    throw thermal::InputError(
-        fmt::format("the laser measures axis '{}', but the machine has no ball_screw on it", experiment.laser->axis));
+  auto const screw = std::size_t(&screw_of_laser(machine, *experiment.laser) - machine.screws.data());
   auto const limits = std::find_if(machine.limits.axes.begin(), machine.limits.axes.end(),
                                    [&](auto const& a) { return a.name == experiment.laser->axis; });
   double const start = limits == machine.limits.axes.end() ? 0.0 : limits->stroke_from;
@@ -131,8 +136,7 @@ void measure_positions(History const& history, scenarios::Experiment const& expe
   Eigen::MatrixXd error(times.size(), positions.size());
   for (Eigen::Index r = 0; r < error.rows(); ++r)
     for (Eigen::Index p = 0; p < error.cols(); ++p)
-      error(r, p) =
-          history.position_error(std::size_t(screw - machine.screws.begin()), start + positions[p], std::size_t(r));
+      error(r, p) = history.position_error(screw, start + positions[p], std::size_t(r));
   LaserCourse course;
   course.error = error_table(times, positions, error);
   course.time = times;
@@ -181,6 +185,13 @@ Eigen::VectorXd displacement_row(History const& history, std::size_t row) {
   for (std::size_t s = 0; s < screws.size(); ++s)
     for (double x : screws[s].description.positions) values.push_back(history.position_error(s, x, row));
   return Eigen::Map<Eigen::VectorXd>(values.data(), Eigen::Index(values.size())) * to_um;
+}
+
+void check_laser(Machine const& machine, scenarios::Experiment const& experiment) {
+  if (!experiment.laser) return;
+  static_cast<void>(screw_of_laser(machine, *experiment.laser));
+  static_cast<void>(scenarios::targets(*experiment.laser));
+  static_cast<void>(scenarios::measurement_times(*experiment.laser, experiment.duration));
 }
 
 void measure(History const& history, scenarios::Experiment const& experiment, output::Dataset& dataset) {

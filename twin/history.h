@@ -37,6 +37,9 @@ struct History {
 /// The values of those channels at one row, in µm and µrad.
 [[nodiscard]] Eigen::VectorXd displacement_row(History const& history, std::size_t row);
 
+/// InputError for a laser that has nothing to measure on this machine: to be asked before a long run.
+void check_laser(Machine const& machine, scenarios::Experiment const& experiment);
+
 /// Looks at a history with the machine's instruments: readings, measured displacements, laser passes.
 void measure(History const& history, scenarios::Experiment const& experiment, output::Dataset& dataset);
 

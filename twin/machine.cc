@@ -12,6 +12,7 @@
 #include "twin/file/document.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/tables.h"
+#include "twin/instruments/temperature_specimen.h"
 #include "twin/uncertain_range.h"
 #include "twin/volumetric/volumetric_machine.h"
 
@@ -83,6 +84,15 @@ void check_keys(Value const& document) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
       throw FileError(entry.where,
                       fmt::format("unknown key '{}'; {}", entry.key, thermal::did_you_mean(entry.key, known)));
+}
+
+/// Data sets and their CSV files hold each channel by its name.
+void check_channel_name(Value const& table, std::string const& name) {
+  if (!name.empty() && name != "." && name != "time" && name.find('/') == std::string::npos) return;
+  Value const* place = table.find("name");
+  throw FileError(
+      place ? place->where : table.where,
+      fmt::format("'{}' cannot be the name of a channel: no '/', nor the whole '.', 'time' or empty", name));
 }
 
 /// Keys of the two places between which a part carries heat.
@@ -170,6 +180,7 @@ void MachineBuilder::read_parts() {
   for (auto const& [table, entry] : tables) {
     auto const part = entry->read(*table);
     tables_.claim(*table, entry->name, part->name());
+    check_channel_name(*table, entry->name + "." + part->name());
     assembly_.begin_part(entry->name + "." + part->name());
     located(*table, [&, &table = *table] {
       check_ends(table);
@@ -203,16 +214,18 @@ void MachineBuilder::check_terms() const {
 
 void MachineBuilder::read_sensors() {
   for (auto& [description, table] : tables_.read<SensorDescription>("temperature_sensor"))
-    located(*table, [&, &d = description] {
+    located(*table, [&, &d = description, &table = *table] {
+      check_channel_name(table, d.name);
       Sensor sensor{d, {}, {0.0, 0.0, 0.0}};
       if (d.at.empty()) throw InputError(fmt::format("sensor '{}' needs a place: at = \"head\"", d.name));
       for (auto const& text : d.at) {
         if (text == "ambient") continue;
-        Place const place = assembly_.place(text);
+        Place const place = assembly_.place(text, {"ambient"});
         for (auto const& contact : place.site.contacts)
           sensor.weights.emplace_back(place.first_node + contact.node, contact.share / double(d.at.size()));
         sensor.position += place.centre() / double(d.at.size());
       }
+      check_sensor(d, d.name);
       if (sensor.weights.empty()) sensor.position = machine_.up;  // at 1 m
       machine_.sensors.push_back(std::move(sensor));
     });
@@ -222,13 +235,20 @@ void MachineBuilder::read_displacements() {
   for (bool const rotation : {true, false})
     for (auto const& [description, table] :
          tables_.read<DisplacementDescription>(rotation ? "rotation" : "displacement"))
-      located(*table, [&, &d = description] { loop_.add(d, rotation); });
+      located(*table, [&, &d = description, &table = *table] {
+        check_channel_name(table, d.name);
+        auto const& others = loop_.channels();
+        if (std::any_of(others.begin(), others.end(), [&](auto const& other) { return other.name == d.name; }))
+          throw FileError(table.find("name")->where, fmt::format("the name '{}' is taken by a [[rotation]]", d.name));
+        loop_.add(d, rotation);
+      });
   machine_.displacements = loop_.channels();
 }
 
 void MachineBuilder::read_screws() {
   for (auto const& [description, table] : tables_.read<BallScrewDescription>("ball_screw"))
-    located(*table, [&, &d = description] {
+    located(*table, [&, &d = description, &table = *table] {
+      check_channel_name(table, d.name);
       thermal::Body const& body = assembly_.body(d.body);
       if (body.shape != thermal::Body::Shape::axial) throw InputError(fmt::format("'{}' is not a bar", d.body));
       thermal::Material const& metal = bodies_.metal_of(d.body);
@@ -267,9 +287,13 @@ void MachineBuilder::read_displacement_instruments() {
     located(*table, [&, &p = probe] {
       if (std::find(known.begin(), known.end(), p.of) == known.end())
         throw InputError(fmt::format("unknown displacement '{}'; {}", p.of, thermal::did_you_mean(p.of, known)));
+      check_probe(p, p.name);
       machine_.probes.push_back(p);
     });
-  if (Value const* table = document_.find("five_probe_nest")) read_fields(*table, machine_.nest.emplace());
+  if (Value const* table = document_.find("five_probe_nest")) {
+    read_fields(*table, machine_.nest.emplace());
+    located(*table, [&] { check_nest(*machine_.nest); });
+  }
   if (Value const* table = document_.find("laser")) read_fields(*table, machine_.laser);
 }
 
@@ -332,7 +356,8 @@ void MachineBuilder::hang_bodies() {
 Machine MachineBuilder::operator()() {
   read_head();
   for (auto const& [description, table] : bodies_.channels())
-    located(*table, [&, &d = description] {
+    located(*table, [&, &d = description, &table = *table] {
+      check_channel_name(table, "channel." + d.name);
       assembly_.begin_part("channel." + d.name);
       add_channel_flow(assembly_, d);
     });
@@ -372,7 +397,7 @@ std::vector<TableRecord> describe_machine() {
       {"hollow_cylinder", "axial × radial cells; faces: outer, inner, start, end",
        list_fields<HollowCylinderDescription>()},
       {"block", "a box of cells; faces: x_min, x_max, y_min, y_max, z_min, z_max", list_fields<BlockDescription>()},
-      {"channel", "a fluid that moves along a line; face: surface", list_fields<ChannelDescription>()},
+      {"channel", "a fluid that moves along a line; face: wall", list_fields<ChannelDescription>()},
       {"temperature_sensor", "an instrument at a place, or at the mean of several", list_fields<SensorDescription>()},
       {"rotation", "a rotation of the tool relative to the workpiece", list_fields<DisplacementDescription>()},
       {"displacement", "a displacement of the tool relative to the workpiece", list_fields<DisplacementDescription>()},

@@ -241,7 +241,8 @@ ReducedTwin::Model::Model(Machine const& machine, thermal::LinearPart const& lin
     : network(machine.network(), linear, subspace.shapes, subspace.elements), sums(network, watched_sums(machine)) {}
 
 ReducedTwin::ReducedTwin(Machine const& machine, ReducedRange const& range,
-                         std::optional<std::filesystem::path> const& kept)
+                         std::optional<std::filesystem::path> const& kept,
+                         std::function<void(std::string const&)> const& progress)
     : machine_(&machine) {
   auto const experiments = training_experiments(machine, range);
   std::vector<std::unique_ptr<scenarios::ExperimentCourse>> courses;
@@ -258,7 +259,11 @@ ReducedTwin::ReducedTwin(Machine const& machine, ReducedRange const& range,
   units_ = edge_units(machine.network(), *courses.front());
   task.watched = tolerated(machine);
   task.initial_rises = initial_rises(machine);
-  auto const make = [&] { return thermal::reduce(machine.network(), task); };
+  auto const make = [&] {
+    if (progress)
+      progress(fmt::format("finding the shapes of {}{}", machine.name, kept ? ", once for this machine" : ""));
+    return thermal::reduce(machine.network(), task);
+  };
   auto const reduction =
       kept ? ReductionStore(*kept).find_or_make(reduction_key(machine.network(), task), make) : make();
   thermal::LinearPart const linear(machine.network(), reduction.reference);
@@ -312,6 +317,7 @@ ReducedResult ReducedTwin::run(scenarios::Experiment const& experiment) const {
         *experiment.initial_temperature - 273.15, machine_->name, initial_.low - 273.15, initial_.high - 273.15));
   ReducedResult result;
   scenarios::ExperimentCourse const course(experiment, machine_->limits);
+  check_laser(*machine_, experiment);
   auto const history = history_of(*fine_, experiment, course, fine_step, result);
   result.bound = difference(history, history_of(*coarse_, experiment, course, coarse_step, result));
   for (std::size_t s = 0; s < result.bound.readings.size(); ++s)

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,9 +51,11 @@ struct ReducedResult {
 /// Refuses, with InputError that names channel, value and range, whatever lies outside the range for which it was made.
 class ReducedTwin {
  public:
-  /// `kept`: folder of a ReductionStore, in which the shapes are looked for, and left when they had to be found.
+  /// `kept`: folder of a ReductionStore, in which the shapes are looked for, and left when they had to be found;
+  /// `progress` is told before they are, which takes long.
   explicit ReducedTwin(Machine const& machine, ReducedRange const& range = {},
-                       std::optional<std::filesystem::path> const& kept = {});
+                       std::optional<std::filesystem::path> const& kept = {},
+                       std::function<void(std::string const&)> const& progress = {});
 
   [[nodiscard]] ReducedResult run(scenarios::Experiment const& experiment) const;
 

@@ -71,6 +71,7 @@ class Recorder {
   std::vector<double> first_temperatures_, first_inputs_, inputs_, watts_;
   std::vector<std::size_t> shown_inputs_, shown_parts_;
   std::vector<thermal::Unit> edge_units_;  ///< of the inputs shown
+  double last_time_;                       ///< of the readings
   std::optional<output::Frame> last_frame_;
   double last_frame_time_ = 0.0;
 };
@@ -84,7 +85,8 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
       evaluation_(machine.network()),
       history_(machine),
       inputs_(course.channels().size()),
-      watts_(machine.network().parts().size()) {
+      watts_(machine.network().parts().size()),
+      last_time_(scenarios::sample_times(experiment).back()) {
   for (std::size_t i = 0; i < course.channels().size(); ++i)
     if (is_shown(course.channels()[i])) shown_inputs_.push_back(i);
   for (std::size_t p = 0; p < machine.network().parts().size(); ++p)
@@ -220,7 +222,7 @@ output::Frame Recorder::make_frame(thermal::Sample const& sample) {
 }
 
 void Recorder::show_field(thermal::Sample const& sample) {
-  bool const last = sample.time >= experiment_.duration - 1e-6;
+  bool const last = sample.time >= last_time_;
   bool const due = sample.time == 0.0 || last || sample.time >= last_frame_time_ + options_.field_interval - 1e-6;
   if (!due || (!fields_ && !(options_.picture && last))) return;
   last_frame_ = make_frame(sample);
@@ -297,6 +299,7 @@ std::map<std::string, std::string> solver_provenance(thermal::IntegrationSummary
 
 RunResult run_in_modes(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options) {
   scenarios::ExperimentCourse const course(experiment, machine.limits);
+  check_laser(machine, experiment);
   Recorder recorder(machine, experiment, course, options);
   RunResult result;
   result.summary = thermal::integrate_in_modes(
@@ -340,6 +343,7 @@ std::vector<output::Channel> input_channels(scenarios::ExperimentCourse const& c
 RunResult run(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options) {
   if (options.in_modes) return run_in_modes(machine, experiment, options);
   scenarios::ExperimentCourse const course(experiment, machine.limits);
+  check_laser(machine, experiment);
   auto const times = scenarios::sample_times(experiment);
   auto const& network = machine.network();
   auto state = thermal::start_of_run(network, initial_temperatures(machine, experiment, course), times.front());

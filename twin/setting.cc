@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "scenarios/programmed_channels.h"
 #include "thermal/error.h"
 #include "twin/file/schema.h"
 #include "twin/machine.h"
@@ -56,6 +58,16 @@ void refuse_experiment_key(Value const& machine, std::string const& path) {
         fmt::format("parameter '{0}': a machine has no '{1}'; did you mean '{2}{0}'?", path, first, experiment_prefix));
 }
 
+/// What drives a channel in place of a programme, for people; empty: nothing does.
+std::string replacement_of(std::string const& channel, scenarios::Experiment const& experiment) {
+  for (auto const& recording : experiment.recorded)
+    for (auto const& column : recording.columns)
+      if (column.channel == channel) return fmt::format("'{}' is recorded in '{}'", channel, recording.file);
+  for (auto const& program : experiment.inputs)
+    if (program.channel == channel) return fmt::format("'{}' has a programme of its own in 'inputs'", channel);
+  return "";
+}
+
 }  // namespace
 
 Setting setting(std::string const& text) {
@@ -84,6 +96,17 @@ void apply(Setting const& setting, Value& machine, Value& experiment) {
     refuse_experiment_key(machine, setting.path);
     set_parameter(machine, setting.path, setting.value);
   }
+}
+
+void refuse_replaced(Setting const& setting, scenarios::Experiment const& experiment) {
+  if (!setting.of_experiment()) return;
+  auto const channels = scenarios::programmed_channels(experiment, setting.path.substr(experiment_prefix.size()));
+  std::vector<std::string> replacements;
+  for (auto const& channel : channels)
+    if (auto text = replacement_of(channel, experiment); !text.empty()) replacements.push_back(std::move(text));
+  if (channels.empty() || replacements.size() < channels.size()) return;
+  throw thermal::InputError(
+      fmt::format("parameter '{}' would change nothing: {}", setting.path, fmt::join(replacements, ", and ")));
 }
 
 std::filesystem::path machine_of(scenarios::Experiment const& experiment,

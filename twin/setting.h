@@ -26,6 +26,10 @@ struct Setting {
 /// have need not be there yet. InputError with the nearest name.
 void apply(Setting const& setting, Value& machine, Value& experiment);
 
+/// InputError for a setting of a programme that the experiment's recordings or input programmes replace, so that it
+/// would change nothing.
+void refuse_replaced(Setting const& setting, scenarios::Experiment const& experiment);
+
 /// The file of the machine that an experiment names; FileError when it names none.
 [[nodiscard]] std::filesystem::path machine_of(scenarios::Experiment const& experiment,
                                                std::filesystem::path const& experiment_file);

@@ -89,6 +89,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "unknown body 'frnt_ring'; did you mean 'front_ring'?"},
         Mistake{"UnknownMaterial", "material = \"casting\"", "material = \"castin\"", "",
                 "unknown material 'castin'; did you mean 'casting'?"},
+        Mistake{"MaterialInAnotherLanguage", "material = \"casting\"", "material = \"Grauguss\"", "",
+                "'GJL-250' (grey cast iron)"},
+        Mistake{"SensorInNoBody", "at = \"ambient\"", "at = \"room\"", "", ", 'ambient', "},
         Mistake{"DuplicateBody", "name = \"rear_ring\"", "name = \"front_ring\"  # again", "front_ring\"  # again",
                 "the name 'front_ring' is taken"},
         Mistake{"DuplicateJoint", "name = \"rear_seat\"", "name = \"front_seat\"  # again", "front_seat\"  # again",
@@ -128,6 +131,37 @@ TEST(BadInput, TheGoodExperimentRuns) {
   EXPECT_EQ(answer.code, 0) << answer.text;
 }
 
+/// The good experiment, changed, through `run` with these options.
+Answer run_of_experiment(std::string const& from, std::string const& to, std::string const& options) {
+  tests::TemporaryDirectory const directory;
+  write_text(directory.path() / "experiment.toml", replaced(good_experiment, from, to));
+  write_text(directory.path() / "air.csv", "time_s,air_C\n0,20\n300,21\n600,22\n");
+  return program("run " + (directory.path() / "experiment.toml").string() + " " + options);
+}
+
+TEST(BadInput, ASettingThatWouldChangeNothing) {
+  auto const answer = run_of_experiment("v450", "v450", "--set 'experiment.ambient.mean=30 degC'");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("parameter 'experiment.ambient.mean' would change nothing"), std::string::npos)
+      << answer.text;
+}
+
+TEST(BadInput, WhatIsOddIsToldAndRun) {
+  for (auto const& [from, to, message] :
+       {std::tuple{"ambient.temperature", "ambient.temp",
+                   "experiment.toml:9:41: recorded[0].columns[0].channel: nothing on 'v450' reads 'ambient.temp'; did "
+                   "you mean 'ambient.temperature'?\n"},
+        std::tuple{
+            "blocks = [{duration = \"10 min\"", "blocks = [{duration = \"8 h\"",
+            "experiment.toml:4:10: spindle.blocks: they last 8 h in all, and the run 10 min; what comes later is "
+            "left out\n"}}) {
+    auto const answer = run_of_experiment(from, to, "");
+    EXPECT_EQ(answer.code, 0) << answer.text;
+    EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
+    EXPECT_EQ(run_of_experiment(from, to, "-q").text, "");
+  }
+}
+
 TEST_P(WrongExperiment, IsToldWithPlace) {
   auto const& mistake = GetParam();
   tests::TemporaryDirectory const directory;
@@ -151,6 +185,8 @@ INSTANTIATE_TEST_SUITE_P(BadInput, WrongExperiment,
                                                  "blocks = [{duration = \"10 min\", speed = \"2000 rpm\"}]",
                                                  "blocks = []", "[spindle]", "the spectrum is empty"},
                                          Mistake{"TooFast", "2000 rpm", "20000 rpm", "", "20000 rpm"},
+                                         Mistake{"TooFastPerMinute", "2000 rpm", "20000 1/min", "",
+                                                 "20000 rpm is above the machine's maximum, 6000 rpm"},
                                          Mistake{"NoDuration", "duration = \"10 min\"\n", "", "machine", "duration"},
                                          Mistake{"UnknownKey", "duration = \"10 min\"\n", "duraton = \"10 min\"\n", "",
                                                  "did you mean 'duration'?"}),
@@ -219,7 +255,8 @@ TEST(BadInput, CommandsThatLackSomething) {
         Row{"describe", "Usage: thermotwin describe [OPTIONS] what\n"},
         Row{"view", "Usage: thermotwin view [OPTIONS] data...\n"},
         Row{"volumetric mill200 --at 600s", "volumetric: --at requires --run"},
-        Row{"diagnose v450 --plan etve -o amended.toml", "diagnose: --output excludes --plan"}}) {
+        Row{"diagnose v450 --plan etve -o amended.toml", "diagnose: --output excludes --plan"},
+        Row{"challenge --key --run etve", "challenge: --run excludes --key"}}) {
     auto const answer = program(arguments);
     EXPECT_EQ(answer.code, 2) << arguments;
     EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;

@@ -194,6 +194,8 @@ TEST_F(LiveCompensation, RefusesWhatItCannotDo) {
   std::string const compensate = program + " compensate --broker " + broker_.url();
   EXPECT_THAT(answer(compensate, 2), HasSubstr("compensate needs --model FILE or --observer MACHINE"));
   EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --resolution 1", 2), HasSubstr("1 has no unit"));
+  EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --highest '120 K'", 2),
+              HasSubstr("-20 degC at least and -153.15 degC at most: the highest must be above the lowest"));
   EXPECT_THAT(answer(program + " compensate --broker localhost --model " + at("model.toml"), 2),
               HasSubstr("broker 'localhost': write mqtt://HOST:1883"));
   EXPECT_THAT(answer(program + " compensate --broker mqtt://127.0.0.1:1 --model " + at("model.toml"), 2),

@@ -74,6 +74,17 @@ TEST(Run, SettingAParameterChangesTheRun) {
   EXPECT_LT(rise("--set experiment.ambient.mean='\"20 degC\"'"), rise(""));
 }
 
+TEST(Run, TellsWhenItFindsTheShapesOfAReducedModel) {
+  TemporaryDirectory const directory;
+  std::string const reduced =
+      "THERMOTWIN_CACHE=" + directory.path().string() + "/cache " + program + " run golden_b_4000 --reduced ";
+  std::string const told = "finding the shapes of v450, once for this machine …\n";
+  EXPECT_EQ(answer(reduced).find(told), 0U);
+  EXPECT_EQ(answer(reduced).find(told), std::string::npos);
+  fs::remove_all(directory / "cache");
+  EXPECT_EQ(answer(reduced + "-q"), "");
+}
+
 TEST(Run, OpensInXarrayWithDimensionsAndUnits) {
   if (std::system("/usr/bin/python3 -c 'import xarray, h5netcdf' 2>/dev/null") != 0)
     GTEST_SKIP() << "no python3-xarray";
@@ -177,7 +188,9 @@ TEST(Commands, DescribeAndEffectsReadTheCatalogue) {
                                   {"study", "selections"},
                                   {"campaign", "latin_hypercube"},
                                   {"candidates", "forbidden"},
-                                  {"measurement", "clock_offset"}})
+                                  {"measurement", "clock_offset"},
+                                  {"materials", "GJL-250"},
+                                  {"channels", "ambient.temperature"}})
     EXPECT_NE(answer(program + " describe " + file).find(key), std::string::npos) << file;
   EXPECT_NE(answer(program + " effects").find("ball_nut"), std::string::npos);
   EXPECT_NE(answer(program + " effects bearing").find("Palmgren"), std::string::npos);

@@ -1,9 +1,12 @@
 #include "twin/file_check.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/output/temporary_directory.h"
+#include "twin/experiment_file.h"
+#include "twin/file/document.h"
 #include "twin/machine.h"
 
 /// `thermotwin check`: each file by itself, and experiments with their machine.
@@ -12,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::MatchesRegex;
@@ -21,6 +25,13 @@ using thermotwin::tests::put;
 using thermotwin::tests::TemporaryDirectory;
 
 constexpr char const* experiment = "machine = \"v450\"\nduration = \"1 h\"\n";
+
+/// The air of an hour; the channel that it is taken for is left open.
+constexpr char const* air = "time_s,room\n0,20\n600,20.5\n1200,21\n1800,21.5\n2400,22\n3000,22.5\n3600,23\n";
+std::string recorded(std::string const& channel) {
+  return "[[recorded]]\nfile = \"air.csv\"\ncolumns = [{column = \"room\", channel = \"" + channel +
+         "\", unit = \"degC\"}]\n";
+}
 
 /// The lumped machine with one thing more.
 std::string machine_with(std::string const& table) { return contents(machine_file("v450")) + table; }
@@ -86,7 +97,8 @@ TEST(FileCheck, KnowsEveryKindOfFile) {
       "[[table]]\nfile = \"run.csv\"\nreading = [{column = \"T1_degC\", sensor = \"T1\", unit = \"degC\"}]\n");
   auto const checks =
       check_files({source / "scenarios/studies/paper_004.toml", source / "scenarios/campaigns/v450_small.toml",
-                   folder / "sites.toml", folder / "model.toml", folder / "run.csv", folder / "run.toml"});
+                   folder / "sites.toml", folder / "model.toml", folder / "run.csv", folder / "run.toml",
+                   source / "scenarios/campaigns/v450_spectra.toml"});
   for (auto const& check : checks) EXPECT_EQ(check.mistake, "");
   EXPECT_EQ(checks[0].text, "a study of 1 world, 8 selections and 11 models");
   EXPECT_EQ(checks[1].text, "a campaign of 200 runs on v450");
@@ -95,6 +107,7 @@ TEST(FileCheck, KnowsEveryKindOfFile) {
   EXPECT_EQ(checks[4].text, "a record of 0.33 h: 3 rows, 0 inputs, 2 sensors, 1 displacement channel");
   EXPECT_THAT(checks[4].warnings, ElementsAre(HasSubstr("run.csv: 'T2' is dead: it never moves")));
   EXPECT_EQ(checks[5].text, "a record of 0.33 h: 3 rows, 0 inputs, 1 sensor, 0 displacement channels");
+  EXPECT_THAT(checks[6].text, HasSubstr("a campaign of "));
 }
 
 TEST(FileCheck, FindsTheMistakesOfEveryKind) {
@@ -115,6 +128,52 @@ TEST(FileCheck, FindsTheMistakesOfEveryKind) {
               HasSubstr("run.csv:3:4: column 'T1_degC': 'warm'"));
 }
 
+/// What `run -o` would refuse after the run.
+TEST(FileCheck, RefusesNamesThatNoChannelCanHave) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& table) {
+    put(folder / "mine.toml", machine_with(table));
+    return check_files({folder / "mine.toml"})[0].mistake;
+  };
+  for (std::string const name : {"head/top", "time", "."})
+    EXPECT_THAT(mistake("[[temperature_sensor]]\nat = \"bed\"\nname = \"" + name + "\"\n"),
+                MatchesRegex(".*mine.toml:[0-9]+:8: '" + name + "' cannot be the name of a channel: .*"));
+  EXPECT_THAT(mistake("[[displacement]]\nname = \"E/Z\"\n"), HasSubstr("'E/Z' cannot be the name of a channel"));
+  EXPECT_THAT(mistake("[[heat]]\nname = \"a/b\"\nat = \"bed\"\npower = \"60 W\"\n"),
+              HasSubstr("'heat.a/b' cannot be the name of a channel"));
+  EXPECT_THAT(mistake("[[rotation]]\nname = \"E_Z\"\n"), HasSubstr("the name 'E_Z' is taken by a [[rotation]]"));
+}
+
+/// What a run would refuse only when its readings are taken.
+TEST(FileCheck, RefusesWhatAnInstrumentCannotDo) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& table) {
+    put(folder / "mine.toml", machine_with(table));
+    return check_files({folder / "mine.toml"})[0].mistake;
+  };
+  std::string const sensor = "[[temperature_sensor]]\nname = \"hot\"\nat = \"bed\"\n";
+  EXPECT_THAT(mistake(sensor + "lowest = \"90 degC\"\nhighest = \"60 degC\"\n"),
+              MatchesRegex(".*mine.toml:[0-9]+:1: sensor 'hot': lowest is 90 degC, highest 60 degC; they must rise"));
+  EXPECT_THAT(mistake(sensor + "conversion_interval = \"0 s\"\n"),
+              HasSubstr("sensor 'hot': conversion_interval is 0 s; it must be positive"));
+  EXPECT_THAT(mistake("[[displacement_probe]]\nname = \"P\"\nof = \"E_Z\"\nconversion_interval = \"0 s\"\n"),
+              HasSubstr("probe 'P': conversion_interval is 0 s; it must be positive"));
+  put(folder / "experiment.toml", std::string(experiment) + "[laser]\naxis = \"z\"\n");
+  EXPECT_THAT(
+      check_files({folder / "experiment.toml", machine_file("v450")})[0].mistake,
+      HasSubstr("experiment.toml:4:8: laser.axis: the laser measures axis 'z', but the machine has no ball_screw"));
+}
+
+TEST(FileCheck, LeavesAComplaintThatNamesItsOwnFile) {
+  TemporaryDirectory const folder;
+  put(folder / "experiment.toml", std::string(experiment) + "[[recorded]]\nfile = \"air.csv\"\ncolumns = []\n");
+  Value const document = read_toml(folder / "experiment.toml");
+  for (std::string const complaint : {"air.csv: is empty", "folder/air.csv: is empty", "air.csv:3: column 'room'"})
+    EXPECT_EQ(located_in(document, thermal::InputError(complaint)).what(), complaint);
+  EXPECT_THAT(located_in(document, thermal::InputError("duration: 0 s must be above 0 s")).what(),
+              HasSubstr("experiment.toml:2:12: duration: 0 s"));
+}
+
 TEST(FileCheck, LooksAtCandidatesAndMachineTogether) {
   TemporaryDirectory const folder;
   put(folder / "sites.toml", "forbidden = [\"rotr\"]\n");
@@ -133,6 +192,111 @@ TEST(FileCheck, LooksAtMachineAndExperimentTogether) {
   EXPECT_EQ(checks[0].mistake, "");
   EXPECT_THAT(checks[1].mistake, MatchesRegex(".*mine.toml:[0-9]+:[0-9]+: the machine needs the input 'coolant.onn', "
                                               "which the experiment does not give; did you mean 'coolant.on'\\?"));
+}
+
+/// 314 rad/s would be 314 times the power.
+TEST(FileCheck, RefusesAFlagThatIsNoShare) {
+  TemporaryDirectory const folder;
+  put(folder / "experiment.toml", experiment);
+  for (auto const& [channel, unit] : {std::pair{"time_of_day", "s"}, {"ambient.temperature", "K"}}) {
+    put(folder / "mine.toml", machine_with(std::string("[[heat]]\nname = \"pump\"\nat = \"bed\"\npower = \"60 W\"\n") +
+                                           "while_on = \"" + channel + "\"\n"));
+    EXPECT_THAT(check_files({folder / "mine.toml", folder / "experiment.toml"})[1].mistake,
+                HasSubstr(std::string("the machine takes the input '") + channel +
+                          "' as a share between 0 and 1, and the experiment gives it in " + unit));
+  }
+}
+
+TEST(FileCheck, NamesThePlaceOfAQuantityThatIsNone) {
+  TemporaryDirectory const folder;
+  put(folder / "experiment.toml", "machine = \"v450\"\nduration = \"8 Stunden\"\n");
+  EXPECT_THAT(check_files({folder / "experiment.toml"})[0].mistake,
+              HasSubstr("experiment.toml:2:12: 'duration': '8 Stunden': unknown unit 'Stunden'"));
+}
+
+TEST(FileCheck, WarnsOfInputsThatNothingReads) {
+  TemporaryDirectory const folder;
+  put(folder / "air.csv", air);
+  put(folder / "good.toml", experiment + recorded("ambient.temperature"));
+  put(folder / "typo.toml", experiment + recorded("ambient.temp"));
+  put(folder / "oil.toml",
+      std::string(experiment) +
+          "inputs = [{channel = \"oil.flow\", blocks = [{duration = \"1 h\", value = \"80 %\"}]}]\n");
+  put(folder / "mine.toml", machine_with("[[heat]]\nname = \"pump\"\nat = \"bed\"\npower = \"60 W\"\n"
+                                         "while_on = \"oil.flow\"\n"));
+  auto const checks = check_files({folder / "good.toml", folder / "typo.toml", folder / "oil.toml"});
+  EXPECT_THAT(checks[0].warnings, SizeIs(0));
+  EXPECT_THAT(checks[1].warnings,
+              ElementsAre(HasSubstr("typo.toml:5:40: recorded[0].columns[0].channel: nothing on 'v450' reads "
+                                    "'ambient.temp'; did you mean 'ambient.temperature'?")));
+  EXPECT_THAT(checks[2].warnings, ElementsAre(HasSubstr("oil.toml:3:22: inputs[0].channel: nothing on 'v450' reads "
+                                                        "'oil.flow'; known: ")));
+  EXPECT_THAT(check_files({folder / "oil.toml", folder / "mine.toml"})[0].warnings, SizeIs(0));
+  for (auto const& check : checks) EXPECT_EQ(check.mistake, "");
+}
+
+TEST(FileCheck, WarnsOfSpectraLongerThanTheRun) {
+  TemporaryDirectory const folder;
+  auto const warnings = [&](std::string const& spindle) {
+    put(folder / "experiment.toml", experiment + spindle);
+    return check_files({folder / "experiment.toml"})[0].warnings;
+  };
+  std::string const blocks =
+      "[spindle]\nblocks = [{duration = \"20 min\", speed = \"900 rpm\"}, {duration = \"10 min\"}]\n";
+  EXPECT_THAT(warnings(blocks + "cycles = 2\n"), SizeIs(0));
+  EXPECT_THAT(warnings(blocks + "cycles = 3\n"),
+              ElementsAre(HasSubstr("experiment.toml:4:10: spindle.blocks: they last 90 min in all, and the run 1 h; "
+                                    "what comes later is left out")));
+}
+
+TEST(FileCheck, LooksAtTheExperimentsOfAStudy) {
+  TemporaryDirectory const folder;
+  put(folder / "air.csv", air);
+  put(folder / "short.toml", experiment + recorded("ambient.temperature"));
+  put(folder / "long.toml", "machine = \"v450\"\nduration = \"5 h\"\n" + recorded("ambient.temperature"));
+  auto const with = [&](std::string const& test, std::string const& more = "") {
+    put(folder / "study.toml",
+        "selections = [\"all\"]\nmodels = [\"linear\"]\n[[world]]\nname = \"shop\"\nmachine = \"v450\"\nerror = "
+        "\"E_Z\"\ntrain = [\"short.toml\"]\ntest = [\"" +
+            test + "\"]\n" + more);
+    return check_files({folder / "study.toml"})[0].mistake;
+  };
+  EXPECT_EQ(with("golden_b_2000"), "");
+  EXPECT_THAT(with("long.toml"), HasSubstr("study.toml:8:9: world 'shop': 'long.toml': "));
+  EXPECT_THAT(with("long.toml"), HasSubstr("air.csv: covers 0 s to 3600 s of a run of 18000 s"));
+  put(folder / "fast.toml",
+      std::string(experiment) + "spindle.blocks = [{duration = \"1 h\", speed = \"7000 rpm\"}]\n");
+  EXPECT_THAT(with("fast.toml"), HasSubstr("fast.toml:3:46: spindle.blocks[0].speed: 7000 rpm is above the machine's "
+                                           "maximum, 6000 rpm"));
+  EXPECT_EQ(with("fast.toml", "set = [\"spindle.maximum_speed=8000 rpm\"]\n"), "");
+  EXPECT_THAT(with("fast.toml",
+                   "add = '''\n[[heat]]\nname = \"pump\"\nat = \"bed\"\npower = \"60 W\"\n"
+                   "while_on = \"pump.on\"\n'''\nset = [\"spindle.maximum_speed=8000 rpm\"]\n"),
+              HasSubstr("the machine needs the input 'pump.on', which the experiment does not give"));
+}
+
+TEST(FileCheck, LooksAtRecordAndMachineTogether) {
+  TemporaryDirectory const folder;
+  std::string rows = "time_s,n,room,T1\n";
+  for (int row = 0; row < 12; ++row) rows += fmt::format("{},3000,{},{}\n", 300 * row, 20 + 0.1 * row, 21 + 0.3 * row);
+  put(folder / "run.csv", rows);
+  auto const checks = [&](std::string const& speed) {
+    put(folder / "run.toml",
+        "[[table]]\nfile = \"run.csv\"\ninput = [{column = \"n\", channel = \"" + speed +
+            "\", unit = \"1/min\"}, {column = \"room\", channel = \"ambient.temperature\", unit = \"degC\"}]\n"
+            "reading = [{column = \"T1\", sensor = \"T1\", unit = \"degC\"}]\n");
+    return check_files({folder / "run.toml", machine_file("v450")});
+  };
+  auto const right = checks("spindle.speed");
+  EXPECT_EQ(right[0].mistake, "");
+  EXPECT_EQ(right[0].text, "a record of 0.92 h: 12 rows, 2 inputs, 1 sensor, 0 displacement channels, on v450");
+  EXPECT_THAT(right[0].warnings, Contains(HasSubstr("run.toml: of the machine, but not in the data: T2")));
+  auto const wrong = checks("spindel.speed");
+  EXPECT_THAT(wrong[0].mistake,
+              HasSubstr("run.toml: the machine 'v450' needs inputs that the data lack: spindle.speed; "
+                        "the data have spindel.speed, ambient.temperature"));
+  EXPECT_EQ(wrong[1].mistake, "");
+  EXPECT_EQ(check_files({folder / "run.toml"})[0].mistake, "");
 }
 
 }  // namespace

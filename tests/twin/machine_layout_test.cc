@@ -113,6 +113,12 @@ TEST(MachineLayout, MistakesAreNamedWithTheirPlace) {
   auto const bare = post("", "area = \"1 m2\"\n");
   EXPECT_THAT(message(bare),
               testing::AllOf(HasSubstr(line_of(bare, "[[film]]").substr(0, 9)), HasSubstr("needs a surface")));
+  auto sizeless = post("", film);
+  std::string const size = "size = [\"2 m\", \"0.5 m\", \"0.5 m\"]\n";
+  sizeless.erase(sizeless.find(size), size.size());
+  EXPECT_THAT(message(sizeless),
+              testing::AllOf(HasSubstr(line_of(sizeless, "[[block]]")), HasSubstr("'size' is missing; write for ex"),
+                             HasSubstr("size = [\"600 mm\", \"600 mm\", \"600 mm\"]")));
 }
 
 }  // namespace

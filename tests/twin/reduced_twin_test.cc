@@ -143,9 +143,12 @@ TEST(ReducedTwin, IsSmallerThanTheMachine) {
 
 TEST(ReducedTwin, GivesTheSameBytesWhetherItWasMadeOrReadFromDisk) {
   tests::TemporaryDirectory const folder;
-  ReducedTwin const made(small_machine(), {}, folder.path());
+  std::vector<std::string> told;
+  auto const tell = [&](std::string const& what) { told.push_back(what); };
+  ReducedTwin const made(small_machine(), {}, folder.path(), tell);
   ASSERT_THAT(folder.files(), testing::Contains(testing::EndsWith(".reduction")));
-  ReducedTwin const read(small_machine(), {}, folder.path());
+  ReducedTwin const read(small_machine(), {}, folder.path(), tell);
+  EXPECT_THAT(told, testing::ElementsAre("finding the shapes of small, once for this machine"));
   auto const experiment = random_experiment(1);
   auto const without = output::to_hdf5(small_twin().run(experiment).dataset);
   EXPECT_EQ(output::to_hdf5(made.run(experiment).dataset), without);

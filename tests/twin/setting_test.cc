@@ -37,10 +37,42 @@ TEST(Setting, SaysItsWholePathInMessages) {
               HasSubstr("parameter 'experiment.coolnt.on': there is no 'coolnt'"));
 }
 
+TEST(Setting, CountsTablesWithoutNames) {
+  Value machine{{}, Value::Table{}};
+  Value experiment =
+      parse_toml("[spindle]\nblocks = [{duration = \"1 h\"}, {duration = \"2 h\"}]\n", "experiment.toml");
+  apply(setting("experiment.spindle.blocks.1.duration=3 h"), machine, experiment);
+  EXPECT_EQ(
+      refusal([&] { apply(setting("experiment.spindle.blocks.9.duration=3 h"), machine, experiment); }),
+      "parameter 'experiment.spindle.blocks.9.duration': there is no table '9' in 'blocks'; it has 2, counted from "
+      "0");
+}
+
 TEST(Setting, OfAnExperimentIsNotLookedForInTheMachine) {
   EXPECT_EQ(refusal([] { (void)changed("ambient.mean=22 degC"); }),
             "parameter 'ambient.mean': a machine has no 'ambient'; did you mean 'experiment.ambient.mean'?");
   EXPECT_THAT(refusal([] { (void)changed("duration=2 h"); }), HasSubstr("did you mean 'experiment.duration'?"));
+}
+
+TEST(Setting, OfAProgrammeThatIsReplacedIsRefused) {
+  Value const document = parse_toml(
+      "machine = \"v450\"\nduration = \"1 h\"\n"
+      "inputs = [{channel = \"coolant.on\", blocks = [{duration = \"1 h\", value = \"1\"}]}]\n"
+      "[[recorded]]\nfile = \"air.csv\"\ncolumns = [{column = \"room\", channel = \"ambient.temperature\", unit = "
+      "\"degC\"}]\n",
+      "experiment.toml");
+  auto const experiment = read_experiment(document, "experiment.toml");
+  auto const answer = [&](std::string const& text) {
+    return refusal([&] { refuse_replaced(setting(text), experiment); });
+  };
+  EXPECT_EQ(answer("experiment.ambient.mean=30 degC"),
+            "parameter 'experiment.ambient.mean' would change nothing: 'ambient.temperature' is recorded in 'air.csv'");
+  EXPECT_EQ(
+      answer("experiment.coolant.on=true"),
+      "parameter 'experiment.coolant.on' would change nothing: 'coolant.on' has a programme of its own in 'inputs'");
+  for (auto const* text : {"experiment.ambient.stratification=1 K/m", "experiment.ambient.door_openings=0",
+                           "experiment.duration=2 h", "experiment.spindle.cycles=2", "ambient.mean=3"})
+    EXPECT_EQ(answer(text), "accepted") << text;
 }
 
 TEST(Setting, KnowsTheDimensionOfItsKey) {

@@ -22,7 +22,7 @@
 ///   }
 ///
 /// and that list serves the reading (FieldReader), the documentation (FieldLister) and the check of every key.
-/// A number whose default is NaN, and a text listed by `name`, must be given.
+/// A number or vector whose default is NaN, and a text listed by `name`, must be given.
 namespace thermotwin::twin {
 
 /// What is plausible for a number, in SI; where `low` ≥ 0, a negative value is an error.
@@ -67,7 +67,7 @@ class FieldReader {
     if (Value const* value = take(key))
       object_.*member = number(*value, key, dimension, range);
     else if (std::isnan(object_.*member))
-      missing(key, thermal::example_of(dimension));
+      missing(key, in_quotes(thermal::example_of(dimension)));
   }
   template <class M>
   void operator()(std::string_view key, std::optional<double> M::*member, thermal::Dimension dimension,
@@ -85,6 +85,8 @@ class FieldReader {
   template <class M>
   void operator()(std::string_view key, Eigen::Vector3d M::*member, thermal::Dimension dimension, std::string_view) {
     Value const* value = take(key);
+    if (!value && (object_.*member).hasNaN())
+      missing(key, fmt::format("[{0}, {0}, {0}]", in_quotes(thermal::example_of(dimension))));
     if (!value) return;
     auto const& items = list(*value, key);
     if (items.size() != 3)
@@ -168,7 +170,7 @@ class FieldReader {
     if (Value const* value = take(key))
       object_.*member = text(*value, key);
     else
-      missing(key, "name");
+      missing(key, in_quotes("name"));
   }
   /// A point on the temperature scale.
   template <class M>
@@ -176,7 +178,7 @@ class FieldReader {
     if (Value const* value = take(key))
       object_.*member = absolute(*value, key);
     else if (std::isnan(object_.*member))
-      missing(key, "22 degC");
+      missing(key, in_quotes("22 degC"));
   }
   template <class M>
   void temperature(std::string_view key, std::optional<double> M::*member, std::string_view) {
@@ -209,7 +211,7 @@ class FieldReader {
   }
   /// Told at the end, after the unknown keys: a misspelt key is both, and the misspelling is what helps.
   void missing(std::string_view key, std::string_view example) {
-    if (missing_.empty()) missing_ = fmt::format("'{}' is missing; write for example {} = \"{}\"", key, key, example);
+    if (missing_.empty()) missing_ = fmt::format("'{}' is missing; write for example {} = {}", key, key, example);
   }
   [[noreturn]] static void wrong(Value const& value, std::string_view key, std::string_view due) {
     throw FileError(value.where, fmt::format("'{}' is {} ({}); {} is due", key, value.text(), value.kind(), due));
@@ -261,6 +263,7 @@ class FieldReader {
   }
 
  public:
+  static std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", text); }
   static std::string range_text(Range range, thermal::Dimension dimension) {
     auto const side = [&](double x) { return thermal::format_quantity(x, dimension); };
     if (std::isfinite(range.low) && std::isfinite(range.high)) return side(range.low) + " to " + side(range.high);
@@ -292,14 +295,15 @@ class FieldLister {
     quantity(key, "", d, doc, r);
   }
   template <class M>
-  void operator()(std::string_view key, std::vector<double> M::*, thermal::Dimension d, std::string_view doc,
+  void operator()(std::string_view key, std::vector<double> M::*member, thermal::Dimension d, std::string_view doc,
                   Range r = {}) {
-    quantity(key, "[]", d, doc, r);
+    quantity(key, written(object_.*member, d), d, doc, r);
     records.back().kind = "list of " + records.back().kind;
   }
   template <class M>
-  void operator()(std::string_view key, Eigen::Vector3d M::*, thermal::Dimension d, std::string_view doc) {
-    quantity(key, "", d, doc, {});
+  void operator()(std::string_view key, Eigen::Vector3d M::*member, thermal::Dimension d, std::string_view doc) {
+    Eigen::Vector3d const& x = object_.*member;
+    quantity(key, x.hasNaN() ? "required" : written({x[0], x[1], x[2]}, d), d, doc, {});
     records.back().kind = "three times " + records.back().kind;
   }
   template <class M>
@@ -313,8 +317,8 @@ class FieldLister {
     add(key, "text", fmt::format("\"{}\"", object_.*member), doc);
   }
   template <class M>
-  void operator()(std::string_view key, std::vector<std::string> M::*, std::string_view doc) {
-    add(key, "list of text", "[]", doc);
+  void operator()(std::string_view key, std::vector<std::string> M::*member, std::string_view doc) {
+    add(key, "list of text", written(object_.*member), doc);
   }
   template <class M>
   void operator()(std::string_view key, bool M::*member, std::string_view doc) {
@@ -364,6 +368,16 @@ class FieldLister {
   }
 
  private:
+  /// A list as it stands in a file.
+  static std::string written(std::vector<std::string> texts) {
+    for (auto& text : texts) text = FieldReader<T>::in_quotes(text);
+    return fmt::format("[{}]", fmt::join(texts, ", "));
+  }
+  static std::string written(std::vector<double> const& numbers, thermal::Dimension d) {
+    std::vector<std::string> texts;
+    for (double const x : numbers) texts.push_back(thermal::format_quantity(x, d));
+    return d == thermal::dimension::dimensionless ? fmt::format("[{}]", fmt::join(texts, ", ")) : written(texts);
+  }
   void add(std::string_view key, std::string kind, std::string initial, std::string_view doc) {
     records.push_back({std::string(key), std::move(kind), std::move(initial), "", std::string(doc), {}, {}, {}});
   }

@@ -120,6 +120,11 @@ std::pair<Value*, std::string> find_parameter(Value& document, std::string_view 
         std::vector<std::string> names;
         for (auto const& v : list)
           if (v.is_table()) names.push_back(name_of(v));
+        std::size_t const tables = names.size();
+        if (std::erase(names, "") == tables)
+          throw thermal::InputError(
+              fmt::format("parameter '{}{}': there is no table '{}' in '{}'; it has {}, counted from 0", prefix, path,
+                          name, parts[next - 1], tables));
         fail(fmt::format("there is no {} named '{}'", parts[next - 1], name), names, name);
       }
       found = &*it;

@@ -44,11 +44,7 @@ ProbeSpecimen draw(DisplacementProbe const& probe, InstrumentChannel const& chan
           stream("phase").uniform(0.0, revolution)};
 }
 
-void check(DisplacementProbe const& probe, InstrumentChannel const& channel, DisplacementCourse const& course) {
-  std::vector<std::string> const kinds{"eddy_current", "capacitive"};
-  if (std::find(kinds.begin(), kinds.end(), probe.kind) == kinds.end())
-    throw InputError(fmt::format("probe '{}': kind '{}' is unknown; {}", channel.name, probe.kind,
-                                 thermal::did_you_mean(probe.kind, kinds)));
+void check(InstrumentChannel const& channel, DisplacementCourse const& course) {
   auto const points = course.time.size();
   bool const speed_fits = course.spindle_speed.size() == 0 || course.spindle_speed.size() == points;
   if (points == 0 || course.displacement.size() != points || course.air.size() != points || !speed_fits)
@@ -132,6 +128,16 @@ class Conversion {
 
 }  // namespace
 
+void check_probe(DisplacementProbe const& probe, std::string const& name) {
+  std::vector<std::string> const kinds{"eddy_current", "capacitive"};
+  if (std::find(kinds.begin(), kinds.end(), probe.kind) == kinds.end())
+    throw InputError(fmt::format("probe '{}': kind '{}' is unknown; {}", name, probe.kind,
+                                 thermal::did_you_mean(probe.kind, kinds)));
+  if (!(probe.conversion_interval > 0.0))
+    throw InputError(
+        fmt::format("probe '{}': conversion_interval is {:g} s; it must be positive", name, probe.conversion_interval));
+}
+
 double mean_sine(double from, double to) {
   double const half = 0.5 * (to - from);
   double const spread = std::abs(half) < 1e-8 ? 1.0 : std::sin(half) / half;
@@ -140,7 +146,8 @@ double mean_sine(double from, double to) {
 
 Readings read(DisplacementProbe const& probe, InstrumentChannel const& channel, DisplacementCourse const& course,
               Eigen::VectorXd const& sample_times) {
-  check(probe, channel, course);
+  check_probe(probe, channel.name);
+  check(channel, course);
   ProbeSpecimen const specimen = draw(probe, channel);
   Conversion conversion(probe, specimen, channel, course);
   FirstOrderLag const target(course.time, course.displacement, 0.0);

@@ -80,7 +80,11 @@ struct DisplacementCourse {
   Eigen::VectorXd spindle_speed;  ///< [rad/s]; empty: stands
 };
 
-/// Readings [µm] at the sample times. Throws InputError for an unknown kind or a course that does not fit together.
+/// InputError for an unknown kind or a conversion interval that is not positive.
+void check_probe(DisplacementProbe const& probe, std::string const& name);
+
+/// Readings [µm] at the sample times. Throws InputError as check_probe does, and for a course that does not fit
+/// together.
 Readings read(DisplacementProbe const& probe, InstrumentChannel const& channel, DisplacementCourse const& course,
               Eigen::VectorXd const& sample_times);
 

@@ -24,6 +24,12 @@ Places places(FiveProbeNest const& nest) {
 
 }  // namespace
 
+void check_nest(FiveProbeNest const& nest) {
+  static_cast<void>(places(nest));
+  check_probe(nest.radial, "nest/radial");
+  check_probe(nest.axial, "nest/axial");
+}
+
 FiveColumns probe_displacements(FiveProbeNest const& nest, FiveColumns const& errors) {
   auto const [far, near] = places(nest);
   FiveColumns seen(errors.rows(), 5);

@@ -46,6 +46,9 @@ using FiveColumns = Eigen::Matrix<double, Eigen::Dynamic, 5>;
 inline std::array<std::string, 5> const probe_names{"X1", "Y1", "X2", "Y2", "Z"};
 inline std::array<std::string, 5> const error_names{"E_X", "E_Y", "E_Z", "E_A", "E_B"};
 
+/// InputError if both distances are equal, or for probes that check_probe refuses.
+void check_nest(FiveProbeNest const& nest);
+
 /// What the five probes see. Throws InputError if both distances are equal.
 FiveColumns probe_displacements(FiveProbeNest const& nest, FiveColumns const& errors);
 

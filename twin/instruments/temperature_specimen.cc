@@ -100,6 +100,9 @@ class Draw {
       throw InputError(fmt::format("sensor '{}': bits is {}; allowed is 9 to 12", channel_.name, sensor_.bits));
     s.resolution = sensor_.resolution.value_or(digital ? std::ldexp(1.0, 8 - sensor_.bits) : kind_.resolution);
     s.conversion_interval = sensor_.conversion_interval.value_or(digital ? std::ldexp(0.75, sensor_.bits - 12) : 0.1);
+    if (!(s.conversion_interval > 0.0))
+      throw InputError(fmt::format("sensor '{}': conversion_interval is {:g} s; it must be positive", channel_.name,
+                                   s.conversion_interval));
     s.lowest = sensor_.lowest.value_or(kind_.range_degc.low + zero_celsius);
     s.highest = sensor_.highest.value_or(kind_.range_degc.high + zero_celsius);
     if (!(s.lowest < s.highest))
@@ -135,6 +138,13 @@ TemperatureSpecimen draw_specimen(TemperatureSensor const& sensor, InstrumentCha
   draw.contact(specimen);
   draw.converter(specimen);
   return specimen;
+}
+
+void check_sensor(TemperatureSensor const& sensor, std::string const& name) {
+  InstrumentChannel const channel{name};
+  TemperatureSpecimen specimen;
+  Draw(sensor, channel).converter(specimen);
+  if (sensor.kind == "pt100") static_cast<void>(pt100_tolerance(sensor.tolerance_class));
 }
 
 std::map<std::string, double> chance_properties(TemperatureSpecimen const& s) {

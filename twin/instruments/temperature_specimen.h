@@ -27,8 +27,12 @@ struct TemperatureSpecimen {
 
 /// What the file gives holds, the rest comes from the table at TemperatureSensor. Each property is drawn from a stream
 /// of its own, so that to fix one in the file leaves the others as they were.
-/// Throws InputError for an unknown kind, class or mounting, for bits outside 9 to 12, and for a range upside down.
+/// Throws InputError as check_sensor does.
 TemperatureSpecimen draw_specimen(TemperatureSensor const& sensor, InstrumentChannel const& channel);
+
+/// Draws nothing. Throws InputError for an unknown kind, class or mounting, for bits outside 9 to 12, for a range
+/// upside down, and for a conversion interval that is not positive.
+void check_sensor(TemperatureSensor const& sensor, std::string const& name);
 
 /// Those properties that may be a matter of chance, by name.
 std::map<std::string, double> chance_properties(TemperatureSpecimen const& specimen);

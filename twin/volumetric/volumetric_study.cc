@@ -4,8 +4,17 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "thermal/error.h"
+#include "thermal/units.h"
+
 namespace thermotwin::twin {
 namespace {
+
+void check_resolution(double resolution) {
+  if (resolution >= 0.0) return;
+  throw thermal::InputError(fmt::format("the controller's resolution is {}; it must be positive, or 0 um for none",
+                                        thermal::format_quantity(resolution, thermal::dimension::length)));
+}
 
 PoseFunction pose_of(VolumetricMachine const& machine, GeometricErrors errors) {
   return [model = machine.model(std::move(errors))](Eigen::Vector3d const& q) { return model.pose(q); };
@@ -72,6 +81,7 @@ std::vector<std::string> remarks_of(VolumetricStudy const& study, bool plain) {
 }  // namespace
 
 VolumetricStudy study_volume(VolumetricMachine const& machine, VolumetricOptions const& options) {
+  check_resolution(options.resolution);
   auto const& how = machine.description.measurement;
   auto const state = options.run ? warmed(machine, *options.run, options.measured_at) : machine.cold;
   auto const pose = pose_of(machine, state);

@@ -6,6 +6,7 @@
 
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
+#include "thermal/units.h"
 #include "twin/volumetric/volumetric_machine.h"
 
 namespace thermotwin::twin {
@@ -13,12 +14,21 @@ namespace {
 
 using thermal::InputError;
 
-constexpr double micro = 1e-6;  // µm, µrad
+constexpr double micro = 1e-6;     // µm, µrad
+constexpr double rounding = 1e-6;  // of an instant that is written in hours [s]
 
 Eigen::Index nearest(Eigen::VectorXd const& times, double time) {
   Eigen::Index row = 0;
   (times.array() - time).abs().minCoeff(&row);
   return row;
+}
+
+void check_instant(Eigen::VectorXd const& times, double time) {
+  double const first = times[0], last = times[times.size() - 1];
+  if (time >= first - rounding && time <= last + rounding) return;
+  auto const text = [](double t) { return thermal::format_quantity(t, thermal::dimension::time); };
+  throw InputError(fmt::format("the instant {} is not within the run, which goes from {} to {}", text(time),
+                               text(first), text(last)));
 }
 
 /// One instant of a run: what its displacement channels show [m, rad].
@@ -116,6 +126,7 @@ void grow(GeometricErrors& errors, GrowthDescription const& growth, Instant cons
 
 GeometricErrors warmed(VolumetricMachine const& machine, output::Dataset const& run, double time) {
   if (run.time_s.size() == 0) throw InputError("the run has no samples");
+  check_instant(run.time_s, time);
   Instant const instant(run, time);
   GeometricErrors errors = machine.cold;
   for (auto const& axis : machine.description.axis) {

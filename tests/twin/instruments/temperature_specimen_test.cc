@@ -131,6 +131,12 @@ TEST(TemperatureSpecimen, ComplaintsNameTheSensorTheValueAndTheNearest) {
   sensor.lowest = 400.0;
   sensor.highest = 300.0;
   EXPECT_EQ(complaint(sensor), "sensor 'T7': lowest is 126.85 degC, highest 26.85 degC; they must rise");
+  EXPECT_THROW(check_sensor(sensor, "T7"), thermal::InputError);
+  sensor = {};
+  sensor.conversion_interval = 0.0;
+  EXPECT_EQ(complaint(sensor), "sensor 'T7': conversion_interval is 0 s; it must be positive");
+  EXPECT_THROW(check_sensor(sensor, "T7"), thermal::InputError);
+  EXPECT_NO_THROW(check_sensor({}, "T7"));
 }
 
 TEST(TemperatureSensor, ListsItsFieldsWithTheirDefaults) {

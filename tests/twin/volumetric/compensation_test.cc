@@ -136,6 +136,13 @@ TEST(Verification, FlagsWhatOnlyTheDiagonalsLike) {
   EXPECT_GT(joint.verification.reduction(), 0.9);
 }
 
+TEST(Compensation, RefusesAResolutionBelowZero) {
+  VolumetricOptions options;
+  options.resolution = -1e-6;
+  EXPECT_THAT([&] { (void)study_volume(drawn_mill(1), options); },
+              testing::ThrowsMessage<thermal::InputError>(HasSubstr("the controller's resolution is -1 um")));
+}
+
 /// methods.md §5.6: three points, γ = 56.2, σ² = 0.2 on inputs from 0 to 1; here from −1 to 1, where the kernel of
 /// neighbours is exp(−1/0.4).
 TEST(FieldPrediction, IsTheMachineOfThePaper) {

@@ -1,5 +1,6 @@
 #include "twin/volumetric/volumetric_machine.h"
 
+#include <cmath>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -136,6 +137,14 @@ TEST(WarmedErrors, WhatTheRunLacksIsNamed) {
   };
   complains("growth = [{ channel = \"E_ZZ\", element = \"EZZ\" }]\n", "did you mean 'E_Z'?");
   complains("growth = [{ channel = \"A\", element = \"EZZ\" }]\n", "um is due");
+}
+
+TEST(WarmedErrors, InstantIsWithinTheRun) {
+  auto const mill = machine(axes + growth);
+  for (double const time : {-3600.0, 360000.0})
+    EXPECT_THAT([&] { (void)warmed(mill, run(), time); },
+                testing::ThrowsMessage<thermal::InputError>(HasSubstr("is not within the run, which goes from 0 ")));
+  EXPECT_NO_THROW((void)warmed(mill, run(), std::nextafter(3600.0, 3601.0)));
 }
 
 TEST(WarmedErrors, MachineFileKnowsItsScrewsAndChannels) {
