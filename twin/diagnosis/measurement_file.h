@@ -86,7 +86,8 @@ struct MeasurementFile {
   template <class Fields>
   static void fields(Fields& f) {
     f("title", &MeasurementFile::title, "one line for people");
-    f("machine", &MeasurementFile::machine, "name of the machine, for people");
+    f("machine", &MeasurementFile::machine,
+      "machine that was measured, which a report draws: a file beside this one, or a name");
     f("from", &MeasurementFile::from, dimension::time, "on the tables' clock: 0 of the run; default: the first row");
     f("to", &MeasurementFile::to, dimension::time, "on the tables' clock: end of the run; default: the last row");
     f("readings_from", &MeasurementFile::readings_from, dimension::time,
