@@ -19,7 +19,6 @@
 #include "twin/history.h"
 #include "twin/machine.h"
 #include "twin/placement/candidate_sites.h"
-#include "twin/setting.h"
 #include "twin/study/study_runs.h"
 #include "twin/uncertain_range.h"
 
@@ -138,53 +137,10 @@ void check_together(CheckedExperiment const& checked, CheckedMachine const& mach
   }
 }
 
-/// The experiment by that name in a world of a study; none where the run was measured.
-std::optional<CheckedExperiment> experiment_of(std::string const& run, std::filesystem::path const& study_folder) {
-  std::filesystem::path const given = run;
-  auto const suffix = given.extension();
-  auto const measured = std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "scenarios/measured" / (run + ".toml");
-  if (suffix == ".h5" || suffix == ".csv" || (suffix != ".toml" && std::filesystem::exists(measured))) return {};
-  auto const file = suffix == ".toml" ? study_folder / given : experiment_file(run);
-  Value const document = read_toml(file);
-  if (!document.find("duration")) return {};
-  return CheckedExperiment{file, document, read_experiment(document, file)};
-}
-
-/// The machine of a world, as the world changes it.
-CheckedMachine machine_in(StudyWorld const& world, std::filesystem::path const& study_folder) {
-  std::filesystem::path const given = world.machine;
-  bool const beside = given.extension() == ".toml" && std::filesystem::exists(study_folder / given);
-  auto const file = beside ? study_folder / given : machine_file(world.machine);
-  Value document = read_toml(file);
-  for (auto const& change : world.changes) {
-    auto const [path, value] = setting(change);
-    set_parameter(document, path, value);
-  }
-  Value const added = parse_toml(world.added, "add");
-  for (auto const& [kind, where, tables] : std::get<Value::Table>(added.content))
-    for (auto const* table : items_of(tables)) append_table(document, kind, *table);
-  return {file, document, Machine::build(document)};
-}
-
-/// The experiments that a world runs, each with the machine; a complaint says which.
-void check_experiments(StudyWorld const& world, std::filesystem::path const& study_folder) {
-  auto const machine = machine_in(world, study_folder);
-  auto runs = world.train;
-  runs.insert(runs.end(), world.test.begin(), world.test.end());
-  for (auto const& run : runs) {
-    try {
-      if (auto const checked = experiment_of(run, study_folder)) check_together(*checked, machine);
-    } catch (thermal::InputError const& error) {
-      throw about(world, fmt::format("'{}': {}", run, error.what()));
-    }
-  }
-}
-
 std::string checked_study(std::filesystem::path const& file) {
   auto const study = read_study(file);
   check_worlds(study);
   auto const& description = study.description;
-  for (auto const& world : description.worlds) check_experiments(world, study.directory);
   return fmt::format("a study of {}, {} and {}", counted(description.worlds.size(), "world"),
                      counted(description.selections.size(), "selection"), counted(description.models.size(), "model"));
 }

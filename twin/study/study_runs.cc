@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "scenarios/course.h"
+#include "thermal/course_inputs.h"
 #include "thermal/nearest_name.h"
 #include "twin/diagnosis/measured_run.h"
 #include "twin/experiment_file.h"
@@ -102,17 +104,41 @@ void check_error(StudyWorld const& world, Machine const& machine) {
                                           thermal::did_you_mean(world.error, known)));
 }
 
+scenarios::Experiment experiment_of(Order const& order, Source const& source) {
+  auto experiment = read_experiment(read_toml(source.file), source.file);
+  if (order.world->sampling) experiment.sampling = *order.world->sampling;
+  return experiment;
+}
+
+/// Before hours of runs: a complaint says which of the world's experiments it is.
+void check_experiments(Order const& order) {
+  for (auto const& source : order.sources) {
+    if (source.measured) continue;
+    try {
+      auto const experiment = experiment_of(order, source);
+      check_laser(order.machine, experiment);
+      scenarios::ExperimentCourse const course(experiment, order.machine.limits);
+      thermal::CourseInputs const inputs(order.machine.network(), course);
+    } catch (thermal::InputError const& error) {
+      auto const complaint = located_in(read_toml(source.file), error);
+      throw about(*order.world, fmt::format("'{}': {}", source.file.filename().string(), complaint.what()));
+    }
+  }
+}
+
 Order order_of(StudyWorld const& world, fs::path const& directory) {
-  return in_world(world, [&] {
+  Order order = in_world(world, [&] {
     Value const nominal = nominal_machine(world, directory);
-    Order order{&world, nominal, machine_of(world, nominal), {}};
-    check_error(world, order.machine);
+    Order own{&world, nominal, machine_of(world, nominal), {}};
+    check_error(world, own.machine);
     for (auto const* list : {&world.train, &world.test})
-      for (auto const& name : *list) order.sources.push_back(source_of(name, directory));
-    if (std::all_of(order.sources.begin(), order.sources.end(), [](auto& source) { return source.measured; }))
-      order.nominal = changed_machine(world, nominal);
-    return order;
+      for (auto const& name : *list) own.sources.push_back(source_of(name, directory));
+    if (std::all_of(own.sources.begin(), own.sources.end(), [](auto& source) { return source.measured; }))
+      own.nominal = changed_machine(world, nominal);
+    return own;
   });
+  check_experiments(order);
+  return order;
 }
 
 /// One data set to be made, for all worlds that share it.
@@ -128,12 +154,6 @@ std::string key_of(Order const& order, Source const& source, int seed) {
   return fmt::format("{}|{}|{}|{}|{}|{}", order.world->machine, order.world->added,
                      fmt::join(order.world->changes, ","), source.file.string(), order.world->sampling.value_or(0.0),
                      seed);
-}
-
-scenarios::Experiment experiment_of(Order const& order, Source const& source) {
-  auto experiment = read_experiment(read_toml(source.file), source.file);
-  if (order.world->sampling) experiment.sampling = *order.world->sampling;
-  return experiment;
 }
 
 MeasuredRun measured(Job const& job) {

@@ -27,7 +27,8 @@ struct WorldRuns {
   std::vector<std::shared_ptr<MeasuredRun const>> measured;       ///< of each run; none where it is simulated
 };
 
-/// FileError where a world names a machine, a run or an error that is not there; simulates nothing.
+/// FileError where a world names a machine, a run or an error that is not there, or an experiment that the machine
+/// cannot be put through; simulates nothing.
 void check_worlds(Study const& study);
 
 /// Simulates and reads, in parallel; see study_data().
