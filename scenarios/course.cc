@@ -121,6 +121,7 @@ ExperimentCourse::ExperimentCourse(Experiment const& experiment, MachineLimits c
   for (DrivenChannel const& driven : driven_) replace_or_add(driven);
   add_floor_temperature();
   sort_jumps();
+  join_jumps();
 }
 
 void ExperimentCourse::add_spindle(Experiment const& experiment, MachineLimits const& machine) {
@@ -237,12 +238,23 @@ void ExperimentCourse::sort_jumps() {
   jumps_.erase(std::unique(jumps_.begin(), jumps_.end()), jumps_.end());
 }
 
+void ExperimentCourse::join_jumps() {
+  std::vector<double> last_of_each;
+  for (auto first = jumps_.begin(); first != jumps_.end();) {
+    auto last = first;
+    while (last + 1 != jumps_.end() && *(last + 1) - *last <= same_jump) ++last;
+    if (last != first) joined_.emplace_back(*first, *last);
+    last_of_each.push_back(*last);
+    first = last + 1;
+  }
+  jumps_ = std::move(last_of_each);
+}
+
 /// The time itself, or between jumps that are one: just before the first.
 double ExperimentCourse::instant(double t) const {
-  auto first = std::upper_bound(jumps_.begin(), jumps_.end(), t);
-  if (first == jumps_.end()) return t;
-  while (first != jumps_.begin() && *first - *(first - 1) <= same_jump) --first;
-  return t < *first ? t : std::nextafter(*first, -std::numeric_limits<double>::infinity());
+  for (auto const& [first, last] : joined_)
+    if (t >= first && t < last) return std::nextafter(first, -std::numeric_limits<double>::infinity());
+  return t;
 }
 
 void ExperimentCourse::evaluate(double t, std::span<double> values) const {
@@ -251,10 +263,8 @@ void ExperimentCourse::evaluate(double t, std::span<double> values) const {
 }
 
 double ExperimentCourse::next_jump(double t) const {
-  auto next = std::upper_bound(jumps_.begin(), jumps_.end(), t);
-  if (next == jumps_.end()) return std::numeric_limits<double>::infinity();
-  while (next + 1 != jumps_.end() && *(next + 1) - *next <= same_jump) ++next;
-  return *next;
+  auto const next = std::upper_bound(jumps_.begin(), jumps_.end(), t);
+  return next == jumps_.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 
 }  // namespace thermotwin::scenarios

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "scenarios/experiment.h"
@@ -61,6 +62,7 @@ class ExperimentCourse : public thermal::Course {
   void replace_or_add(DrivenChannel const& driven);
   void add_floor_temperature();
   void sort_jumps();
+  void join_jumps();
   [[nodiscard]] double instant(double t) const;
 
   void add(thermal::InputChannel channel, Formula formula);
@@ -70,7 +72,8 @@ class ExperimentCourse : public thermal::Course {
   std::vector<DrivenChannel> driven_;  ///< by recordings and input programmes
   std::vector<thermal::InputChannel> channels_;
   std::vector<Formula> formulas_;
-  std::vector<double> jumps_;
+  std::vector<double> jumps_;                      ///< each where the last of those that are one is
+  std::vector<std::pair<double, double>> joined_;  ///< first and last of jumps that are one
 };
 
 }  // namespace thermotwin::scenarios
