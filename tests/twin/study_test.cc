@@ -105,7 +105,7 @@ struct Regression {
 TEST(Study, TwinIsCalibratedOnTheTrainingRuns) {
   SmallStudy const study(
       "title = \"x\"\nseeds = 5\nselections = [\"all\"]\n"
-      "models = [\"linear\", \"twin\", \"twin ridge\"]\n" +
+      "models = [\"linear\", \"twin\", \"twin ridge\", \"twin & linear\"]\n" +
       world);
   auto const report = study.report();
   auto const mean = [&](std::string const& name) { return interval(row(report, name).figures.at("cross.rmse")).mean; };
@@ -113,6 +113,14 @@ TEST(Study, TwinIsCalibratedOnTheTrainingRuns) {
   EXPECT_LT(mean("all + twin"), mean("all + linear"));
   EXPECT_LT(mean("all + twin ridge"), mean("all + linear"));
   EXPECT_GT(mean("all + twin"), 0.0);  // it does not know the truth
+  auto const figure = [&](std::string const& name, std::size_t seed) {
+    return row(report, name).figures.at("cross.rmse").at(seed);
+  };
+  for (std::size_t seed = 0; seed < 5; ++seed) {  // norm of a mean: between half the norms' difference and their mean
+    double const twin = figure("all + twin", seed), line = figure("all + linear", seed);
+    EXPECT_LE(figure("all + twin & linear", seed), 0.5 * (twin + line) * (1.0 + 1e-12));
+    EXPECT_GE(figure("all + twin & linear", seed), 0.5 * std::abs(twin - line) * (1.0 - 1e-12));
+  }
   EXPECT_EQ(row(report, "all + twin").sensors.size(), 3U);
 }
 
@@ -419,15 +427,43 @@ TEST(StudyJudgement, LeavesOutStretchesOfWhichAModelClaimsNothing) {
   std::vector<Answer> validations;
   for (std::size_t k = 0; k < folds.size(); ++k) {
     folds[k].asked.push_back({Role::validation, run, run.error, Eigen::Index(k), 1});
-    validations.push_back({&folds[k], &model});
+    validations.push_back({{{&folds[k], &model}}});
   }
-  auto const figures = judged({Answer{&whole, &model}}, validations, 1);
+  auto const figures = judged({Answer{{{&whole, &model}}}}, validations, 1);
   EXPECT_NEAR(figures.at("self.mae"), 5.5, 1e-12);
   EXPECT_NEAR(figures.at("validation.mae"), 5.5, 1e-12);
   EXPECT_EQ(figures.at("validation.max"), 9.0);
   EXPECT_FALSE(figures.contains("cross.mae"));
   EXPECT_TRUE(figures.contains("S"));
   EXPECT_FALSE(figures.contains("Mn"));
+}
+
+/// One says 2 um and claims all, the other what a twin says and 6 um more, and claims all but two instants.
+TEST(Study, AnswersAreTheMeanOfTheirModels) {
+  models::Batch const run{"warm-up",
+                          Eigen::VectorXd::LinSpaced(4, 0.0, 180.0),
+                          {"T1"},
+                          {"head"},
+                          Eigen::MatrixXd::Zero(4, 1),
+                          Eigen::VectorXd::LinSpaced(4, 0.0, 3.0)};
+  auto const constant = [](double value, std::vector<int> lags, double parameters) {
+    models::ErrorModel model;
+    model.inputs = {"T1"};
+    model.sample_period = 60.0;
+    model.parameters = parameters;
+    auto const columns = Eigen::Index(lags.size());
+    model.form = models::LinearForm{value, std::move(lags), Eigen::MatrixXd::Zero(1, columns), int(columns) - 1};
+    return model;
+  };
+  auto const now = constant(2.0, {0}, 1.0), past = constant(6.0, {0, 1, 2}, 4.0);
+  Question whole, beside_twin;
+  whole.asked.push_back({Role::self, run, run.error, 0, 4});
+  beside_twin.asked.push_back({Role::self, run, run.error, 0, 4, 0, Eigen::Vector4d(0.0, 2.0, 4.0, 6.0)});
+  Answer const answer{{{&whole, &now}, {&beside_twin, &past}}};
+  EXPECT_TRUE(answer.predict(0).isApprox(Eigen::Vector4d(4.0, 5.0, 6.0, 7.0), 1e-15));
+  EXPECT_EQ(answer.unclaimed_instants(), 2);
+  EXPECT_EQ(answer.parameters(), 2.5);
+  EXPECT_NEAR(judged({answer}, {}, 1).at("self.rmse"), 4.0, 1e-12);
 }
 
 TEST(Study, ClaimsAreDecidedByIntervals) {
@@ -558,6 +594,10 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
               HasSubstr("small.toml:5:21: no model 'rigde'; known: linear, "));
   EXPECT_THAT(with(all, "\"ridge\"", "\"twins\""), HasSubstr("small.toml:5:21: no model 'twins'; known: "));
   EXPECT_THAT(with(all, "\"ridge\"", "\"linear\""), HasSubstr("small.toml:5:21: 'linear' is given twice"));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"linear & rigde\""), HasSubstr("small.toml:5:21: no model 'rigde'; known: "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"linear & \""), HasSubstr("small.toml:5:21: no model ''; known: "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"ridge & ridge\""),
+              HasSubstr("small.toml:5:21: 'ridge & ridge' has a model twice"));
   EXPECT_THAT(with(all, "seeds = 5", "seeds = 3"), HasSubstr("'seeds' is 3; allowed is 5 to 1000"));
   EXPECT_THAT(with(all, "E_Z", "E_W"),
               HasSubstr("small.toml:10:9: world 'v450': the machine has no displacement 'E_W'; did you mean"));

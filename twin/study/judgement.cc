@@ -67,9 +67,9 @@ models::ErrorModel nothing_more(models::Batch const& batch) {
 void put_statistics(Named& figures, std::vector<Answer> const& fits,
                     std::vector<std::vector<VectorXd>> const& predictions) {
   std::vector<VectorXd> errors;
-  for (auto const& asked : fits.front().question->asked) errors.push_back(asked.batch.error);
+  for (auto const& asked : fits.front().asked()) errors.push_back(asked.batch.error);
   std::vector<double> parameters;
-  for (auto const& fit : fits) parameters.push_back(fit.model->parameters);
+  for (auto const& fit : fits) parameters.push_back(fit.parameters());
   auto const s = models::batch_statistics(models::deviation_matrix(errors, predictions, parameters));
   put_spread(figures, "S", s.S);
   put_spread(figures, "Mn", s.Mn);
@@ -83,9 +83,9 @@ void put_statistics(Named& figures, std::vector<Answer> const& fits,
 void put_statistics(Named& figures, Answer const& fit, std::vector<VectorXd> const& predictions) {
   Pool training;
   std::vector<double> tests;
-  auto const& asked = fit.question->asked;
+  auto const& asked = fit.asked();
   for (std::size_t k = 0; k < asked.size(); ++k) {
-    VectorXd const measured = claimed(asked[k].batch.error, asked[k], fit.model->unclaimed_instants());
+    VectorXd const measured = claimed(asked[k].batch.error, asked[k], fit.unclaimed_instants());
     if (asked[k].role == Role::self)
       training.add(measured, predictions[k]);
     else if (measured.size() > 0)
@@ -94,7 +94,7 @@ void put_statistics(Named& figures, Answer const& fit, std::vector<VectorXd> con
   auto const n = Index(training.truth.size());
   figures["S"] =
       models::residual_deviation(Eigen::Map<VectorXd const>(training.truth.data(), n),
-                                 Eigen::Map<VectorXd const>(training.prediction.data(), n), fit.model->parameters);
+                                 Eigen::Map<VectorXd const>(training.prediction.data(), n), fit.parameters());
   if (tests.empty()) return;
   Eigen::Map<VectorXd const> const deviations(tests.data(), Index(tests.size()));
   figures["Mn"] = deviations.mean();
@@ -119,18 +119,39 @@ FittedModel fit_model(NamedModel const& named, Question const& question, std::ve
   }
 }
 
+VectorXd Answer::predict(std::size_t k) const {
+  VectorXd sum = VectorXd::Zero(asked()[k].batch.time.size());
+  for (auto const& [question, model] : parts) {
+    auto const& own = question->asked[k];
+    VectorXd const answer = model->predict(own.batch);
+    sum += own.said_by_twin.size() > 0 ? VectorXd(own.said_by_twin + answer) : answer;
+  }
+  return sum / double(parts.size());
+}
+
+int Answer::unclaimed_instants() const {
+  int most = 0;
+  for (auto const& part : parts) most = std::max(most, part.model->unclaimed_instants());
+  return most;
+}
+
+double Answer::parameters() const {
+  double sum = 0.0;
+  for (auto const& part : parts) sum += part.model->parameters;
+  return sum / double(parts.size());
+}
+
 Named judged(std::vector<Answer> const& fits, std::vector<Answer> const& validations, std::size_t train_runs) {
   Named figures;
   std::map<Role, Pool> pools;
   std::vector<std::vector<VectorXd>> predictions;
   for (auto const* answers : {&fits, &validations})
-    for (auto const& [question, model] : *answers) {
+    for (auto const& answer : *answers) {
       auto& own = predictions.emplace_back();
-      for (auto const& asked : question->asked) {
-        VectorXd const answer = model->predict(asked.batch);
-        VectorXd const whole = asked.said_by_twin.size() > 0 ? VectorXd(asked.said_by_twin + answer) : answer;
-        own.push_back(claimed(whole, asked, model->unclaimed_instants()));
-        pools[asked.role].add(claimed(asked.truth, asked, model->unclaimed_instants()), own.back());
+      for (std::size_t k = 0; k < answer.asked().size(); ++k) {
+        auto const& asked = answer.asked()[k];
+        own.push_back(claimed(answer.predict(k), asked, answer.unclaimed_instants()));
+        pools[asked.role].add(claimed(asked.truth, asked, answer.unclaimed_instants()), own.back());
       }
     }
   predictions.resize(fits.size());

@@ -19,10 +19,21 @@ struct FittedModel {
 [[nodiscard]] FittedModel fit_model(NamedModel const& named, Question const& question,
                                     std::vector<Eigen::Index> const& columns, std::uint64_t seed);
 
-/// A question and the model that answers it.
+/// The mean of what models predict. Questions may differ only in what a twin has answered before.
 struct Answer {
-  Question const* question;
-  models::ErrorModel const* model;
+  struct Part {
+    Question const* question;
+    models::ErrorModel const* model;
+  };
+  std::vector<Part> parts;  ///< at least one
+
+  [[nodiscard]] std::vector<Asked> const& asked() const { return parts.front().question->asked; }
+  /// Of the k-th stretch that is asked for: the whole run.
+  [[nodiscard]] Eigen::VectorXd predict(std::size_t k) const;
+  /// The first instants that one of them does not claim.
+  [[nodiscard]] int unclaimed_instants() const;
+  /// Effective ones: the trace of a mean of smoothers is the mean of theirs.
+  [[nodiscard]] double parameters() const;
 };
 
 /// Figures of one combination in one repetition, by name; none of the answers may be refused.

@@ -26,7 +26,7 @@ struct Repetition {
   std::vector<Question const*> all;                               ///< fits, then validations
   std::vector<std::shared_ptr<models::SharedScreen>> screens;     ///< per question, for all selections
   std::vector<std::vector<Choice>> choices;                       ///< per question, per selection
-  std::vector<std::vector<std::map<Columns, FittedModel>>> fits;  ///< per question, per model
+  std::vector<std::vector<std::map<Columns, FittedModel>>> fits;  ///< per question, per single model
   std::vector<Question> less_twin;                                ///< what a model beside a twin is asked, if any is
   std::vector<std::string> twin_refused;                          ///< per question; empty: it was calibrated
 
@@ -40,7 +40,14 @@ class StudyRunner {
   StudyRunner(Study const& study, StudyOptions const& options) : study_(study.description), options_(options) {
     worlds_ = study_data(study, progress("runs"), options.stop);
     for (auto const& name : study_.selections) selections_.push_back(named_selection(name));
-    for (auto const& name : study_.models) models_.push_back(named_model(name));
+    for (auto const& name : study_.models) {
+      auto& own = members_.emplace_back();
+      for (auto const& model : named_models(name)) {
+        auto const known = std::find(models_.begin(), models_.end(), model);
+        own.push_back(std::size_t(known - models_.begin()));
+        if (known == models_.end()) models_.push_back(model);
+      }
+    }
   }
   StudyReport run();
 
@@ -67,7 +74,8 @@ class StudyRunner {
   StudyOptions const& options_;
   std::vector<WorldData> worlds_;
   std::vector<NamedSelection> selections_;
-  std::vector<NamedModel> models_;
+  std::vector<NamedModel> models_;                 ///< each single one once
+  std::vector<std::vector<std::size_t>> members_;  ///< per model of the study: those whose mean it is
   std::vector<Repetition> repetitions_;
   std::vector<SelectionTruth> truths_;
 };
@@ -178,10 +186,13 @@ std::string StudyRunner::answers_of(Repetition const& repetition, std::size_t se
     auto const& choice = repetition.choices[q][selection];
     auto const prefix = repetition.all.size() > 1 ? repetition.all[q]->name + ": " : std::string();
     if (!choice.refused.empty()) return prefix + choice.refused;
-    auto const& fit = repetition.fits[q][model].at(choice.columns);
-    if (!fit.refused.empty()) return prefix + fit.refused;
-    (q < repetition.questions.fits.size() ? fits : validations)
-        .push_back({&repetition.asked(q, models_[model]), &fit.model});
+    Answer answer;
+    for (auto const m : members_[model]) {
+      auto const& fit = repetition.fits[q][m].at(choice.columns);
+      if (!fit.refused.empty()) return prefix + fit.refused;
+      answer.parts.push_back({&repetition.asked(q, models_[m]), &fit.model});
+    }
+    (q < repetition.questions.fits.size() ? fits : validations).push_back(std::move(answer));
   }
   return {};
 }
@@ -195,26 +206,32 @@ Combination StudyRunner::combination(std::size_t world, std::size_t selection, s
     if (!row.refused.empty()) break;
     try {
       auto figures = judged(fits, validations, study_.worlds[world].train.size());
-      if (!study_.worlds[world].instants.empty() && fits.size() == 1 && !models_[model].twin)
-        figures.merge(judged_instants(study_.worlds[world], worlds_[world], repetition.number, *fits.front().model));
+      bool const of_readings = members_[model].size() == 1 && !models_[members_[model].front()].twin;
+      if (!study_.worlds[world].instants.empty() && fits.size() == 1 && of_readings)
+        figures.merge(judged_instants(study_.worlds[world], worlds_[world], repetition.number,
+                                      *fits.front().parts.front().model));
       for (auto const& [name, value] : figures) row.figures[name].push_back(value);
     } catch (std::invalid_argument const& error) {
       row.refused = error.what();
       break;
     }
     if (repetition.number > 0) continue;
-    row.sensors = fits.front().model->inputs;
-    row.remark = fits.front().model->remark;
+    auto const& parts = fits.front().parts;
+    row.sensors = parts.front().model->inputs;
+    std::vector<std::string> remarks;
+    for (auto const& part : parts)
+      if (!part.model->remark.empty()) remarks.push_back(part.model->remark);
+    row.remark = fmt::format("{}", fmt::join(remarks, "; "));
   }
   if (!row.refused.empty()) row.figures.clear();
   return row;
 }
 
 void StudyRunner::judge_combinations(StudyReport& report) {
-  std::size_t const per_world = selections_.size() * models_.size();
+  std::size_t const per_world = selections_.size() * members_.size();
   report.rows.resize(worlds_.size() * per_world);
   in_parallel(report.rows.size(), progress("judgement"), options_.stop, [&](std::size_t i) {
-    report.rows[i] = combination(i / per_world, i % per_world / models_.size(), i % models_.size());
+    report.rows[i] = combination(i / per_world, i % per_world / members_.size(), i % members_.size());
   });
 }
 

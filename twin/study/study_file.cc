@@ -116,7 +116,7 @@ Value::List const& tables(Value const& document, std::string const& key) {
 
 void check_study(Value const& document, StudyDescription const& study) {
   check_items(document, "selections", study.selections, [](auto const& text) { (void)named_selection(text); });
-  check_items(document, "models", study.models, [](auto const& name) { (void)named_model(name); });
+  check_items(document, "models", study.models, [](auto const& name) { (void)named_models(name); });
   if (study.worlds.empty()) throw FileError(document.where, "the study has no [[world]]");
   std::vector<std::string> names, combinations;
   for (std::size_t w = 0; w < study.worlds.size(); ++w) {
@@ -135,6 +135,13 @@ void check_study(Value const& document, StudyDescription const& study) {
   if (study.folds == 1) throw FileError(place_of_key(document, "folds"), "'folds' is 1; 0 or at least 2 are due");
 }
 
+NamedModel named_model(std::string const& text) {
+  bool const twin = text == "twin" || text.starts_with("twin ");
+  NamedModel model{twin, twin ? text.substr(std::min<std::size_t>(5, text.size())) : text};
+  if (!twin || !model.method.empty()) (void)models::model_method(model.method);
+  return model;
+}
+
 }  // namespace
 
 NamedSelection named_selection(std::string const& text) {
@@ -151,11 +158,18 @@ NamedSelection named_selection(std::string const& text) {
   return selection;
 }
 
-NamedModel named_model(std::string const& text) {
-  bool const twin = text == "twin" || text.starts_with("twin ");
-  NamedModel model{twin, twin ? text.substr(std::min<std::size_t>(5, text.size())) : text};
-  if (!twin || !model.method.empty()) (void)models::model_method(model.method);
-  return model;
+std::vector<NamedModel> named_models(std::string const& text) {
+  std::string const between = " & ";
+  std::vector<NamedModel> models;
+  for (std::size_t begin = 0;;) {
+    auto const end = text.find(between, begin);
+    auto const model = named_model(text.substr(begin, end - begin));
+    if (std::find(models.begin(), models.end(), model) != models.end())
+      throw std::invalid_argument(fmt::format("'{}' has a model twice", text));
+    models.push_back(model);
+    if (end == std::string::npos) return models;
+    begin = end + between.size();
+  }
 }
 
 thermal::InputError about(StudyWorld const& world, std::string const& complaint) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "twin/study/study_description.h"
 
@@ -22,10 +23,14 @@ struct NamedSelection {
 struct NamedModel {
   bool twin = false;
   std::string method;  ///< of models::model_methods(); empty: the twin alone
+
+  bool operator==(NamedModel const&) const = default;
 };
 
-/// std::invalid_argument for an unknown method, with the nearest.
-[[nodiscard]] NamedModel named_model(std::string const& text);
+/// "ridge", or "twin & ridge": several models, whose answers are averaged. Means of forecasts from different knowledge
+/// err less than most of those they are of, and need no choice between them (Bates & Granger 1969, Oper. Res. Q. 20,
+/// 451). std::invalid_argument for an unknown method, with the nearest; for a model given twice.
+[[nodiscard]] std::vector<NamedModel> named_models(std::string const& text);
 
 /// A study file as its author wrote it.
 struct Study {

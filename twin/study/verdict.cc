@@ -16,7 +16,8 @@ using Rows = std::vector<Combination const*>;
 bool of_papers(Combination const& row) {
   auto const selection = named_selection(row.selection).name;
   if (selection == "all") return false;
-  return !named_model(row.model).twin &&
+  auto const models = named_models(row.model);
+  return models.size() == 1 && !models.front().twin &&
          models::selection_method(selection).source.find("methods.md") != std::string_view::npos &&
          models::model_method(row.model).source.find("methods.md") != std::string_view::npos;
 }
