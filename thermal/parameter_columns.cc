@@ -91,7 +91,12 @@ void ParameterColumns::add_heat(Evaluation const& evaluation, int port, int colu
 void ParameterColumns::evaluate(Evaluation& evaluation, double const* state, double const* input,
                                 NodeByParameter& forcing) const {
   Linearisation at;
-  if (!capacities_.empty() || !boundaries_.empty()) evaluation.linearise(state, input, at);
+  if (!boundaries_.empty()) {
+    evaluation.linearise(state, input, at);
+  } else if (!capacities_.empty()) {
+    at.rate.resize(network_->nodes());
+    evaluation.rate(state, input, at.rate.data());
+  }
   evaluate(evaluation, at, state, input, forcing);
 }
 

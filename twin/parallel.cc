@@ -1,6 +1,7 @@
 #include "twin/parallel.h"
 
 #include <exception>
+#include <omp.h>
 #include <vector>
 
 #include "twin/run.h"
@@ -11,9 +12,8 @@ void in_parallel(std::size_t count, std::function<void(double)> const& progress,
                  std::function<void(std::size_t)> const& work) {
   std::vector<std::exception_ptr> thrown(count);
   std::size_t done = 0;
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t i = 0; i < count; ++i) {
-    if (stop && *stop) continue;
+  auto const one = [&](std::size_t i) {
+    if (stop && *stop) return;
     try {
       work(i);
     } catch (...) {
@@ -21,6 +21,21 @@ void in_parallel(std::size_t count, std::function<void(double)> const& progress,
     }
 #pragma omp critical(thermotwin_progress)
     if (progress) progress(double(++done) / double(count));
+  };
+  auto const tasks = [&] {
+    for (std::size_t i = 0; i < count; ++i) {
+#pragma omp task firstprivate(i) shared(one)
+      one(i);
+    }
+  };
+  if (omp_in_parallel()) {
+#pragma omp taskgroup
+    tasks();
+  } else {
+    // Ends at the barrier, where a thread takes any task; at the end of a group only one of that group's own.
+#pragma omp parallel
+#pragma omp single
+    tasks();
   }
   for (auto const& exception : thrown)
     if (exception) std::rethrow_exception(exception);

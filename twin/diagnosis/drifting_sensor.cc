@@ -43,7 +43,7 @@ std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit co
   auto const scores_of = [&](std::vector<Hypothesis> const& tried) {
     Eigen::MatrixXd columns = signatures(resting, fit, tried);
     resting.whiten(columns);
-    return score(fit, columns, tried);
+    return Remainder(fit, columns).scores(tried);
   };
   auto const scores = scores_of(drifts);
   auto const clearest = std::max_element(scores.begin(), scores.end(),

@@ -151,8 +151,9 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   Eigen::MatrixXd columns = whitened_signatures();
   columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
   columns.rightCols(1) = -fit_.jacobian.col(own_place).head(columns.rows());
-  auto const scores = score(about, columns, tried);
-  Eigen::VectorXd const alike = cosines(about, columns, columns.cols() - 1);
+  Remainder const remainder(about, columns);
+  auto const scores = remainder.scores(tried);
+  Eigen::VectorXd const alike = remainder.cosines(columns.cols() - 1);
   double const own_evidence = evidence_of(scores.back(), own);
   std::vector<Refit> result = {
       {own, fit_.x[own_place], std::sqrt(fit_.covariance(own_place, own_place)), fit_.x, strength}};
@@ -207,7 +208,7 @@ std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& 
 bool EffectSearch::add_effect(int round) {
   say(fmt::format("{} shapes of effects at their sites, round {}", hypotheses_.size(), round));
   double const threshold = round == 1 ? options_.threshold : std::max(options_.further_threshold, share_of_strongest());
-  auto const scores = score(fit_, whitened_signatures(), hypotheses_);
+  auto const scores = Remainder(fit_, whitened_signatures()).scores(hypotheses_);
   if (round == 1)
     visible_ = std::size_t(std::count_if(scores.begin(), scores.end(), [](Score const& score) {
       return usual_amplitude * std::sqrt(score.information) > wanted_distance;

@@ -2,34 +2,60 @@
 
 #include <utility>
 
-namespace thermotwin::twin {
-namespace {
+#include "twin/parallel.h"
 
-/// AᵀA by one triangle.
+namespace thermotwin::twin {
+
 Eigen::MatrixXd square(Eigen::MatrixXd const& A) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(A.cols(), A.cols());
   result.selfadjointView<Eigen::Lower>().rankUpdate(A.transpose());
   return result.selfadjointView<Eigen::Lower>();
 }
 
-}  // namespace
-
-Elimination::Elimination(Eigen::MatrixXd columns, Eigen::VectorXd mean, Eigen::VectorXd const& deviation)
+Elimination::Elimination(Eigen::MatrixXd columns, Eigen::VectorXd mean, Eigen::VectorXd const& deviation,
+                         std::vector<Eigen::Index> const& first_rows)
     : columns_(std::move(columns)), mean_(std::move(mean)), precision_(deviation.array().square().inverse()) {
-  Eigen::MatrixXd information = square(columns_);
-  information.diagonal() += precision_;
-  information_.compute(information);
+  information_ = precision_.asDiagonal();
+  for (std::size_t b = 0; b < first_rows.size(); ++b) {
+    auto const end = b + 1 < first_rows.size() ? first_rows[b + 1] : columns_.rows();
+    auto const rows = columns_.middleRows(first_rows[b], end - first_rows[b]);
+    Block block{first_rows[b], {}, {}};
+    for (Eigen::Index u = 0; u < rows.cols(); ++u)
+      if ((rows.col(u).array() != 0.0).any()) block.acting.push_back(u);
+    block.columns = rows(Eigen::all, block.acting);
+    information_(block.acting, block.acting) += square(block.columns);
+    blocks_.push_back(std::move(block));
+  }
+  factor_.compute(information_);
 }
 
 Eigen::VectorXd Elimination::best(Eigen::VectorXd const& residual) const {
-  return information_.solve(columns_.transpose() * residual + precision_.cwiseProduct(mean_));
+  return factor_.solve(shared(residual) + precision_.cwiseProduct(mean_));
+}
+
+Eigen::VectorXd Elimination::effect_of(Eigen::VectorXd const& b) const {
+  Eigen::VectorXd result(columns_.rows());
+  for (auto const& block : blocks_)
+    result.segment(block.first, block.columns.rows()).noalias() = block.columns * b(block.acting).eval();
+  return result;
 }
 
 double Elimination::prior_cost(Eigen::VectorXd const& b) const { return (b - mean_).cwiseAbs2().dot(precision_); }
 
-Eigen::MatrixXd Elimination::curvature(Eigen::MatrixXd const& jacobian) const {
-  Eigen::MatrixXd const followed = information_.matrixL().solve(columns_.transpose() * jacobian);
-  return square(jacobian) - square(followed);
+Eigen::MatrixXd Elimination::shared(Eigen::MatrixXd const& J) const {
+  std::vector<Eigen::MatrixXd> parts(blocks_.size());
+  in_parallel(blocks_.size(), [&](std::size_t b) {
+    auto const& block = blocks_[b];
+    parts[b].noalias() = block.columns.transpose() * J.middleRows(block.first, block.columns.rows());
+  });
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns_.cols(), J.cols());
+  for (std::size_t b = 0; b < blocks_.size(); ++b) result(blocks_[b].acting, Eigen::all) += parts[b];
+  return result;
+}
+
+Eigen::MatrixXd Elimination::curvature(Eigen::MatrixXd const& own, Eigen::MatrixXd const& shared) const {
+  Eigen::MatrixXd const followed = factor_.matrixL().solve(shared);
+  return own - square(followed);
 }
 
 }  // namespace thermotwin::twin

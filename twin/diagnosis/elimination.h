@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <vector>
 
 namespace thermotwin::twin {
 
@@ -11,21 +12,40 @@ namespace thermotwin::twin {
 ///   min over b of |r − S b|² + |(b − m)/d|²,   (SᵀS + 1/d²) b = Sᵀr + m/d².
 class Elimination {
  public:
-  /// S: residual × unknown; m and d: of the prior of each, d > 0.
-  Elimination(Eigen::MatrixXd columns, Eigen::VectorXd mean, Eigen::VectorXd const& deviation);
+  /// S: residual × unknown; m and d: of the prior of each, d > 0. `first_rows`: where blocks of rows begin, ascending,
+  /// the first at 0: the offset of a channel acts in one of many, and products leave out where an unknown does nothing.
+  Elimination(Eigen::MatrixXd columns, Eigen::VectorXd mean, Eigen::VectorXd const& deviation,
+              std::vector<Eigen::Index> const& first_rows);
 
   [[nodiscard]] Eigen::MatrixXd const& columns() const { return columns_; }
+  /// SᵀS + 1/d².
+  [[nodiscard]] Eigen::MatrixXd const& information() const { return information_; }
   /// b.
   [[nodiscard]] Eigen::VectorXd best(Eigen::VectorXd const& residual) const;
+  /// S b.
+  [[nodiscard]] Eigen::VectorXd effect_of(Eigen::VectorXd const& b) const;
   /// |(b − m)/d|².
   [[nodiscard]] double prior_cost(Eigen::VectorXd const& b) const;
+  /// SᵀJ.
+  [[nodiscard]] Eigen::MatrixXd shared(Eigen::MatrixXd const& J) const;
   /// What is left of JᵀJ, J: derivative of the residual by others, when b follows: JᵀJ − JᵀS (SᵀS + 1/d²)⁻¹ SᵀJ.
-  [[nodiscard]] Eigen::MatrixXd curvature(Eigen::MatrixXd const& jacobian) const;
+  /// `own` is JᵀJ.
+  [[nodiscard]] Eigen::MatrixXd curvature(Eigen::MatrixXd const& own, Eigen::MatrixXd const& shared) const;
 
  private:
+  struct Block {
+    Eigen::Index first = 0;
+    std::vector<Eigen::Index> acting;  ///< unknowns
+    Eigen::MatrixXd columns;           ///< theirs
+  };
   Eigen::MatrixXd columns_;
+  std::vector<Block> blocks_;
   Eigen::VectorXd mean_, precision_;  ///< m, 1/d²
-  Eigen::LLT<Eigen::MatrixXd> information_;
+  Eigen::MatrixXd information_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
 };
+
+/// AᵀA by one triangle.
+[[nodiscard]] Eigen::MatrixXd square(Eigen::MatrixXd const& A);
 
 }  // namespace thermotwin::twin

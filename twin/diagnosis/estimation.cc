@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
+#include <numeric>
 
 #include "thermal/error.h"
 #include "twin/diagnosis/least_squares.h"
@@ -135,15 +136,22 @@ void Estimation::eliminate(Eigen::MatrixXd whitened_columns) {
     mean[l] = unknown.mean;
     deviation[l] = unknown.deviation;
   }
-  elimination_ = std::make_shared<Elimination const>(std::move(whitened_columns), mean, deviation);
+  std::vector<Eigen::Index> first_rows;  // of every channel of every run
+  for (std::size_t r = 0; r < data_->size(); ++r)
+    for (std::size_t c = 0; c < whitenings_[r].size(); ++c)
+      first_rows.push_back(first_rows_[r] + Eigen::Index(c) * (*data_)[r].time.size());
+  elimination_ = std::make_shared<Elimination const>(std::move(whitened_columns), mean, deviation, first_rows);
 }
 
 void Estimation::whiten(Eigen::Ref<Eigen::MatrixXd> signals) const {
-  for (std::size_t r = 0; r < data_->size(); ++r) {
-    auto const rows = (*data_)[r].time.size();
-    for (std::size_t c = 0; c < whitenings_[r].size(); ++c)
-      whitenings_[r][c].apply(signals.middleRows(first_rows_[r] + Eigen::Index(c) * rows, rows));
-  }
+  for (std::size_t r = 0; r < data_->size(); ++r)
+    whiten(r, signals.middleRows(first_rows_[r], (*data_)[r].values.size()));
+}
+
+void Estimation::whiten(std::size_t run, Eigen::Ref<Eigen::MatrixXd> signals) const {
+  auto const rows = (*data_)[run].time.size();
+  in_parallel(whitenings_[run].size(),
+              [&](std::size_t c) { whitenings_[run][c].apply(signals.middleRows(Eigen::Index(c) * rows, rows)); });
 }
 
 Estimation Estimation::with(std::vector<ChannelNoise> const& noise) const {
@@ -226,13 +234,12 @@ std::vector<MachineDerivative> Estimation::amplitude_derivatives(Eigen::VectorXd
 std::vector<Eigen::MatrixXd> Estimation::residuals_at(Eigen::VectorXd const& x) const {
   Machine const machine = machine_at(x);
   Eigen::VectorXd const explained = linear_->columns() * x.segment(first_linear_, linear_->columns().cols());
-  std::vector<Eigen::MatrixXd> residuals;
-  for (std::size_t r = 0; r < data_->size(); ++r) {
+  std::vector<Eigen::MatrixXd> residuals(data_->size());
+  in_parallel(residuals.size(), [&](std::size_t r) {
     auto const& run = (*data_)[r];
-    residuals.push_back(run.values - LinearisedRun(machine, run).prediction());
-    residuals.back() -=
-        explained.segment(first_rows_[r], run.values.size()).reshaped(run.values.rows(), run.values.cols());
-  }
+    residuals[r] = run.values - LinearisedRun(machine, run).prediction();
+    residuals[r] -= explained.segment(first_rows_[r], run.values.size()).reshaped(run.values.rows(), run.values.cols());
+  });
   return residuals;
 }
 
@@ -265,6 +272,8 @@ struct Estimation::Linearisation {
   Eigen::VectorXd x;  ///< of all unknowns; empty where nothing was linearised
   Eigen::VectorXd residual;
   Eigen::MatrixXd jacobian;  ///< residual × searched
+  Eigen::MatrixXd own;       ///< JᵀJ
+  Eigen::MatrixXd shared;    ///< SᵀJ, S: of what is linear
 
   [[nodiscard]] bool is_at(Eigen::VectorXd const& other) const { return x.size() == other.size() && x == other; }
 };
@@ -277,7 +286,7 @@ std::vector<Eigen::Index> Estimation::searched() const {
   return result;
 }
 
-/// One run's part of a linearisation, not whitened.
+/// One run's part of a linearisation.
 void Estimation::add_run(std::size_t run, Traced const& traced, thermal::ParameterColumns const& heat,
                          std::vector<Eigen::Index> const& heated, Linearisation& at) const {
   auto const& data = (*data_)[run];
@@ -306,6 +315,7 @@ void Estimation::add_run(std::size_t run, Traced const& traced, thermal::Paramet
       column -= ((twin.prediction_of(machine_at(plus)) - prediction) / step).reshaped();
     }
   }
+  whiten(run, jacobian);
 }
 
 bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const>& traced, bool linearised,
@@ -344,7 +354,8 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const
   } catch (std::exception const&) {
     return false;
   }
-  whiten(at.jacobian);
+  at.own = square(at.jacobian);
+  at.shared = elimination_->shared(at.jacobian);
   at.x = x;
   return true;
 }
@@ -377,11 +388,11 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
     Linearisation& here = linearised || last.is_at(x) ? last : trial;
     if (!last.is_at(x) && !evaluate(x, traced, linearised, here)) return false;
     Eigen::VectorXd const linear = elimination_->best(here.residual), from_mean = values - mean;
-    Eigen::VectorXd const left = here.residual - elimination_->columns() * linear;
+    Eigen::VectorXd const left = here.residual - elimination_->effect_of(linear);
     at.cost = left.squaredNorm() + elimination_->prior_cost(linear) + from_mean.cwiseAbs2().dot(precision);
     if (!linearised) return true;
     at.gradient = here.jacobian.transpose() * left + precision.cwiseProduct(from_mean);
-    at.curvature = elimination_->curvature(here.jacobian);
+    at.curvature = elimination_->curvature(here.own, here.shared);
     at.curvature.diagonal() += precision;
     return true;
   };
@@ -406,7 +417,7 @@ Fit Estimation::fit_at(Eigen::VectorXd const& x, Linearisation const& at) const 
   auto linear = fit.x.segment(first_linear_, columns.cols());
   linear = elimination_->best(at.residual);
   fit.residual.resize(rows_ + count);
-  fit.residual.head(rows_) = at.residual - columns * linear;
+  fit.residual.head(rows_) = at.residual - elimination_->effect_of(linear);
   fit.jacobian.setZero(rows_ + count, count);
   fit.jacobian.topRows(rows_)(Eigen::all, searched()) = at.jacobian;
   fit.jacobian.block(0, first_linear_, rows_, columns.cols()) = -columns;
@@ -416,7 +427,16 @@ Fit Estimation::fit_at(Eigen::VectorXd const& x, Linearisation const& at) const 
     fit.jacobian(rows_ + u, u) = 1.0 / unknown.deviation;
   }
   fit.cost = fit.residual.squaredNorm();
-  Eigen::LLT<Eigen::MatrixXd> const information((fit.jacobian.transpose() * fit.jacobian).eval());
+  auto const free = searched();
+  std::vector<Eigen::Index> held(std::size_t(columns.cols()));
+  std::iota(held.begin(), held.end(), first_linear_);
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(count, count);  // JᵀJ
+  for (auto const u : free) product(u, u) = std::pow(fit.jacobian(rows_ + u, u), 2);
+  product(free, free) += at.own;
+  product(held, held) = elimination_->information();
+  product(held, free) = -at.shared;
+  product(free, held) = -at.shared.transpose();
+  Eigen::LLT<Eigen::MatrixXd> const information(product);
   fit.covariance = information.solve(Eigen::MatrixXd::Identity(count, count));
   double const log_determinant = 2.0 * information.matrixLLT().diagonal().array().log().sum();
   fit.evidence = fit.cost + log_determinant;

@@ -79,6 +79,8 @@ class Estimation {
 
   /// Whitens signals of all runs, (run; channel · rows + row) × column, in place.
   void whiten(Eigen::Ref<Eigen::MatrixXd> signals) const;
+  /// Whitens signals of one run.
+  void whiten(std::size_t run, Eigen::Ref<Eigen::MatrixXd> signals) const;
   /// Rows of all runs and channels.
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
   /// Where a run's rows begin.

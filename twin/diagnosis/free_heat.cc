@@ -3,7 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "thermal/threaded_product.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -12,6 +14,7 @@ namespace {
 constexpr double first_deviations[] = {3.0, 30.0, 300.0};  // σ_0 [W]
 constexpr double jump_time = 60.0;                         // in which the heat may jump with an input [s]
 constexpr double jump_worth = 4 * 3600.0;                  // as much as it may change otherwise in so long [s]
+constexpr Eigen::Index knots_at_once = 12;                 // whose responses are found together
 constexpr double intensities[] = {0.01, 0.1, 0.5, 2.0};
 
 /// At regular times, and two for every jump of the inputs, before and after it: what is switched on jumps as well.
@@ -48,29 +51,33 @@ double mean(Eigen::VectorXd const& knots, Eigen::VectorXd const& values) {
   return 0.5 * steps.dot(values.head(n) + values.tail(n)) / steps.sum();
 }
 
-/// Whitened response to the heat at every knot of every site: sites one after another.
-Eigen::MatrixXd columns_of(Estimation const& estimation, std::size_t r, LinearisedRun const& twin,
-                           std::vector<HeatSite> const& sites, Eigen::VectorXd const& knots) {
-  auto const& capacity = twin.machine().network().capacity();
-  auto const count = knots.size();
-  Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(Eigen::Index(capacity.size()), Eigen::Index(sites.size()));
+/// Sites as shares of one watt [K/s]: node × site.
+Eigen::MatrixXd shapes_of(Machine const& machine, std::vector<HeatSite> const& sites) {
+  auto const& capacity = machine.network().capacity();
+  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(Eigen::Index(capacity.size()), Eigen::Index(sites.size()));
   for (std::size_t s = 0; s < sites.size(); ++s) {
     double whole = 0.0;
     for (int i = 0; i < sites[s].nodes; ++i) whole += capacity[std::size_t(sites[s].first_node + i)];
-    for (int i = 0; i < sites[s].nodes; ++i) shape(sites[s].first_node + i, Eigen::Index(s)) = 1.0 / whole;
+    for (int i = 0; i < sites[s].nodes; ++i) shapes(sites[s].first_node + i, Eigen::Index(s)) = 1.0 / whole;
   }
+  return shapes;
+}
+
+/// Response of a run to the heat at the knots from `first` up to `end`: knot by knot, the sites of each.
+Eigen::MatrixXd response_to(LinearisedRun const& twin, Eigen::MatrixXd const& shapes, Eigen::VectorXd const& knots,
+                            Eigen::Index first, Eigen::Index end) {
+  auto const sites = shapes.cols();
   auto const forcing = [&](thermal::Evaluation&, double t, auto const&, auto const&, thermal::NodeByParameter& into) {
-    into.setZero(shape.rows(), shape.cols() * count);
-    for (Eigen::Index k = 0; k < count; ++k)
+    into.setZero(shapes.rows(), (end - first) * sites);
+    for (Eigen::Index k = first; k < end; ++k)
       if (double const share = hat(knots, k, t); share > 0.0)
-        for (Eigen::Index s = 0; s < shape.cols(); ++s) into.col(s * count + k) = share * shape.col(s);
+        into.middleCols((k - first) * sites, sites) = share * shapes;
   };
-  Eigen::MatrixXd const none = Eigen::MatrixXd::Zero(shape.rows(), shape.cols() * count);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(estimation.rows(), none.cols());
-  Eigen::MatrixXd const response = twin.response(forcing, none);
-  all.middleRows(estimation.first_row(r), response.rows()) = response;
-  estimation.whiten(all);
-  return all;
+  auto const& steps = twin.data().steps;
+  double const begin = knots[std::max<Eigen::Index>(first - 1, 0)];
+  auto const step = std::find_if(steps.begin(), steps.end(), [&](auto const& s) { return s.end > begin; });
+  return twin.response(forcing, Eigen::MatrixXd::Zero(shapes.rows(), (end - first) * sites),
+                       std::size_t(step - steps.begin()));
 }
 
 /// Precision of the random walk through all runs, each with its own start.
@@ -126,6 +133,36 @@ FreeHeat estimate(HeatSite const& site, std::vector<Eigen::VectorXd> const& knot
   return best;
 }
 
+/// Per run, the whitened response to the heat at every knot of every site: sites one after another.
+std::vector<Eigen::MatrixXd> columns_of(Estimation const& estimation, Machine const& machine,
+                                        std::vector<HeatSite> const& sites, std::vector<Eigen::VectorXd> const& knots) {
+  auto const shapes = shapes_of(machine, sites);
+  std::vector<std::optional<LinearisedRun>> twins(knots.size());
+  std::vector<Eigen::MatrixXd> columns(knots.size());
+  in_parallel(knots.size(), [&](std::size_t r) {
+    auto const& data = estimation.data()[r];
+    twins[r].emplace(machine, data);
+    columns[r].resize(data.values.size(), knots[r].size() * shapes.cols());
+  });
+  struct Part {
+    std::size_t run;
+    Eigen::Index first, end;
+  };
+  std::vector<Part> parts;
+  for (std::size_t r = 0; r < knots.size(); ++r)
+    for (Eigen::Index k = 0; k < knots[r].size(); k += knots_at_once)
+      parts.push_back({r, k, std::min(k + knots_at_once, knots[r].size())});
+  in_parallel(parts.size(), [&](std::size_t p) {
+    auto const& [r, first, end] = parts[p];
+    Eigen::MatrixXd const response = response_to(*twins[r], shapes, knots[r], first, end);
+    for (Eigen::Index k = first; k < end; ++k)
+      for (Eigen::Index s = 0; s < shapes.cols(); ++s)
+        columns[r].col(s * knots[r].size() + k) = response.col((k - first) * shapes.cols() + s);
+  });
+  for (std::size_t r = 0; r < knots.size(); ++r) estimation.whiten(r, columns[r]);
+  return columns;
+}
+
 }  // namespace
 
 std::vector<HeatSite> heat_sites(Machine const& machine) {
@@ -146,27 +183,33 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
   auto const sites = heat_sites(machine);
   std::vector<Eigen::VectorXd> knots;
   for (auto const& run : estimation.data()) knots.push_back(knots_of(run));
-  std::vector<Eigen::MatrixXd> columns(knots.size());
-  in_parallel(knots.size(), [&](std::size_t r) {
-    columns[r] = columns_of(estimation, r, LinearisedRun(machine, estimation.data()[r]), sites, knots[r]);
-  });
-  Eigen::MatrixXd const J = fit.jacobian.topRows(estimation.rows());
-  Eigen::LLT<Eigen::MatrixXd> const nuisance((fit.jacobian.transpose() * fit.jacobian).eval());
+  auto const columns = columns_of(estimation, machine, sites, knots);
+  Eigen::LLT<Eigen::MatrixXd> const nuisance(square(fit.jacobian));
   Eigen::VectorXd const explained = nuisance.solve(fit.jacobian.transpose() * fit.residual);
+  std::vector<Eigen::MatrixXd> shared(knots.size());
+  std::vector<Eigen::VectorXd> residual;
+  for (std::size_t r = 0; r < knots.size(); ++r) {
+    auto const first = estimation.first_row(r), rows = columns[r].rows();
+    shared[r] = thermal::threaded_product(fit.jacobian.middleRows(first, rows).transpose(), columns[r]);
+    residual.emplace_back(fit.residual.segment(first, rows));
+  }
   std::vector<FreeHeat> scan(sites.size());
   in_parallel(sites.size(), [&](std::size_t s) {
     Eigen::Index width = 0;
     for (auto const& k : knots) width += k.size();
-    Eigen::MatrixXd own(estimation.rows(), width);
+    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(width, width), with_unknowns(fit.x.size(), width);
+    Eigen::VectorXd towards(width);
     Eigen::Index at = 0;
-    for (std::size_t r = 0; r < knots.size(); ++r) {
-      own.middleCols(at, knots[r].size()) = columns[r].middleCols(Eigen::Index(s) * knots[r].size(), knots[r].size());
-      at += knots[r].size();
+    for (std::size_t r = 0; r < knots.size(); ++r) {  // heat in one run shows in no other
+      auto const count = knots[r].size(), first = Eigen::Index(s) * count;
+      Eigen::MatrixXd const response = columns[r].middleCols(first, count);
+      own.block(at, at, count, count) = square(response);
+      with_unknowns.middleCols(at, count) = shared[r].middleCols(first, count);
+      towards.segment(at, count) = response.transpose() * residual[r];
+      at += count;
     }
-    Eigen::MatrixXd const shared = J.transpose() * own;
-    Eigen::MatrixXd const information = own.transpose() * own - shared.transpose() * nuisance.solve(shared);
-    Eigen::VectorXd const towards =
-        own.transpose() * fit.residual.head(estimation.rows()) - shared.transpose() * explained;
+    Eigen::MatrixXd const information = own - square(nuisance.matrixL().solve(with_unknowns));
+    towards -= with_unknowns.transpose() * explained;
     scan[s] = estimate(sites[s], knots, information, towards);
   });
   std::stable_sort(scan.begin(), scan.end(), [](auto const& a, auto const& b) { return a.gain > b.gain; });

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "twin/diagnosis/linearised_run.h"
+#include "twin/parallel.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -81,11 +82,15 @@ LinearUnknowns::LinearUnknowns(Value const& document, std::vector<BinnedRun> con
                          .index = i});
   Machine const machine = Machine::build(document);
   Eigen::Index rows = 0;
-  for (auto const& run : data) rows += run.values.size();
+  std::vector<Eigen::Index> first;
+  for (auto const& run : data) {
+    first.push_back(rows);
+    rows += run.values.size();
+  }
   columns_.setZero(rows, Eigen::Index(unknowns_.size()));
-  Eigen::Index first = 0;
-  for (std::size_t r = 0; r < data.size(); first += data[r++].values.size())
-    columns_.middleRows(first, data[r].values.size()) = columns_of(machine, interiors, data[r], int(r), channels);
+  in_parallel(data.size(), [&](std::size_t r) {
+    columns_.middleRows(first[r], data[r].values.size()) = columns_of(machine, interiors, data[r], int(r), channels);
+  });
 }
 
 void LinearUnknowns::add_of_channels(std::vector<BinnedRun> const& data, std::vector<std::string> const& channels) {

@@ -178,16 +178,18 @@ Eigen::MatrixXd LinearisedRun::growth(std::vector<NodeWeights> const& displaceme
   return rows;
 }
 
-Eigen::MatrixXd LinearisedRun::weights() const {
+LinearisedRun::ChannelByNode LinearisedRun::weights() const {
   auto const readings = readings_of(*machine_, *data_->run);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Eigen::Index(readings.size()), machine_->network().nodes());
+  std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t c = 0; c < readings.size(); ++c) {
     if (readings[c].sensor)
       for (auto const& [node, weight] : readings[c].sensor->weights)
-        result(Eigen::Index(c), node) += (1.0 - readings[c].air_share) * weight;
+        entries.emplace_back(int(c), node, (1.0 - readings[c].air_share) * weight);
     if (readings[c].displacement)
-      for (auto const& [node, weight] : readings[c].displacement->weights) result(Eigen::Index(c), node) += weight;
+      for (auto const& [node, weight] : readings[c].displacement->weights) entries.emplace_back(int(c), node, weight);
   }
+  ChannelByNode result(Eigen::Index(readings.size()), machine_->network().nodes());
+  result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
 
@@ -204,15 +206,15 @@ Eigen::MatrixXd LinearisedRun::response(thermal::ParameterColumns const& paramet
       start);
 }
 
-Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd const& initial,
-                                        Leap const& leap) const {
+Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd const& initial, Leap const& leap,
+                                        std::size_t first_step) const {
   auto const& network = machine_->network();
   auto const n = Eigen::Index(network.nodes());
   auto const m = initial.cols();
   auto const& steps = data_->steps;
   auto const rows = data_->time.size();
   auto const readings = readings_of(*machine_, *data_->run);
-  Eigen::MatrixXd const H = weights();
+  ChannelByNode const H = weights();
   thermal::Evaluation evaluation(network);
   thermal::NewtonSystem system(network, thermal::LinearSolver::sparse_direct);
   thermal::NodeByParameter S = initial, from_forcing(n, m), to_forcing(n, m), stage(n, m);
@@ -220,16 +222,15 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
   thermal::NodeByParameter const at_start = from;
   thermal::NodeByParameter result = thermal::NodeByParameter::Zero(rows * H.rows(), m);
   std::vector<double> middle(static_cast<std::size_t>(n)), input;
-  for (std::size_t s = 0; s < steps.size(); ++s) {
+  for (std::size_t s = first_step; s < steps.size(); ++s) {
     double const h = steps[s].length();
-    leap(evaluation, s, S);
-    from.noalias() = H * S;
+    if (leap(evaluation, s, S)) from = H * S;
     for (Eigen::Index i = 0; i < n; ++i)
       middle[std::size_t(i)] = 0.5 * (begins_[s].state[std::size_t(i)] + ends_[s].state[std::size_t(i)]);
     input = begins_[s].input;
     for (std::size_t i = 0; i < input.size(); ++i) input[i] = 0.5 * (input[i] + ends_[s].input[i]);
     system.linearise(evaluation, middle.data(), input.data());
-    if (s > 0 && begins_[s].time == ends_[s - 1].time && begins_[s].input == ends_[s - 1].input)
+    if (s > first_step && begins_[s].time == ends_[s - 1].time && begins_[s].input == ends_[s - 1].input)
       from_forcing.swap(to_forcing);
     else
       forcing(evaluation, begins_[s].time, begins_[s].state, begins_[s].input, from_forcing);
@@ -240,7 +241,7 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
     S += (1.0 - gamma) / gamma * (stage - S) + gamma * h * to_forcing;
     if (!solved || !system.solve_nodes(0.0, S))
       throw thermal::IntegrationError("the equations linearised along the run have no solution");
-    to.noalias() = H * S;
+    to = H * S;
     for (Eigen::Index c = 0; c < H.rows(); ++c) {
       double const lag = readings[std::size_t(c)].lag;
       bool const relative = readings[std::size_t(c)].displacement != nullptr;
@@ -255,6 +256,7 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
       target += steps[s].at_end * (lag > 0.0 ? shown.row(c) : to.row(c));
       if (relative) target -= (steps[s].at_begin + steps[s].at_end) * at_start.row(c);
     }
+    from.swap(to);
   }
   return result;
 }
@@ -264,16 +266,17 @@ Eigen::MatrixXd LinearisedRun::response_to_earlier(std::vector<double> const& ju
   Eigen::VectorXd after(nodes), before(nodes);
   auto const leap = [&](thermal::Evaluation& evaluation, std::size_t step, thermal::NodeByParameter& s) {
     auto const jump = std::find(jumps.begin(), jumps.end(), begins_[step].time) - jumps.begin();
-    if (jump == count || step == 0) return;
+    if (jump == count || step == 0) return false;
     double const* const state = begins_[step].state.data();
     evaluation.rate(state, begins_[step].input.data(), after.data());
     evaluation.rate(state, ends_[step - 1].input.data(), before.data());
     s.col(jump) += after - before;
+    return true;
   };
   auto const unforced = [](thermal::Evaluation&, double, auto const&, auto const&, thermal::NodeByParameter& forcing) {
     forcing.setZero();
   };
-  return response(unforced, Eigen::MatrixXd::Zero(nodes, count), leap);
+  return response(unforced, Eigen::MatrixXd::Zero(nodes, count), leap, 0);
 }
 
 std::map<std::string, LinearisedRun::MeanHeat> LinearisedRun::more_heat_than(Machine const& other) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <functional>
 #include <map>
 #include <string>
@@ -35,9 +36,12 @@ class LinearisedRun {
   using Forcing = std::function<void(thermal::Evaluation&, double time, std::vector<double> const& state,
                                      std::vector<double> const& input, thermal::NodeByParameter& forcing)>;
 
-  /// ∂z/∂θ, (channel · rows + row) × parameter. `initial`: node × parameter, dy(0)/dθ.
-  [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial) const {
-    return response(forcing, initial, [](thermal::Evaluation&, std::size_t, thermal::NodeByParameter&) {});
+  /// ∂z/∂θ, (channel · rows + row) × parameter. `initial`: node × parameter, dy/dθ where the steps begin.
+  /// `first_step`: before it nothing is forced.
+  [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial,
+                                         std::size_t first_step = 0) const {
+    auto const no_leap = [](thermal::Evaluation&, std::size_t, thermal::NodeByParameter&) { return false; };
+    return response(forcing, initial, no_leap, first_step);
   }
   /// The same for numbers of the machine. `forced_nodes`: nodes from there on have no forcing, −1: all have. A mass
   /// that a hypothesis brings along does not depend on its amplitude, as that goes to nothing.
@@ -73,10 +77,10 @@ class LinearisedRun {
   };
   void trace();
   void bend(thermal::Evaluation& evaluation, End& begin, End& end) const;
-  /// By which s jumps where a step begins.
-  using Leap = std::function<void(thermal::Evaluation&, std::size_t step, thermal::NodeByParameter& s)>;
-  [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial,
-                                         Leap const& leap) const;
+  /// By which s jumps where a step begins; whether it does.
+  using Leap = std::function<bool(thermal::Evaluation&, std::size_t step, thermal::NodeByParameter& s)>;
+  [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial, Leap const& leap,
+                                         std::size_t first_step) const;
   /// Behind a first-order lag, exactly: a cubic, and what decays from the begin on.
   struct Lagged {
     Piece piece;
@@ -88,7 +92,8 @@ class LinearisedRun {
   [[nodiscard]] Piece since_start(NodeWeights const& weights, std::size_t step) const;
   [[nodiscard]] Piece before_lag(ChannelReading const& channel, std::size_t step) const;
   [[nodiscard]] Eigen::VectorXd rows_of(std::function<Piece(std::size_t step)> const& pieces, double lag) const;
-  [[nodiscard]] Eigen::MatrixXd weights() const;
+  using ChannelByNode = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  [[nodiscard]] ChannelByNode weights() const;
 
   Machine const* machine_;
   BinnedRun const* data_;

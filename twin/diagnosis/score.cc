@@ -1,6 +1,5 @@
 #include "twin/diagnosis/score.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include <optional>
 
 #include "thermal/error.h"
+#include "thermal/threaded_product.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -15,6 +15,7 @@ namespace {
 
 constexpr double nothing = 1e-8;  // amplitude of a hypothesis that changes nothing, of its largest
 constexpr double step = 1e-3;
+constexpr std::size_t shapes_at_once = 128;  // whose responses are found together
 
 /// How the response to a hypothesis is found.
 enum class Way {
@@ -90,9 +91,10 @@ std::vector<thermal::NetworkDerivative const*> SharedNetwork::derivatives() cons
   return pointers;
 }
 
-/// One hypothesis alone, where it changes readings, displacements or the air.
+/// One hypothesis alone, where it changes readings, displacements or the air. `plain`: what the twins predict without.
 void add_alone(Estimation const& estimation, Value const& document, Hypothesis const& hypothesis, std::size_t index,
-               std::vector<std::optional<LinearisedRun>> const& twins, Eigen::MatrixXd& columns) {
+               std::vector<std::optional<LinearisedRun>> const& twins, std::vector<Eigen::MatrixXd> const& plain,
+               Eigen::MatrixXd& columns) {
   double const unit = hypothesis.largest;
   auto const at = [&](double amplitude) {
     Machine machine = Machine::build(with_hypothesis(document, hypothesis, trial_table(index), amplitude * unit));
@@ -100,32 +102,21 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
     for (std::size_t s = 0; s < fitted.size(); ++s) machine.sensors[s].description.lag = fitted[s].description.lag;
     return machine;
   };
-  Machine const without = at(nothing), with = at(nothing + 2.0 * step);
+  Machine const with = at(2.0 * step);
+  if (way_of(hypothesis) == Way::readings) {
+    for (std::size_t r = 0; r < twins.size(); ++r)
+      columns.col(Eigen::Index(index)).segment(estimation.first_row(r), plain[r].size()) =
+          ((twins[r]->prediction_of(with) - plain[r]) / (2.0 * step)).reshaped();
+    return;
+  }
+  Machine const without = at(nothing);
   auto const derivative = difference(with, without, step);
   for (std::size_t r = 0; r < twins.size(); ++r) {
     auto const& run = estimation.data()[r];
     auto column = columns.col(Eigen::Index(index)).segment(estimation.first_row(r), run.values.size());
-    if (way_of(hypothesis) == Way::air) {
-      LinearisedRun const twin(without, run);  // its air may follow inputs that the other's does not
-      column = twin.response(thermal::ParameterColumns(without.network(), {&derivative.network}));
-    } else {
-      column = ((twins[r]->prediction_of(with) - twins[r]->prediction_of(without)) / (2.0 * step)).reshaped();
-    }
+    LinearisedRun const twin(without, run);  // its air may follow inputs that the other's does not
+    column = twin.response(thermal::ParameterColumns(without.network(), {&derivative.network}));
   }
-}
-
-/// What the unknowns of a fit can imitate of signatures s: JᵀJ, Jᵀs and (JᵀJ)⁻¹ Jᵀs.
-struct Imitation {
-  Eigen::LLT<Eigen::MatrixXd> information;
-  Eigen::MatrixXd shared, taken;
-};
-
-Imitation imitated(Fit const& fit, Eigen::MatrixXd const& signatures) {
-  Imitation imitation;
-  imitation.information.compute((fit.jacobian.transpose() * fit.jacobian).eval());
-  imitation.shared = fit.jacobian.topRows(signatures.rows()).transpose() * signatures;
-  imitation.taken = imitation.information.solve(imitation.shared);
-  return imitation;
 }
 
 }  // namespace
@@ -138,31 +129,47 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(estimation.rows(), Eigen::Index(hypotheses.size()));
   Machine const machine = estimation.machine_at(fit.x);
   SharedNetwork const all(document, hypotheses, shared, machine);
-  thermal::ParameterColumns const parameters(all.machine().network(), all.derivatives());
-  std::vector<std::optional<LinearisedRun>> twins(estimation.data().size());
-  in_parallel(twins.size(), [&](std::size_t r) {
-    twins[r].emplace(machine, estimation.data()[r]);
-    LinearisedRun const twin(all.machine(), estimation.data()[r]);
-    Eigen::MatrixXd const response = twin.response(parameters, {}, machine.network().nodes());
-    for (std::size_t k = 0; k < shared.size(); ++k)
-      columns.col(Eigen::Index(shared[k])).segment(estimation.first_row(r), response.rows()) =
-          response.col(Eigen::Index(k));
+  auto const derivatives = all.derivatives();
+  std::size_t const runs = estimation.data().size(), parts = (shared.size() + shapes_at_once - 1) / shapes_at_once;
+  std::vector<std::optional<LinearisedRun>> twins(runs), with_all(runs);
+  in_parallel(2 * runs, [&](std::size_t i) {
+    auto const& data = estimation.data()[i / 2];
+    i % 2 == 0 ? twins[i / 2].emplace(machine, data) : with_all[i / 2].emplace(all.machine(), data);
   });
-  in_parallel(alone.size(),
-              [&](std::size_t i) { add_alone(estimation, document, hypotheses[alone[i]], alone[i], twins, columns); });
+  in_parallel(runs * parts, [&](std::size_t i) {
+    std::size_t const r = i / parts, first = i % parts * shapes_at_once;
+    auto const begin = derivatives.begin() + std::ptrdiff_t(first);
+    auto const end = derivatives.begin() + std::ptrdiff_t(std::min(first + shapes_at_once, shared.size()));
+    thermal::ParameterColumns const parameters(all.machine().network(), {begin, end});
+    Eigen::MatrixXd const response = with_all[r]->response(parameters, {}, machine.network().nodes());
+    for (Eigen::Index k = 0; k < response.cols(); ++k)
+      columns.col(Eigen::Index(shared[first + std::size_t(k)])).segment(estimation.first_row(r), response.rows()) =
+          response.col(k);
+  });
+  std::vector<Eigen::MatrixXd> plain;
+  for (auto const& twin : twins) plain.push_back(twin->prediction());
+  in_parallel(alone.size(), [&](std::size_t i) {
+    add_alone(estimation, document, hypotheses[alone[i]], alone[i], twins, plain, columns);
+  });
   return columns;
 }
 
-std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std::vector<Hypothesis> const& hypotheses) {
-  auto const rows = signatures.rows();
-  auto const [information, shared, taken] = imitated(fit, signatures);
-  Eigen::VectorXd const explained = information.solve(fit.jacobian.transpose() * fit.residual);
+Remainder::Remainder(Fit const& fit, Eigen::MatrixXd const& signatures)
+    : fit_(&fit), signatures_(&signatures), information_(square(fit.jacobian)) {
+  shared_ = thermal::threaded_product(fit.jacobian.topRows(signatures.rows()).transpose(), signatures);
+  taken_ = information_.solve(shared_);
+}
+
+std::vector<Score> Remainder::scores(std::vector<Hypothesis> const& hypotheses) const {
+  auto const rows = signatures_->rows();
+  Eigen::VectorXd const explained = information_.solve(fit_->jacobian.transpose() * fit_->residual);
   std::vector<Score> scores;
-  for (Eigen::Index k = 0; k < signatures.cols(); ++k) {
+  for (Eigen::Index k = 0; k < signatures_->cols(); ++k) {
+    auto const signature = signatures_->col(k);
     Score score;
-    double const whole = signatures.col(k).squaredNorm();
-    score.information = whole - shared.col(k).dot(taken.col(k));
-    double const b = signatures.col(k).dot(fit.residual.head(rows)) - shared.col(k).dot(explained);
+    double const whole = signature.squaredNorm();
+    score.information = whole - shared_.col(k).dot(taken_.col(k));
+    double const b = signature.dot(fit_->residual.head(rows)) - shared_.col(k).dot(explained);
     score.kept = whole > 0.0 ? std::sqrt(std::max(0.0, score.information) / whole) : 0.0;
     if (score.information > 1e-9 * whole && whole > 0.0) {
       score.amplitude = b / score.information;
@@ -174,12 +181,12 @@ std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures, std:
   return scores;
 }
 
-Eigen::VectorXd cosines(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen::Index of) {
-  auto const [information, shared, taken] = imitated(fit, signatures);
-  Eigen::VectorXd const product = signatures.transpose() * signatures.col(of) - shared.transpose() * taken.col(of);
-  Eigen::VectorXd const square =
-      (signatures.colwise().squaredNorm() - shared.cwiseProduct(taken).colwise().sum()).transpose().cwiseMax(1e-30);
-  return product.cwiseQuotient((square * square[of]).cwiseSqrt());
+Eigen::VectorXd Remainder::cosines(Eigen::Index of) const {
+  Eigen::VectorXd const product =
+      signatures_->transpose() * signatures_->col(of) - shared_.transpose() * taken_.col(of);
+  Eigen::VectorXd const squares =
+      (signatures_->colwise().squaredNorm() - shared_.cwiseProduct(taken_).colwise().sum()).transpose().cwiseMax(1e-30);
+  return product.cwiseQuotient((squares * squares[of]).cwiseSqrt());
 }
 
 double evidence_of(Score const& score, Hypothesis const& hypothesis) {

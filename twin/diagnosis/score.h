@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <vector>
 
@@ -24,12 +25,22 @@ struct Score {
 [[nodiscard]] Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit,
                                          std::vector<Hypothesis> const& hypotheses);
 
-/// `signatures` whitened as the fit is.
-[[nodiscard]] std::vector<Score> score(Fit const& fit, Eigen::MatrixXd const& signatures,
-                                       std::vector<Hypothesis> const& hypotheses);
+/// What is left of signatures when a fit's unknowns have imitated what they can of them.
+class Remainder {
+ public:
+  /// `signatures` whitened as the fit is; both must outlive this.
+  Remainder(Fit const& fit, Eigen::MatrixXd const& signatures);
 
-/// Cosine between what is left of one signature and of each other (physics.md 8.9).
-[[nodiscard]] Eigen::VectorXd cosines(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen::Index of);
+  [[nodiscard]] std::vector<Score> scores(std::vector<Hypothesis> const& hypotheses) const;
+  /// Cosine between what is left of one signature and of each other (physics.md 8.9).
+  [[nodiscard]] Eigen::VectorXd cosines(Eigen::Index of) const;
+
+ private:
+  Fit const* fit_;
+  Eigen::MatrixXd const* signatures_;
+  Eigen::LLT<Eigen::MatrixXd> information_;  ///< JᵀJ
+  Eigen::MatrixXd shared_, taken_;           ///< Jᵀs, (JᵀJ)⁻¹ Jᵀs
+};
 
 /// 2 ln of the evidence for an effect from its score alone, at the most probable ψ that is plausible: T less what the
 /// prior of ψ and the choice of a site cost. Only the latter where ψ is ordinary.

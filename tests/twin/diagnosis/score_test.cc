@@ -56,7 +56,7 @@ TEST(Score, IsWhatTheCostWouldFallByIfTheEffectWereFitted) {
   Toy const toy;
   MatrixXd const signatures = normal(Toy::rows, 20, 3);
   std::vector<Hypothesis> const hypotheses(20, Hypothesis{nullptr, &toy.any, "", "", {}});
-  auto const scores = score(toy.fit, signatures, hypotheses);
+  auto const scores = Remainder(toy.fit, signatures).scores(hypotheses);
   for (std::size_t k = 0; k < scores.size(); ++k) {
     auto const [cost, amplitude] = toy.with(signatures.col(Index(k)));
     EXPECT_NEAR(scores[k].statistic, toy.fit.cost - cost, 1e-9 * toy.fit.cost);
@@ -72,7 +72,7 @@ TEST(Score, IsNothingForTheForbiddenSign) {
   MatrixXd signatures(Toy::rows, 2);
   signatures << along, -along;
   std::vector<Hypothesis> const hypotheses(2, Hypothesis{nullptr, &toy.positive, "", "", {}});
-  auto const scores = score(toy.fit, signatures, hypotheses);
+  auto const scores = Remainder(toy.fit, signatures).scores(hypotheses);
   EXPECT_GT(scores[0].statistic, 0.0);
   EXPECT_LT(scores[1].amplitude, 0.0);
   EXPECT_EQ(scores[1].statistic, 0.0);
@@ -84,7 +84,7 @@ TEST(Score, IsNothingWhereTheUnknownsExplainEverything) {
   MatrixXd signatures(Toy::rows, 2);
   signatures << toy.fit.jacobian.topRows(Toy::rows) * Eigen::Vector3d(1.0, -2.0, 0.3), VectorXd::Zero(Toy::rows);
   std::vector<Hypothesis> const hypotheses(2, Hypothesis{nullptr, &toy.any, "", "", {}});
-  for (auto const& s : score(toy.fit, signatures, hypotheses)) {
+  for (auto const& s : Remainder(toy.fit, signatures).scores(hypotheses)) {
     EXPECT_EQ(s.statistic, 0.0);
     EXPECT_LT(s.kept, 1e-6);
   }
@@ -102,10 +102,10 @@ TEST(Score, WithoutUnknownsIsThatOfAFitThatNeverHadThem) {
     fewer.jacobian = toy.fit.jacobian.topLeftCorner(Toy::rows + first, first);
     fewer.residual =
         (toy.fit.residual - toy.fit.jacobian.rightCols(gone) * toy.fit.x.tail(gone)).head(Toy::rows + first);
-    auto const expected = score(fewer, signatures, hypotheses);
+    auto const expected = Remainder(fewer, signatures).scores(hypotheses);
     Fit fit = toy.fit;
     for (Index unknown = first; unknown < Toy::unknowns; ++unknown) fit = without(fit, unknown);
-    auto const actual = score(fit, signatures, hypotheses);
+    auto const actual = Remainder(fit, signatures).scores(hypotheses);
     for (std::size_t k = 0; k < actual.size(); ++k) {
       EXPECT_NEAR(actual[k].statistic, expected[k].statistic, 1e-9 * toy.fit.cost) << first;
       EXPECT_NEAR(actual[k].amplitude, expected[k].amplitude, 1e-9) << first;
@@ -165,7 +165,7 @@ struct Hidden {
     all = hypotheses(v450(), Machine::build(v450()));
     columns = signatures(*estimation, fit, all);
     estimation->whiten(columns);
-    scores = score(fit, columns, all);
+    scores = Remainder(fit, columns).scores(all);
   }
   [[nodiscard]] std::size_t best() const {
     return std::size_t(std::max_element(scores.begin(), scores.end(),

@@ -43,8 +43,9 @@ TEST(Separation, WithAllBlocksIsTheInformationAndTheCosineOfTheScore) {
   Bench const bench;
   ASSERT_EQ(bench.chosen.size(), 3U);
   auto const products = Separation(*bench.estimation, bench.fit, bench.columns).products(bench.all());
-  auto const scores = score(bench.fit, bench.columns, bench.chosen);
-  auto const alike = cosines(bench.fit, bench.columns, 0);
+  Remainder const remainder(bench.fit, bench.columns);
+  auto const scores = remainder.scores(bench.chosen);
+  auto const alike = remainder.cosines(0);
   for (Eigen::Index k = 0; k < 3; ++k) {
     double const information = scores[std::size_t(k)].information;
     EXPECT_NEAR(products(k, k), information, 1e-6 * information) << k;
