@@ -112,6 +112,8 @@ ErrorModel linear_model(std::string method, TrainingSet const& set, double inter
                         double parameters, std::string remark) {
   auto const inputs = static_cast<Index>(set.inputs.size());
   MatrixXd const table = coefficients.reshaped(inputs, static_cast<Index>(set.lags.size()));
+  if (set.regressors.cols() >= set.error.size())
+    remark += fmt::format("; {} regressors for {} samples", set.regressors.cols(), set.error.size());
   return {
       std::move(method), set.inputs, set.sample_period, parameters, LinearForm{intercept, set.lags, table, set.dropped},
       std::move(remark)};

@@ -45,7 +45,8 @@ std::vector<std::string> regressor_names(TrainingSet const& set);
 /// Refuses a set with fewer than `needed` samples.
 void require_samples(TrainingSet const& set, Eigen::Index needed);
 
-/// The model that these coefficients of the set's regressors are.
+/// The model that these coefficients of the set's regressors are. The remark says so where samples are fewer than
+/// regressors and intercept, and a penalty or the choice of components decides between them.
 ErrorModel linear_model(std::string method, TrainingSet const& set, double intercept,
                         Eigen::VectorXd const& coefficients, double parameters, std::string remark);
 

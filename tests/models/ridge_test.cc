@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <span>
 
 #include "models/contiguous_folds.h"
 #include "models/linear_regression.h"
@@ -85,6 +86,16 @@ TEST(RidgeRegression, KnowsFarFewerParametersWhereColumnsMoveAlike) {
   auto const fit = ridge_regression(x, y, 5);
   EXPECT_LT(fit.parameters, 8.0);
   EXPECT_GT(fit.parameters, 1.0);
+}
+
+/// With an intercept, eight sensors are nine numbers: nine samples can tell them apart, eight cannot.
+TEST(RidgeRegression, SaysWhereSamplesAreFewerThanNumbers) {
+  auto const remark_of = [](Eigen::Index rows) {
+    Batch const batch = random_walks(1, rows, 8);
+    return fit_ridge(std::span(&batch, 1), {}).remark;
+  };
+  EXPECT_EQ(remark_of(9).find("samples"), std::string::npos) << remark_of(9);
+  EXPECT_TRUE(remark_of(8).ends_with("; 8 regressors for 8 samples")) << remark_of(8);
 }
 
 TEST(RidgeRegression, GivesNothingToAColumnThatDoesNotMove) {
