@@ -22,6 +22,7 @@ Elimination::Elimination(Eigen::MatrixXd columns, Eigen::VectorXd mean, Eigen::V
     Block block{first_rows[b], {}, {}};
     for (Eigen::Index u = 0; u < rows.cols(); ++u)
       if ((rows.col(u).array() != 0.0).any()) block.acting.push_back(u);
+    if (block.acting.empty()) continue;
     block.columns = rows(Eigen::all, block.acting);
     information_(block.acting, block.acting) += square(block.columns);
     blocks_.push_back(std::move(block));
@@ -34,7 +35,7 @@ Eigen::VectorXd Elimination::best(Eigen::VectorXd const& residual) const {
 }
 
 Eigen::VectorXd Elimination::effect_of(Eigen::VectorXd const& b) const {
-  Eigen::VectorXd result(columns_.rows());
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(columns_.rows());
   for (auto const& block : blocks_)
     result.segment(block.first, block.columns.rows()).noalias() = block.columns * b(block.acting).eval();
   return result;

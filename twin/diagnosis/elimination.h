@@ -39,7 +39,7 @@ class Elimination {
     Eigen::MatrixXd columns;           ///< theirs
   };
   Eigen::MatrixXd columns_;
-  std::vector<Block> blocks_;
+  std::vector<Block> blocks_;         ///< those in which any unknown acts
   Eigen::VectorXd mean_, precision_;  ///< m, 1/d²
   Eigen::MatrixXd information_;
   Eigen::LLT<Eigen::MatrixXd> factor_;

@@ -42,11 +42,13 @@ TEST_F(EliminationOfSome, EliminatedAreAtTheirBestForTheOthers) {
               (wanted - whole.rightCols(7) * expected).squaredNorm(), 1e-9);
 }
 
-/// Blocks of rows are the same question: of the seven, three act in the first twenty rows only, two in the last.
+/// Blocks of rows are the same question: of the seven, three act in the first twenty rows only, two in the last,
+/// and none in ten.
 TEST_F(EliminationOfSome, BlocksOfRowsChangeNothing) {
   S.bottomLeftCorner(40, 3).setZero();
   S.topRightCorner(55, 2).setZero();
-  Elimination const one(S, mean, deviation, {0}), blocks(S, mean, deviation, {0, 20, 55});
+  S.middleRows(30, 10).setZero();
+  Elimination const one(S, mean, deviation, {0}), blocks(S, mean, deviation, {0, 20, 30, 40, 55});
   EXPECT_LT((blocks.information() - one.information()).norm(), 1e-13 * one.information().norm());
   EXPECT_LT((blocks.best(r) - one.best(r)).norm(), 1e-12 * one.best(r).norm());
   EXPECT_LT((blocks.shared(J) - S.transpose() * J).norm(), 1e-13 * J.norm() * S.norm());
