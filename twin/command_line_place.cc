@@ -95,7 +95,8 @@ void PlaceCommand::check_outputs() const {
   std::vector<std::filesystem::path> read = {candidates};
   for (auto const* names : {&experiments, &unseen})
     for (auto const& name : *names) read.push_back(experiment_file(name));
-  for (auto const& file : {output, picture}) refuse_to_overwrite(file, machine_file(machine), read);
+  refuse_to_overwrite(output, machine_file(machine), read);
+  refuse_to_overwrite(picture, machine_file(machine), read, fields);  // written after them
 }
 
 void PlaceCommand::write_map(PlacementReport const& report, Machine const& built) const {

@@ -63,7 +63,7 @@ void RunCommand::check_outputs(std::filesystem::path const& machine_path, std::f
   std::vector<std::filesystem::path> read = {experiment_path};
   for (auto const& recording : programme.recorded)
     read.push_back(scenarios::resolved_path(recording.file, programme.directory));
-  for (auto const& output : {dataset, picture}) refuse_to_overwrite(output, machine_path, read);
+  for (auto const& output : {dataset, picture}) refuse_to_overwrite(output, machine_path, read, fields);
 }
 
 void RunCommand::set_checkpoint(RunOptions& options) const {

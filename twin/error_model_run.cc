@@ -12,7 +12,6 @@
 #include "twin/complete_rows.h"
 #include "twin/diagnosis/measured_data.h"
 #include "twin/diagnosis/prediction.h"
-#include "twin/file/value.h"
 #include "twin/fingerprint.h"
 #include "twin/study/study_runs.h"
 
@@ -43,15 +42,6 @@ output::Channel const& sensor_named(output::Dataset const& data, std::string con
 output::Channel const& displacement_named(output::Dataset const& data, std::string const& name,
                                           std::string const& file) {
   return channel_named(data.displacements, name, file, "displacement");
-}
-
-/// The name in the machine's file, which a simulated run keeps.
-std::string machine_name_of(output::Dataset const& data) {
-  auto const text = data.provenance.find("machine.file");
-  if (text == data.provenance.end()) return {};
-  auto const document = parse_toml(text->second, "machine");
-  auto const* name = document.find("name");
-  return name && name->is_text() ? std::get<std::string>(name->content) : std::string();
 }
 
 /// Units and titles are those of the record; dataset_of() gives numbers in µm and µrad.
@@ -110,7 +100,7 @@ RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<d
     double const own = usual_interval({run.time.data(), std::size_t(run.time.size())});
     if (sampling && *sampling < own * (1.0 - 1e-6))
       throw InputError(fmt::format("a sampling of {:g} s is finer than the {:g} s between its rows", *sampling, own));
-    result.machine = whole ? machine_name_of(file) : data.machine;
+    result.machine = data.machine;
     result.shown = dataset_of(run, sampling);
     take_titles(data, result.shown);
     result.shown.positioning = file.positioning;

@@ -38,6 +38,14 @@ std::vector<NodeWeights> watched_sums(Machine const& machine) {
   return sums;
 }
 
+int middle_of(thermal::NodeRange const& body) { return body.first + body.count / 2; }
+
+std::vector<NodeWeights> middles_of(thermal::Network const& network) {
+  std::vector<NodeWeights> middles;
+  for (auto const& body : network.ranges()) middles.push_back({{middle_of(body), 1.0}});
+  return middles;
+}
+
 double sum_of_sizes(NodeWeights const& weights) {
   double sum = 0.0;
   for (auto const& [node, weight] : weights) sum += std::abs(weight);
@@ -238,7 +246,9 @@ double ReducedError::largest_reading() const {
 double ReducedError::largest_displacement() const { return displacements.size() == 0 ? 0.0 : displacements.maxCoeff(); }
 
 ReducedTwin::Model::Model(Machine const& machine, thermal::LinearPart const& linear, thermal::Subspace const& subspace)
-    : network(machine.network(), linear, subspace.shapes, subspace.elements), sums(network, watched_sums(machine)) {}
+    : network(machine.network(), linear, subspace.shapes, subspace.elements),
+      sums(network, watched_sums(machine)),
+      middles(network, middles_of(machine.network())) {}
 
 ReducedTwin::ReducedTwin(Machine const& machine, ReducedRange const& range,
                          std::optional<std::filesystem::path> const& kept,
@@ -298,12 +308,17 @@ History ReducedTwin::history_of(Model const& model, scenarios::Experiment const&
                                 ReducedResult& result) const {
   auto const start = initial_temperatures(*machine_, experiment, course);
   HistoryRecorder recorder(*machine_, course, model.sums);
-  auto const summary =
-      thermal::integrate(model.network, course, model.network.state_of(start), scenarios::sample_times(experiment),
-                         tolerance, [&](thermal::ReducedSample const& sample) {
-                           check_inputs(sample.input);
-                           recorder(sample);
-                         });
+  auto const& bodies = machine_->network().ranges();
+  VectorXd middles;
+  auto const summary = thermal::integrate(
+      model.network, course, model.network.state_of(start), scenarios::sample_times(experiment), tolerance,
+      [&](thermal::ReducedSample const& sample) {
+        check_inputs(sample.input);
+        model.middles.evaluate(sample.state, middles);
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+          check_temperature(machine_->network(), middle_of(bodies[b]), middles[Eigen::Index(b)], sample.time);
+        recorder(sample);
+      });
   result.steps += summary.steps;
   result.rate_evaluations += summary.rate_evaluations;
   return recorder.take();

@@ -57,6 +57,7 @@ class ReducedTwin {
                        std::optional<std::filesystem::path> const& kept = {},
                        std::function<void(std::string const&)> const& progress = {});
 
+  /// InputError of check_temperature (twin/run.h) for the middle of any body at any time that is shown.
   [[nodiscard]] ReducedResult run(scenarios::Experiment const& experiment) const;
 
   [[nodiscard]] Machine const& machine() const { return *machine_; }
@@ -77,6 +78,7 @@ class ReducedTwin {
     Model(Machine const& machine, thermal::LinearPart const& linear, thermal::Subspace const& subspace);
     thermal::ReducedNetwork network;
     thermal::ReducedSums sums;
+    thermal::ReducedSums middles;  ///< of every body, its middle node
   };
   [[nodiscard]] History history_of(Model const& model, scenarios::Experiment const& experiment,
                                    scenarios::ExperimentCourse const& course, double tolerance,

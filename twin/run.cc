@@ -9,6 +9,7 @@
 #include "output/picture.h"
 #include "thermal/error.h"
 #include "thermal/modal_integration.h"
+#include "thermal/physical_constant.h"
 #include "thermal/units.h"
 #include "twin/checkpoint.h"
 #include "twin/edge_unit.h"
@@ -232,6 +233,8 @@ void Recorder::show_field(thermal::Sample const& sample) {
 }
 
 void Recorder::operator()(thermal::Sample const& sample) {
+  for (int i = 0; i < machine_.network().nodes(); ++i)
+    check_temperature(machine_.network(), i, sample.temperatures[std::size_t(i)], sample.time);
   course_.evaluate(sample.time, inputs_);
   if (first_temperatures_.empty()) {
     first_temperatures_.assign(sample.temperatures.begin(), sample.temperatures.end());
@@ -311,6 +314,15 @@ RunResult run_in_modes(Machine const& machine, scenarios::Experiment const& expe
 }
 
 }  // namespace
+
+void check_temperature(thermal::Network const& network, int node, double temperature, double time) {
+  if ((temperature >= 0.0 && temperature <= hottest_temperature) || network.signals()[std::size_t(node)]) return;
+  throw thermal::InputError(fmt::format(
+      "'{}' is at {:.4g} °C at t = {:.6g} s; a run ends where a temperature leaves 0 to {:g} K ({:g} to {:g} °C): is "
+      "a heat, a speed or a conductance wrong by powers of ten?",
+      network.node_name(node), temperature - thermal::zero_celsius, time, hottest_temperature, -thermal::zero_celsius,
+      hottest_temperature - thermal::zero_celsius));
+}
 
 std::vector<double> initial_temperatures(Machine const& machine, scenarios::Experiment const& experiment,
                                          thermal::Course const& course) {

@@ -26,6 +26,13 @@ class Interrupted : public std::runtime_error {
 /// Of a run's tolerance, as users give it.
 inline constexpr double finest_tolerance = 1e-12, coarsest_tolerance = 0.01;
 
+/// Beyond it no material of a machine is solid (steel melts near 1800 K), and no law of the twin holds [K].
+inline constexpr double hottest_temperature = 2000.0;
+
+/// InputError that names node, temperature and time for one below 0 K, beyond `hottest_temperature`, or no number. A
+/// controller's state is no temperature.
+void check_temperature(thermal::Network const& network, int node, double temperature, double time);
+
 /// How a run is carried out and what it leaves behind.
 struct RunOptions {
   thermal::IntegrationOptions integration;
@@ -54,7 +61,8 @@ struct RunResult {
   thermal::IntegrationSummary summary;
 };
 
-/// Runs an experiment on a machine: temperatures, displacements, instruments, fields.
+/// Runs an experiment on a machine: temperatures, displacements, instruments, fields. InputError of check_temperature
+/// for any node at any time that is shown.
 [[nodiscard]] RunResult run(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options);
 
 /// The inputs of a course as a data set shows them, without their values: names, units of the edge, descriptions.

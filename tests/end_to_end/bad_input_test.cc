@@ -382,6 +382,18 @@ TEST(BadInput, OutputsThatCannotBeWritten) {
   }
 }
 
+/// Before any work: the data are not even looked for.
+TEST(BadInput, OutputsInNoFolder) {
+  for (std::string const command : {"diagnose v450 none.h5", "calibrate v450 none.h5", "fit none.h5", "place v450 -k 3",
+                                    "run golden_b_2000 -m v450"}) {
+    std::string const target = std::string("/nonexistent/x.") + (command.starts_with("run") ? "h5" : "toml");
+    auto const answer = program(command + " -o " + target);
+    EXPECT_EQ(answer.code, 2) << command;
+    EXPECT_NE(answer.text.find("cannot write '" + target + "': there is no folder '/nonexistent'"), std::string::npos)
+        << answer.text;
+  }
+}
+
 TEST(BadInput, FullDiskLeavesTheOldFile) {
   tests::TemporaryDirectory const directory;
   fs::path const dataset = directory.path() / "run.h5";

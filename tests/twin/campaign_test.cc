@@ -248,6 +248,20 @@ values = [)toml" + values + "\"1000 rpm\", \"4000 rpm\"]\n");
   EXPECT_NE(files.at("failures.csv").find("1000 rpm"), std::string::npos) << files.at("failures.csv");
 }
 
+/// A motor of 20 W, and of 1 MW.
+TEST(Campaign, ATemperatureThatRunsAwayIsAFailedRun) {
+  for (std::string const model : {"full", "modes"}) {
+    TemporaryDirectory const directory;
+    auto const campaign = read(directory, "experiments = [\"golden_b_4000\"]\nmachine = \"v450\"\nmodel = \"" + model +
+                                              "\"\nkeep = [\"summary\"]\n[[grid]]\n"
+                                              "path = \"motor_loss.stator.constant\"\nvalues = [\"20 W\", \"1 MW\"]\n");
+    auto const files = made(campaign, directory / "out", 1);
+    EXPECT_EQ(failed_runs(directory / "out"), 1) << model;
+    EXPECT_NE(files.at("failures.csv").find("a temperature leaves 0 to 2000 K"), std::string::npos)
+        << files.at("failures.csv");
+  }
+}
+
 /// By BDF to 1e-8, and in modes: twelve machines, six speeds in two hours, without the instruments' errors.
 TEST(Campaign, InModesTheRunsAreThoseOfTheFullModel) {
   TemporaryDirectory const directory;
@@ -288,6 +302,20 @@ TEST(Campaign, AFolderOfAnotherCampaignIsRefused) {
   EXPECT_THROW(run_campaign(other, {directory / "out", {}, {}, nullptr}), thermal::InputError);
   output::LockedFile const busy(directory / "out/parts/000000.journal", output::LockedFile::Busy::refuse);
   EXPECT_THROW(run_campaign(campaign, {directory / "out", {}, {}, nullptr}), output::OutputError);
+}
+
+TEST(Campaign, AFolderWithOtherFilesIsRefusedAndLeftAsItIs) {
+  TemporaryDirectory const directory;
+  auto const campaign = read(directory, example);  // its file is in the folder
+  try {
+    static_cast<void>(run_campaign(campaign, {directory.path(), {}, {}, nullptr}));
+    FAIL();
+  } catch (output::OutputError const& error) {
+    EXPECT_NE(std::string(error.what()).find("is not empty"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(directory.files(), std::vector<std::string>{"campaign.toml"});
+  fs::create_directories(directory / "begun/parts");  // by another process, which has not named its campaign yet
+  EXPECT_NO_THROW(static_cast<void>(run_campaign(campaign, {directory / "begun", {0, 100}, {}, nullptr})));
 }
 
 TEST(Campaign, MistakesAreToldWithTheirPlace) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -11,6 +12,7 @@
 #include "output/dataset_file.h"
 #include "output/error.h"
 #include "scenarios/course.h"
+#include "tests/scenarios/refusal.h"
 #include "thermal/block.h"
 #include "thermal/error.h"
 #include "twin/assembly.h"
@@ -24,6 +26,11 @@
 
 namespace thermotwin::twin {
 namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+using thermotwin::tests::refusal;
 
 Value nominal(std::string const& name) { return read_toml(machine_file(name)); }
 
@@ -360,6 +367,21 @@ TEST_F(ChallengeFolder, TakesOneMoreRunOfItsOwnMachineOnly) {
   std::filesystem::copy_file(file, root_ / "again.toml");
   write_challenge({"vmc850", 12, CaseKind::none, folder, root_ / "again.toml"});  // as script/challenge asks for it
   EXPECT_EQ(names(output::read(folder / "again.h5")), names(output::read(folder / "idle.h5")));
+}
+
+TEST_F(ChallengeFolder, IsOfAMachineThatCanHideSomething) {
+  auto const complaint = [&](std::string const& machine) -> std::string {
+    std::string const written = refusal([&] { write_challenge({machine, 1, CaseKind::none, root_ / "none", {}}); });
+    EXPECT_EQ(refusal([&] { (void)challenge_key({machine, 1, CaseKind::none, {}, {}}); }), written);
+    EXPECT_FALSE(std::filesystem::exists(root_ / "none"));
+    return written;
+  };
+  auto const fine = complaint("v450_fine"), board = complaint("tclab");
+  EXPECT_THAT(fine, StartsWith("there is no challenge of 'v450_fine': the hidden machine is a finer form of it"));
+  EXPECT_THAT(fine, EndsWith("did you mean 'v450'?"));
+  EXPECT_THAT(board, HasSubstr("it needs the input 'heater"));
+  EXPECT_THAT(board, HasSubstr("known: "));
+  EXPECT_THAT(board, HasSubstr("'g200'"));
 }
 
 TEST_F(ChallengeFolder, RefusesToOverwrite) {

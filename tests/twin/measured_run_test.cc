@@ -114,6 +114,19 @@ TEST(MeasuredRun, SuppositionsAreTold) {
   EXPECT_THAT(run.remarks, Contains(HasSubstr("as warm above as below")));
 }
 
+/// A challenge's runs keep no file of a machine; the name of the finer form is that of the machine.
+TEST(MeasuredRun, OfAnotherMachineIsTold) {
+  auto dataset = simulated();
+  auto const remarks = [&] { return measured_run(dataset, machine(), "monday").remarks; };
+  EXPECT_THAT(remarks(), testing::Not(Contains(HasSubstr("it is a run of"))));
+  for (std::string const same : {"v450", "v450_fine"}) {
+    dataset.provenance["machine.file"] = "name = \"" + same + "\"\n";
+    EXPECT_THAT(remarks(), testing::Not(Contains(HasSubstr("it is a run of")))) << same;
+  }
+  dataset.provenance["machine.file"] = "name = \"g200\"\n";
+  EXPECT_THAT(remarks(), Contains("it is a run of 'g200', the machine file is 'v450'"));
+}
+
 TEST(MeasuredRun, NoisySpeedJumpsWhereTheProgrammeDoesOnly) {
   auto dataset = simulated();
   std::mt19937_64 random(1);

@@ -173,6 +173,13 @@ TEST(ReducedTwin, RefusesAStartOutsideItsRange) {
   EXPECT_THROW((void)small_twin().run(experiment), thermal::InputError);
 }
 
+TEST(ReducedTwin, EndsWhereNothingIsSolid) {
+  auto const hot = Machine::build(
+      parse_toml(machine_text + "[[heat]]\nname = \"hot\"\nat = \"head\"\npower = \"100 kW\"\n", "hot.toml"));
+  EXPECT_THAT([&] { (void)ReducedTwin(hot).run(random_experiment(1)); },
+              testing::ThrowsMessage<thermal::InputError>(testing::HasSubstr("a temperature leaves 0 to 2000 K")));
+}
+
 /// Inputs of the machine's network at full speed, or at rest, in air of 20 °C.
 std::vector<double> input_at(double speed) {
   std::vector<double> input;

@@ -40,5 +40,23 @@ TEST(Run, RefusesALaserWithoutAScrewBeforeItBegins) {
   EXPECT_EQ(std::distance(begin(left), end(left)), 1);  // no partial data set
 }
 
+/// 100 kW in 26 kg of motor: 8 K/s, seen every 10 min.
+TEST(Run, EndsWhereNothingIsSolid) {
+  auto document = read_toml(machine_file("v450"));
+  set_parameter(document, "motor_loss.stator.constant", "100 kW");
+  auto const machine = Machine::build(document);
+  auto const file = experiment_file("golden_b_4000");
+  auto const experiment = read_experiment(read_toml(file), file);
+  RunOptions options;
+  for (bool const in_modes : {false, true}) {
+    options.in_modes = in_modes;
+    EXPECT_THAT([&] { static_cast<void>(run(machine, experiment, options)); },
+                testing::ThrowsMessage<thermal::InputError>(testing::AllOf(
+                    testing::StartsWith("'motor' is at "),
+                    testing::HasSubstr(" °C at t = 600 s; a run ends where a temperature leaves 0 to 2000 K"))))
+        << in_modes;
+  }
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

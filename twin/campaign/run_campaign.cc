@@ -51,8 +51,20 @@ std::map<std::string, std::string> sources_of(Campaign const& campaign) {
   return texts;
 }
 
+/// OutputError for a folder of others: without a manifest, and with more in it than what stands beside one that another
+/// process is about to write.
+void refuse_foreign_folder(fs::path const& folder) {
+  if (!fs::is_directory(folder)) return;
+  bool const ours = std::all_of(fs::directory_iterator(folder), {}, [](auto const& entry) {
+    auto const name = entry.path().filename().string();
+    return name == "parts" || name == "lock" || name.starts_with("manifest.json");
+  });
+  if (!ours && !fs::exists(folder / "manifest.json")) output::require_empty(folder);
+}
+
 /// The folder is this campaign's, or becomes it.
 void claim(Campaign const& campaign, fs::path const& folder) {
+  refuse_foreign_folder(folder);
   output::make_directory(folder / "parts");
   output::LockedFile const lock(folder / "lock", output::LockedFile::Busy::wait);
   auto const path = folder / "manifest.json";

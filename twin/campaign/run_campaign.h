@@ -35,8 +35,8 @@ struct CampaignReport {
 ///   parts/000000.h5 …    runs, whole parts only
 ///   parts/….journal      of parts in work
 ///
-/// A run that fails is recorded with its reason. Interrupted when `stop` is set; OutputError when the disk is full or
-/// another process makes the same share.
+/// A run that fails is recorded with its reason. Interrupted when `stop` is set; OutputError when the disk is full,
+/// another process makes the same share, or the folder is not empty and holds no campaign.
 CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& options);
 
 /// campaign.h5 and failures.csv, once every part is there; false as long as one is missing. Any process may do it, and

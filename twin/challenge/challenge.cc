@@ -1,5 +1,6 @@
 #include "twin/challenge/challenge.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,13 +9,17 @@
 
 #include "output/atomic_file.h"
 #include "output/dataset_file.h"
+#include "scenarios/course.h"
 #include "thermal/error.h"
+#include "thermal/nearest_name.h"
 #include "twin/challenge/challenge_runs.h"
 #include "twin/challenge/hidden_heat.h"
+#include "twin/challenge/refined_form.h"
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
 #include "twin/file/text_file.h"
 #include "twin/instruments/random_stream.h"
+#include "twin/needed_solution.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -161,8 +166,41 @@ std::string write_further_run(ChallengeOptions const& options) {
   return fmt::format("{}: one more run, {:.0f} h\n", target.string(), experiment.duration / 3600.0);
 }
 
+/// Why nothing can be hidden in a machine; empty where it can.
+std::string hindrance(std::filesystem::path const& file) {
+  Value const document = read_toml(file);
+  Machine const machine = Machine::build(document);
+  auto const experiment = challenge_runs(machine.limits, 1).front();
+  auto const given = scenarios::ExperimentCourse(experiment, machine.limits).channels();
+  for (int i = 0; i < machine.network().external_channels(); ++i) {
+    auto const& name = machine.network().channel_names()[std::size_t(i)];
+    if (std::none_of(given.begin(), given.end(), [&](auto const& channel) { return channel.name == name; }))
+      return fmt::format("it needs the input '{}', which the runs of a challenge do not give", name);
+  }
+  auto const hidden = refined_form(document);
+  if (known_solutions(file, hidden).size() < needed_solutions(hidden).size())
+    return "the hidden machine is a finer form of it, for whose blocks there are no elastic solutions";
+  return "";
+}
+
+std::vector<std::string> machines_for_challenges() {
+  std::vector<std::string> names;
+  for (auto const& entry : std::filesystem::directory_iterator(machine_file("v450").parent_path()))
+    if (entry.path().extension() == ".toml" && hindrance(entry.path()).empty())
+      names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// InputError for a machine of which there is no challenge; of v450_fine, v450 is the nearest.
 std::filesystem::path nominal_file(ChallengeOptions const& options) {
-  return machine_file(options.machine.value_or("v450"));
+  auto const file = machine_file(options.machine.value_or("v450"));
+  auto const reason = hindrance(file);
+  if (reason.empty()) return file;
+  auto const name = file.stem().string();
+  throw thermal::InputError(
+      fmt::format("there is no challenge of '{}': {}; {}", name, reason,
+                  thermal::did_you_mean(name.substr(0, name.find("_fine")), machines_for_challenges())));
 }
 
 HiddenWorld world_of(ChallengeOptions const& options, Value const& nominal) {

@@ -30,12 +30,15 @@ struct ChallengeOptions {
 /// | sealed_unseen.h5 | the same run before noise: what the hidden machine did, as its sensors would show it without |
 /// | sealed.json | kind, effects, sites, amplitudes, heat per body and run, displacement moved, parameters drawn |
 ///
-/// The same options write the same bytes. OutputError if the folder is there and not empty. A further run is written
-/// beside the others as <name of the experiment's file>.h5; InputError if that is there, and for options that are not
-/// the folder's. Returns one line for people, which does not tell what is hidden.
+/// The same options write the same bytes. OutputError if the folder is there and not empty; InputError, before anything
+/// is written, for a machine that needs other inputs than those of challenge_runs.h, or whose finer form
+/// (refined_form.h) has blocks without elastic solutions: it names the shipped machine that is meant, or those there
+/// are. A further run is written beside the others as <name of the experiment's file>.h5; InputError if that is there,
+/// and for options that are not the folder's. Returns one line for people, which does not tell what is hidden.
 std::string write_challenge(ChallengeOptions const& options);
 
-/// What the options' challenge would hide: the first keys of sealed.json, one line of JSON, without the runs.
+/// What the options' challenge would hide: the first keys of sealed.json, one line of JSON, without the runs. The same
+/// InputError.
 [[nodiscard]] std::string challenge_key(ChallengeOptions const& options);
 
 }  // namespace thermotwin::twin

@@ -10,6 +10,7 @@
 #include "thermal/units.h"
 #include "twin/diagnosis/measured_data.h"
 #include "twin/diagnosis/measurement_file.h"
+#include "twin/file/value.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -28,6 +29,21 @@ scenarios::SampledInput sampled(output::Channel const& channel, Eigen::VectorXd 
   input.values.assign(channel.values.begin(), channel.values.end());
   thermal::from_unit(input.values, unit);
   return input;
+}
+
+/// The name in the machine's file, which a simulated run keeps.
+std::string recorded_machine(output::Dataset const& dataset) {
+  auto const text = dataset.provenance.find("machine.file");
+  if (text == dataset.provenance.end()) return {};
+  auto const document = parse_toml(text->second, "machine");
+  auto const* name = document.find("name");
+  return name && name->is_text() ? std::get<std::string>(name->content) : std::string();
+}
+
+/// v450_fine is v450 in more cells.
+std::string without_fine(std::string name) {
+  if (name.ends_with("_fine")) name.erase(name.size() - std::string_view("_fine").size());
+  return name;
 }
 
 /// What a run of the twin, or of a controller, says about the place of a file.
@@ -61,8 +77,8 @@ MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string 
   run.remarks = data.remarks;
   run.time = data.time;
   run.initial_temperature = data.initial_temperature;
-  if (!data.machine.empty() && data.machine != machine.name)
-    run.remarks.push_back(fmt::format("measured on '{}', looked at with '{}'", data.machine, machine.name));
+  if (!data.machine.empty() && without_fine(data.machine) != without_fine(machine.name))
+    run.remarks.push_back(fmt::format("it is a run of '{}', the machine file is '{}'", data.machine, machine.name));
   run.channels = channels_of(data, machine, run.remarks);
   add_courses(run, std::move(data), machine);
   return run;
@@ -71,6 +87,7 @@ MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string 
 MeasuredData measured_data(output::Dataset const& dataset) {
   output::check(dataset);
   MeasuredData data;
+  data.machine = recorded_machine(dataset);
   double const start = dataset.time_s.size() > 0 ? dataset.time_s[0] : 0.0;
   data.time = dataset.time_s.array() - start;
   data.readings = dataset.readings;

@@ -37,7 +37,7 @@ struct MeasuredRun {
   Eigen::VectorXd time;                         ///< [s], strictly increasing
   std::vector<MeasuredChannel> channels;        ///< those of the machine that the data have, in the machine's order
   std::optional<double> initial_temperature;    ///< of the whole machine [K]; default: that of the air around each part
-  std::vector<std::string> remarks;             ///< for people: dead sensors, gaps, channels that the data lack
+  std::vector<std::string> remarks;  ///< for people: another machine, dead sensors, gaps, channels that the data lack
 };
 
 /// The median time between neighbours [s]; infinite for fewer than two.

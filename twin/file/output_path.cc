@@ -10,8 +10,26 @@ namespace thermotwin::twin {
 
 namespace fs = std::filesystem;
 
-void refuse_to_overwrite(fs::path const& output, fs::path const& machine, std::vector<fs::path> const& others) {
-  if (output.empty() || !fs::exists(output)) return;
+namespace {
+
+void require_folder(fs::path const& output, fs::path const& made) {
+  fs::path const folder = output.parent_path();
+  if (folder.empty() || fs::is_directory(folder)) return;
+  auto const rest = made.lexically_normal().lexically_relative(folder.lexically_normal());
+  if (!rest.empty() && *rest.begin() != "..") return;
+  throw thermal::InputError(fmt::format("cannot write '{}': there is no folder '{}'; make it, or name another one",
+                                        output.string(), folder.string()));
+}
+
+}  // namespace
+
+void refuse_to_overwrite(fs::path const& output, fs::path const& machine, std::vector<fs::path> const& others,
+                         fs::path const& made) {
+  if (output.empty()) return;
+  require_folder(output, made);
+  if (!fs::exists(output)) return;
+  if (fs::is_directory(output))
+    throw thermal::InputError(fmt::format("cannot write '{}': it is a folder; a file is due", output.string()));
   auto inputs = others;
   inputs.push_back(machine);
   for (auto const& input : inputs)

@@ -7,10 +7,11 @@
 
 namespace thermotwin::twin {
 
-/// InputError when `output` is the machine's file or another one that is read, by whatever path or link: before any
-/// work, not after it. Every command that writes a file asks this first. An empty path is no file.
+/// InputError when `output` is the machine's file or another one that is read, by whatever path or link, is a folder,
+/// or is to lie in one that is not there nor on the way to `made`, a folder that the command makes: before any work,
+/// not after it. Every command that writes a file asks this first. An empty path is no file.
 void refuse_to_overwrite(std::filesystem::path const& output, std::filesystem::path const& machine,
-                         std::vector<std::filesystem::path> const& others);
+                         std::vector<std::filesystem::path> const& others, std::filesystem::path const& made = {});
 
 /// InputError when a file's suffix says another format than `what` ("a data set") is written in; none says nothing.
 void check_suffix(std::filesystem::path const& output, std::string_view what, std::vector<std::string> const& suffixes);

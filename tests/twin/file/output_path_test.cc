@@ -1,0 +1,39 @@
+#include "twin/file/output_path.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/output/temporary_directory.h"
+#include "tests/scenarios/refusal.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using testing::HasSubstr;
+using thermotwin::tests::refusal;
+using thermotwin::tests::TemporaryDirectory;
+
+TEST(OutputPath, IsInAFolderThatIsThere) {
+  TemporaryDirectory const directory;
+  auto const said = [](std::filesystem::path const& output) {
+    return refusal([&] { refuse_to_overwrite(output, {}, {}); });
+  };
+  auto const lost = directory / "nodir/x.toml";
+  EXPECT_THAT(said(lost), HasSubstr("cannot write '" + lost.string() + "': there is no folder '" +
+                                    (directory / "nodir").string() + "'"));
+  EXPECT_THAT(said(directory.path()), HasSubstr("it is a folder; a file is due"));
+  EXPECT_EQ(said(directory / "x.toml"), "accepted");
+  EXPECT_EQ(said("x.toml"), "accepted");
+  EXPECT_EQ(said(""), "accepted");
+}
+
+TEST(OutputPath, MayBeInAFolderThatTheCommandMakes) {
+  auto const said = [](std::filesystem::path const& made) {
+    return refusal([&] { refuse_to_overwrite("nodir/x.png", {}, {}, made); });
+  };
+  for (auto const* made : {"nodir", "nodir/", "./nodir", "nodir/fields"}) EXPECT_EQ(said(made), "accepted") << made;
+  for (auto const* made : {"", "other", "nodir2"}) EXPECT_THAT(said(made), HasSubstr("there is no folder")) << made;
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
