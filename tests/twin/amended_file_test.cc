@@ -69,6 +69,15 @@ TEST(AmendedFile, LineBreaksAreThoseOfTheFile) {
   EXPECT_TRUE(amended_text("name = \"x\"", {fan}).starts_with("name = \"x\"\n\n#"));
 }
 
+/// As a logger calls its channels.
+TEST(AmendedFile, NamesMayHaveDots) {
+  std::string const text = "[[temperature_sensor]]\nname = \"Temp. 1.2\"\nat = \"bed\"\n";
+  EXPECT_THAT(with_values(text, {{"temperature_sensor.Temp. 1.2.lag", "40 s", "± 9 s"}}),
+              HasSubstr("name = \"Temp. 1.2\"\nlag = \"40 s\"  # ± 9 s\n"));
+  EXPECT_THAT(refusal([&] { (void)with_values(text, {{"temperature_sensor.Temp. 1.3.lag", "40 s", ""}}); }),
+              HasSubstr("there is no temperature_sensor named"));
+}
+
 TEST(AmendedFile, ValuesAreReplacedWhereTheyStand) {
   std::string const text = with_values(
       v450(), {{"joint.taper.conductance", "61.5 W/K", "± 4 W/K"}, {"bearing.front.grease_factor", "0.83", ""}});

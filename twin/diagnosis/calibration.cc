@@ -39,7 +39,7 @@ std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machin
 void add_estimates(Calibration& calibration, Estimation const& estimation, Fit const& fit, Machine const& machine) {
   auto const& unknowns = estimation.unknowns();
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
-    if (unknowns[u].kind == Unknown::Kind::interior || unknowns[u].kind == Unknown::Kind::moment) continue;
+    if (is_beyond_a_file(unknowns[u].kind) || unknowns[u].kind == Unknown::Kind::moment) continue;
     auto const i = Eigen::Index(u);
     double const deviation = std::sqrt(fit.covariance(i, i));
     if (unknowns[u].kind != Unknown::Kind::number) {
@@ -92,19 +92,20 @@ double misfit_of(Estimation const& estimation, Fit const& fit) {
   return fit.residual.head(estimation.rows()).squaredNorm() / std::max(samples, 1.0);
 }
 
-/// The fit of the identified numbers where the others are nominal; returns all unknowns.
-Eigen::VectorXd add_written(Calibration& calibration, Estimation const& estimation) {
+/// The fit of the identified numbers where the others are nominal.
+void add_written(Calibration& calibration, Estimation const& estimation) {
   std::vector<std::size_t> others;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n)
     if (!calibration.numbers[n].identified) others.push_back(n);
-  Eigen::VectorXd x = estimation.knowing(others).fit(estimation.prior_mean(), iterations).x;
-  for (std::size_t const n : others) x[Eigen::Index(n)] = 0.0;
-  for (std::size_t n = 0; n < calibration.numbers.size(); ++n) calibration.numbers[n].written = x[Eigen::Index(n)];
-  return x;
+  Fit fit = estimation.knowing(others).fit(estimation.prior_mean(), iterations);
+  for (std::size_t const n : others) fit.x[Eigen::Index(n)] = 0.0;
+  for (std::size_t n = 0; n < calibration.numbers.size(); ++n) calibration.numbers[n].written = fit.x[Eigen::Index(n)];
+  calibration.document = estimation.document_at(fit.x);
+  calibration.lags = changed_lags(estimation, fit);
 }
 
 std::vector<ChangedValue> changes_of(Calibration const& calibration) {
-  std::vector<ChangedValue> changes;
+  std::vector<ChangedValue> changes = calibration.lags;
   for (auto const& number : calibration.numbers) {
     if (!number.identified) continue;
     auto change = changed_value(number.number, number.written, number.deviation);
@@ -148,7 +149,7 @@ Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) 
   calibration.inseparable = inseparable(estimation.unknowns(), fit);
   add_collinearity(calibration, estimation, fit);
   calibration.misfit = misfit_of(estimation, fit);
-  calibration.document = estimation.document_at(add_written(calibration, estimation));
+  add_written(calibration, estimation);
   Machine const after = Machine::build(calibration.document);
   calibration.machine = before.name;
   calibration.gaps = gaps(before, after, runs);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "twin/diagnosis/amended_file.h"
 #include "twin/diagnosis/estimation.h"
 #include "twin/diagnosis/gap.h"
 #include "twin/diagnosis/plausibility.h"
@@ -48,9 +49,10 @@ struct Calibration {
   std::vector<std::string> weakest;  ///< numbers that make up most of that λ_min's direction
   double misfit = 0.0;  ///< mean square of the whitened residuals; 1: as expected, though an effect may be missing
   bool converged = false;
-  std::vector<ChannelGap> gaps;  ///< of the nominal machine and of `document`
-  Value document;                ///< the machine with the numbers as written
-  std::vector<Doubt> doubts;     ///< of calibrate_files
+  std::vector<ChannelGap> gaps;    ///< of the nominal machine and of `document`
+  Value document;                  ///< the machine with the numbers as written
+  std::vector<ChangedValue> lags;  ///< of the sensors, in that
+  std::vector<Doubt> doubts;       ///< of calibrate_files
   std::vector<std::string> remarks;
 
   /// Why something is missing, for people: residuals are larger than noise, numbers had to leave the file by more than

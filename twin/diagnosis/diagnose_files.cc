@@ -12,18 +12,6 @@
 namespace thermotwin::twin {
 namespace {
 
-std::vector<ChangedValue> changes_of(Diagnosis const& diagnosis, Value document) {
-  auto const numbers = uncertain_numbers(document);
-  std::vector<ChangedValue> changes;
-  for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
-    if (diagnosis.unknowns[u].kind != Unknown::Kind::number) continue;
-    auto const i = Eigen::Index(u);
-    changes.push_back(changed_value(numbers[diagnosis.unknowns[u].index], diagnosis.written.x[i],
-                                    std::sqrt(diagnosis.written.covariance(i, i))));
-  }
-  return changes;
-}
-
 /// The explanation whose best alternative is this effect.
 Explanation const* explanation_of(Diagnosis const& diagnosis, Hypothesis const& effect) {
   auto const it =
@@ -71,8 +59,7 @@ std::string amended(std::string const& text, Diagnosis const& diagnosis, RunFile
   std::vector<AddedTable> tables;
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u)
     if (diagnosis.unknowns[u].kind == Unknown::Kind::amplitude) tables.push_back(table_of(diagnosis, u, data));
-  auto const changes = changes_of(diagnosis, parse_toml(text, "machine file"));
-  return with_last_words(amended_text(with_values(text, changes), tables),
+  return with_last_words(amended_text(with_values(text, diagnosis.changes), tables),
                          fmt::format("Diagnosis of {}: {}. Numbers calibrated with it; ±: 95 %.", names_of(data),
                                      name_of(diagnosis.verdict)));
 }

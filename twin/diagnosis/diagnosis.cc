@@ -6,10 +6,13 @@
 #include <set>
 
 #include "twin/diagnosis/drifting_sensor.h"
+#include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/excitation.h"
 
 namespace thermotwin::twin {
 namespace {
+
+constexpr int fine = 48;  // knots of a scan: half an hour tells from another body what is switched by its own clock
 
 bool is_about(Hypothesis const& hypothesis, std::string const& what) {
   return hypothesis.effect->changes.find(what) != std::string::npos;
@@ -22,13 +25,15 @@ class Diagnostician {
         document_(machine),
         runs_(runs),
         machine_(Machine::build(machine)),
-        search_(machine, runs, options) {}
+        hypotheses_(excited_hypotheses()),
+        search_(machine, runs, hypotheses_, options) {}
   Diagnosis operator()();
 
  private:
   void say(std::string const& what) const {
     if (options_.progress) options_.progress(what);
   }
+  [[nodiscard]] std::vector<Hypothesis> excited_hypotheses() const;
   [[nodiscard]] FreeHeat unknown_heat() const;
   void write_down();
   void find_where();
@@ -43,18 +48,25 @@ class Diagnostician {
   Value const& document_;
   std::vector<BinnedRun> const& runs_;
   Machine machine_;
+  std::vector<Hypothesis> hypotheses_;
   EffectSearch search_;
   Diagnosis diagnosis_;
 };
 
+/// Those that would show in these runs at all.
+std::vector<Hypothesis> Diagnostician::excited_hypotheses() const {
+  auto all = hypotheses(document_, machine_, options_.without);
+  std::erase_if(all, [&](auto const& h) { return !is_excited(h, document_, machine_, runs_); });
+  return all;
+}
+
 Diagnosis Diagnostician::operator()() {
   auto& d = diagnosis_;
   d.calibrated = search_.calibrated();
-  d.hypotheses = hypotheses(document_, machine_, options_.without);
-  std::erase_if(d.hypotheses, [&](auto const& h) { return !is_excited(h, document_, machine_, runs_); });
+  d.hypotheses = hypotheses_;
   say("scanning for heat that the machine does not know");
   d.scan = scan_for_free_heat(search_.plain(), d.calibrated);
-  search_(d.hypotheses);
+  search_();
   auto const& amended = search_.estimation();
   d.explanations = search_.explanations();
   d.amended = search_.fit();
@@ -65,10 +77,13 @@ Diagnosis Diagnostician::operator()() {
   d.noise_heard = search_.noise_heard();
   if (!d.effects.empty()) d.left = scan_for_free_heat(amended, d.amended);
   d.faulty_sensor = faulty_sensor(machine_, runs_);
-  if (!d.faulty_sensor && d.effects.empty())
+  if (!d.faulty_sensor && d.effects.empty() && !is_unknown_heat())
     d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
   d.verdict = verdict();
-  if (d.verdict == Diagnosis::Verdict::none_known && is_unknown_heat()) d.unknown_heat = unknown_heat();
+  if (d.verdict == Diagnosis::Verdict::none_known && is_unknown_heat()) {
+    d.unknown_heat = unknown_heat();
+    d.unknown_heat_by_speed = heat_by_speed(*d.unknown_heat, runs_);
+  }
   d.disagreement = disagreements(search_.plain().with(amended.noise()), d.calibrated.x, machine_);
   if (!d.effects.empty()) d.disagreement_left = disagreements(amended, d.amended.x, machine_);
   find_where();
@@ -83,6 +98,8 @@ void Diagnostician::write_down() {
   auto const& amended = search_.estimation();
   d.written = amended.with_lumps().fit(d.amended.x);
   d.document = amended.document_at(d.written.x);
+  d.changes = changed_numbers(amended, d.written);
+  for (auto& lag : changed_lags(amended, d.written)) d.changes.push_back(std::move(lag));
   auto const& plain = search_.plain();
   d.calibrated_document = d.effects.empty() ? d.document : plain.document_at(plain.with_lumps().fit(d.calibrated.x).x);
   auto const first = d.amended.x.size() - Eigen::Index(d.effects.size());
@@ -92,11 +109,11 @@ void Diagnostician::write_down() {
   }
 }
 
-/// Heat of free course is still evident, or it took two effects on one body that are about heat: the catalogue does not
-/// have what acts there.
+/// Heat of free course is still evident, beside effects or where none was, or it took two effects on one body that are
+/// about heat: the catalogue does not have what acts there.
 bool Diagnostician::is_unknown_heat() const {
   auto const& found = diagnosis_.explanations;
-  auto const& left = diagnosis_.left;
+  auto const& left = found.empty() ? diagnosis_.scan : diagnosis_.left;
   if (!left.empty() && left[0].gain > search_.evident_beside()) return true;
   std::map<std::string, std::string> acting;  // on each body, the first
   return std::any_of(found.begin(), found.end(), [&](Explanation const& explanation) {
@@ -114,10 +131,12 @@ bool Diagnostician::is_unknown_shift() const {
   });
 }
 
-/// About the numbers of the file: those that were calibrated without the heat have taken part of it.
+/// About the numbers of the file: those that were calibrated without the heat have taken part of it. So has the noise
+/// that was heard where no effect stands in for it.
 FreeHeat Diagnostician::unknown_heat() const {
-  Estimation const plain = search_.plain().with(search_.estimation().noise());
-  return scan_for_free_heat(plain, plain.fit(plain.prior_mean(), 0))[0];
+  bool const bare = diagnosis_.effects.empty();
+  Estimation const plain = search_.plain().with(bare ? search_.expected_noise() : search_.estimation().noise());
+  return scan_for_free_heat(plain, plain.fit(plain.prior_mean(), 0), fine)[0];
 }
 
 /// Bodies and regimes that receive the heat that is missing.
@@ -170,8 +189,8 @@ void Diagnostician::propose() {
 Diagnosis::Verdict Diagnostician::verdict() const {
   using Verdict = Diagnosis::Verdict;
   if (diagnosis_.faulty_sensor && diagnosis_.explanations.empty()) return Verdict::sensor;
-  if (diagnosis_.explanations.empty()) return Verdict::nothing;
   if (is_unknown_heat() || is_unknown_shift()) return Verdict::none_known;
+  if (diagnosis_.explanations.empty()) return Verdict::nothing;
   bool const sensors = std::all_of(
       diagnosis_.explanations.begin(), diagnosis_.explanations.end(),
       [](Explanation const& explanation) { return is_about(explanation.alternatives[0].hypothesis, "sensor"); });

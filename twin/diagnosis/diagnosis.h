@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "twin/diagnosis/amended_file.h"
 #include "twin/diagnosis/disagreement.h"
 #include "twin/diagnosis/effect_search.h"
 #include "twin/diagnosis/faulty_sensor.h"
@@ -29,7 +30,8 @@ struct Diagnosis {
   /// Bodies that the missing heat enters, and whether it does so while the spindle turns or while it stands.
   std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`, where it is heat
-  std::vector<Remedy> proposals;         ///< of `either`: experiments that would tell the first one apart, best first
+  HeatBySpeed unknown_heat_by_speed;
+  std::vector<Remedy> proposals;  ///< of `either`: experiments that would tell the first one apart, best first
   std::optional<FaultySensor> faulty_sensor;
   std::vector<FreeHeat> scan;          ///< before any effect was added, best first
   std::vector<FreeHeat> left;          ///< with the effects, best first
@@ -37,10 +39,11 @@ struct Diagnosis {
   Fit calibrated;                      ///< without any effect
   Fit amended;                         ///< with those found, the best alternative of each
   Fit written;  ///< the same where lumps are lumps, as they are in a file: what the amended file gets
-  std::vector<Hypothesis> effects;  ///< of `amended`
-  std::vector<Unknown> unknowns;    ///< of `amended`
-  Value document;                   ///< the machine as amended: calibrated values and the effects
-  Value calibrated_document;        ///< with calibrated values alone
+  std::vector<Hypothesis> effects;    ///< of `amended`
+  std::vector<Unknown> unknowns;      ///< of `amended`
+  Value document;                     ///< the machine as amended: calibrated values and the effects
+  std::vector<ChangedValue> changes;  ///< of the user's numbers, and of the sensors' lags, to what that has
+  Value calibrated_document;          ///< with calibrated values alone
   std::vector<std::pair<std::string, double>> noise_heard;  ///< of every channel, over what was expected
   std::size_t visible = 0;  ///< hypotheses that would have been seen at half of their largest amplitude
 };

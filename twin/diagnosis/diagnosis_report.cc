@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_places = 6, most_keys = 3;
 constexpr double loud = 4.0;
+constexpr double departed = 3.0;  // prior deviations
+constexpr double large_share_of_growth = 0.2;
 
 /// "coefficient = 27 W/(m2 K) ± 10 W/(m2 K), with area = 0.5 m2": few keys are told, many stand in the amended file.
 std::string amplitude_text(Finding const& finding) {
@@ -203,10 +205,53 @@ std::string words_of_heat(Diagnosis const& diagnosis) {
   auto const& all = *diagnosis.unknown_heat;
   std::string text =
       fmt::format("Were it one heat of free course: {:.1f} W on average into {}.\n", mean_of(all), all.site.body);
+  auto const& by_speed = diagnosis.unknown_heat_by_speed;
+  if (by_speed.mean.size() > 1) {
+    std::vector<std::string> parts;
+    for (auto const& [name, watts] : by_speed.mean) parts.push_back(fmt::format("{} {:.1f} W", name, watts));
+    text += fmt::format("By speed: {}; about these it swings by {:.1f} W (root mean square).\n", fmt::join(parts, ", "),
+                        by_speed.swing);
+  }
   if (!diagnosis.left.empty())
     text += fmt::format("Beside what stands in for it, still: {:.1f} W on average into {}.\n",
                         mean_of(diagnosis.left[0]), diagnosis.left[0].site.body);
   return text + "\n";
+}
+
+/// Numbers that no longer are what the file says: "bearing.front.grease_factor = 2.04 (5.5)".
+std::string words_of_numbers(Diagnosis const& diagnosis) {
+  std::vector<std::string> far;
+  for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
+    auto const& unknown = diagnosis.unknowns[u];
+    double const departure = std::abs(diagnosis.written.x[Eigen::Index(u)]) / unknown.deviation;
+    if (unknown.kind != Unknown::Kind::number || departure < departed) continue;
+    for (auto const& change : diagnosis.changes)
+      if (change.path == unknown.name)
+        far.push_back(fmt::format("{} = {} ({:.1f})", change.path, change.text, departure));
+  }
+  if (far.empty()) return "";
+  return fmt::format(
+      "Numbers that had to leave the file, by more than {:g} of their prior deviations: {}. Is the file right "
+      "there?\n\n",
+      departed, fmt::join(far, ", "));
+}
+
+/// "E_Y by bed (+45 %)": shares of free growth that a displacement follows beyond its loop, evident and large.
+std::string words_of_loop(Diagnosis const& diagnosis) {
+  std::vector<std::string> steps;
+  for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
+    auto const& unknown = diagnosis.unknowns[u];
+    auto const i = Eigen::Index(u);
+    double const share = diagnosis.amended.x[i], error = std::sqrt(diagnosis.amended.covariance(i, i));
+    if (unknown.kind == Unknown::Kind::loop && std::abs(share) > std::max(large_share_of_growth, 3.0 * error))
+      steps.push_back(fmt::format("{} ({:+.0f} %)", unknown.name, 100.0 * share));
+  }
+  if (steps.empty()) return "";
+  return fmt::format(
+      "The file's structural loop leaves out, in shares of a solid's free growth: {}. The file that is written does "
+      "so, "
+      "too.\n\n",
+      fmt::join(steps, ", "));
 }
 
 /// Channels that err by much more than was expected of them: "T3 (4 times)".
@@ -215,6 +260,11 @@ std::string loud_channels(Diagnosis const& diagnosis) {
   for (auto const& [channel, times] : diagnosis.noise_heard)
     if (times >= loud) names.push_back(fmt::format("{} ({:g} times)", channel, times));
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+bool disagrees(Diagnosis const& diagnosis) {
+  return std::any_of(diagnosis.disagreement.begin(), diagnosis.disagreement.end(),
+                     [](Disagreement const& cell) { return cell.significant; });
 }
 
 }  // namespace
@@ -238,14 +288,23 @@ std::string headline(Diagnosis::Verdict verdict, std::size_t things, bool disagr
 
 std::string report_json(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
-  Json json = {{"verdict", name_of(diagnosis.verdict)}, {"effects", Json::array()}};
+  Json json = {{"verdict", name_of(diagnosis.verdict)},
+               {"headline", headline(diagnosis.verdict, diagnosis.explanations.size(), disagrees(diagnosis))},
+               {"effects", Json::array()}};
   for (std::size_t g = 0; g < diagnosis.explanations.size(); ++g)
     for (auto const& finding : diagnosis.explanations[g].alternatives) json["effects"].push_back(json_of(finding, g));
-  if (diagnosis.unknown_heat) json["heat"] = json_of(*diagnosis.unknown_heat);
+  if (diagnosis.unknown_heat) {
+    json["heat"] = json_of(*diagnosis.unknown_heat);
+    for (auto const& [name, watts] : diagnosis.unknown_heat_by_speed.mean)
+      json["heat"]["by_speed"].push_back({{"part", name}, {"watts", watts}});
+    json["heat"]["swing"] = diagnosis.unknown_heat_by_speed.swing;
+  }
   if (diagnosis.verdict == Diagnosis::Verdict::sensor)
     json["sensor"] = {{"name", diagnosis.explanations.empty()
                                    ? diagnosis.faulty_sensor->name
                                    : diagnosis.explanations[0].alternatives[0].hypothesis.body}};
+  if (auto const& sensor = diagnosis.faulty_sensor)
+    json["faulty_sensor"] = {{"name", sensor->name}, {"what", sensor->what}};
   json["tried"] = diagnosis.hypotheses.size();
   json["visible"] = diagnosis.visible;
   for (auto const& [channel, times] : diagnosis.noise_heard) json["noise_heard"][channel] = times;
@@ -265,7 +324,14 @@ std::string report_json(DiagnosisReport const& report) {
     json["experiment"] = proposal->file.string();
     json["experiment_distance"] = proposal->distance;
     json["experiment_wanted_distance"] = wanted_distance;
+    json["experiment_hours"] = proposal->hours;
   }
+  json["proposals"] = Json::array();
+  for (auto const& proposal : diagnosis.proposals)
+    json["proposals"].push_back({{"schedule", proposal.schedule},
+                                 {"hours", proposal.hours},
+                                 {"sensor", proposal.sensor},
+                                 {"distance", proposal.distance}});
   json["estimates"] = Json::array();
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
     auto const i = Eigen::Index(u);
@@ -281,10 +347,8 @@ std::string report_json(DiagnosisReport const& report) {
 
 std::string report_text(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
-  bool const disagrees = std::any_of(diagnosis.disagreement.begin(), diagnosis.disagreement.end(),
-                                     [](Disagreement const& cell) { return cell.significant; });
   std::string text = doubt_lines(report.doubts) + "\n" +
-                     headline(diagnosis.verdict, diagnosis.explanations.size(), disagrees) + "\n\n";
+                     headline(diagnosis.verdict, diagnosis.explanations.size(), disagrees(diagnosis)) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
   if (diagnosis.verdict == Diagnosis::Verdict::nothing)
     text += fmt::format(
@@ -292,6 +356,7 @@ std::string report_text(DiagnosisReport const& report) {
         diagnosis.hypotheses.size(), diagnosis.visible);
   if (auto const loudest = loud_channels(diagnosis); !loudest.empty())
     text += fmt::format("More error than expected was taken for noise at {}.\n\n", loudest);
+  text += words_of_numbers(diagnosis) + words_of_loop(diagnosis);
   text += words_of_proposal(diagnosis);
   if (auto const& sensor = diagnosis.faulty_sensor) text += fmt::format("{} {}.\n\n", sensor->name, sensor->what);
   text += words_of_heat(diagnosis);

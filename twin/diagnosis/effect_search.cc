@@ -19,7 +19,8 @@ namespace {
 // A fit that all later ones start from converges: half a valley down, the ninth digit of a number would decide what is
 // named.
 constexpr int to_the_end = 50;
-constexpr std::size_t most_refits = 24;
+constexpr double open_loop = 0.2;  // share of free growth
+constexpr std::size_t most_refits = 24, most_growths = 3;
 constexpr std::size_t most_alternatives = 3;
 constexpr double most_too_large = 2.0;  // a rough file is no reason to name nothing
 // What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
@@ -58,19 +59,20 @@ struct EffectSearch::Refit {
   double strength = -INFINITY;
 };
 
-EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options)
-    : options_(options), geometry_(Machine::build(document).geometry) {
+EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& runs,
+                           std::vector<Hypothesis> hypotheses, DiagnosisOptions const& options)
+    : options_(options), geometry_(Machine::build(document).geometry), hypotheses_(std::move(hypotheses)) {
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs));
   expected_ = estimation_->noise();
   fit_ = estimation_->fit(estimation_->prior_mean(), to_the_end);
+  open_loops();
   listen_to_noise();
   plain_ = estimation_;
   calibrated_ = fit_;
 }
 
-void EffectSearch::operator()(std::vector<Hypothesis> hypotheses) {
-  hypotheses_ = std::move(hypotheses);
+void EffectSearch::operator()() {
   linearise();
   for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
   if (drop_superfluous() && estimation_->effects().size() > 1) linearise();
@@ -87,6 +89,29 @@ double EffectSearch::share_of_strongest() const {
 
 double EffectSearch::evident_beside() const {
   return std::max(too_large() * options_.further_threshold, share_of_strongest());
+}
+
+/// Lets displacements leave their structural loops where that is evident, and more so than any one effect on a
+/// displacement: the structure is another then than the file says.
+void EffectSearch::open_loops() {
+  Estimation const open = estimation_->with_loops(open_loop);
+  Fit fit = open.fit(fit_.x, to_the_end);
+  double const gain = fit_.evidence - fit.evidence;
+  if (gain < 0.0 || gain_of_one_growth() > gain) return;
+  estimation_ = open;
+  fit_ = std::move(fit);
+}
+
+/// 2 ln of the evidence for the strongest effect on a displacement, about the present fit.
+double EffectSearch::gain_of_one_growth() {
+  linearise();
+  auto const scores = Remainder(fit_, whitened_signatures()).scores(hypotheses_);
+  std::vector<std::size_t> chosen;
+  for (std::size_t const k : promising(scores, hypotheses_, 0.0, INFINITY))
+    if (hypotheses_[k].effect->changes.find("deformation") != std::string::npos && chosen.size() < most_growths)
+      chosen.push_back(k);
+  auto const found = refits(fit_, chosen, scores);
+  return found.empty() ? 0.0 : found[0].strength;
 }
 
 /// The noise that the present fit leaves, and the fit with it.

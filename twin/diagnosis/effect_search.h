@@ -32,14 +32,17 @@ class EffectSearch {
  public:
   /// Calibrates, and hears the noise that the calibrated machine leaves. `document`, `runs` and `options` must outlive
   /// this.
-  EffectSearch(Value const& document, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options);
+  EffectSearch(Value const& document, std::vector<BinnedRun> const& runs, std::vector<Hypothesis> hypotheses,
+               DiagnosisOptions const& options);
 
   /// Tries the hypotheses; once.
-  void operator()(std::vector<Hypothesis> hypotheses);
+  void operator()();
 
   /// Of the machine without any effect, with the noise heard first.
   [[nodiscard]] Estimation const& plain() const { return plain_.value(); }
   [[nodiscard]] Fit const& calibrated() const { return calibrated_; }
+  /// Before any was heard.
+  [[nodiscard]] std::vector<ChannelNoise> const& expected_noise() const { return expected_; }
   /// With the effects found; the fit has the best alternative of each explanation.
   [[nodiscard]] Estimation const& estimation() const { return estimation_.value(); }
   [[nodiscard]] Fit const& fit() const { return fit_; }
@@ -70,6 +73,8 @@ class EffectSearch {
   void linearise();
   [[nodiscard]] Eigen::MatrixXd whitened_signatures() const;
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
+  void open_loops();
+  [[nodiscard]] double gain_of_one_growth();
   void listen_to_noise();
   void forget(Hypothesis const& found);
   [[nodiscard]] std::vector<double> strengths_beside_others() const;

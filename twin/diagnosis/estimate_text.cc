@@ -33,4 +33,31 @@ ChangedValue changed_value(UncertainNumber const& number, double x, double devia
           written_interval(std::abs(number.slope(x)) * deviation, number.unit)};
 }
 
+std::vector<ChangedValue> changed_numbers(Estimation const& estimation, Fit const& fit) {
+  std::vector<ChangedValue> changes;
+  for (std::size_t u = 0; u < estimation.unknowns().size(); ++u) {
+    auto const& unknown = estimation.unknowns()[u];
+    auto const i = Eigen::Index(u);
+    if (unknown.kind == Unknown::Kind::number)
+      changes.push_back(changed_value(estimation.numbers()[unknown.index], fit.x[i], std::sqrt(fit.covariance(i, i))));
+  }
+  return changes;
+}
+
+std::vector<ChangedValue> changed_lags(Estimation const& estimation, Fit const& fit) {
+  auto const sensors = estimation.machine_at(fit.x).sensors;
+  std::vector<ChangedValue> changes;
+  for (std::size_t u = 0; u < estimation.unknowns().size(); ++u) {
+    auto const& unknown = estimation.unknowns()[u];
+    auto const i = Eigen::Index(u);
+    if (unknown.kind != Unknown::Kind::lag) continue;
+    auto const& channel = estimation.channels()[unknown.index];
+    for (auto const& sensor : sensors)
+      if (sensor.description.name == channel)
+        changes.push_back({"temperature_sensor." + channel + ".lag", written_value(*sensor.description.lag, "s"),
+                           written_interval(std::sqrt(fit.covariance(i, i)), "s")});
+  }
+  return changes;
+}
+
 }  // namespace thermotwin::twin

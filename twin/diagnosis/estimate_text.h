@@ -1,9 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "twin/diagnosis/amended_file.h"
-#include "twin/diagnosis/uncertain_number.h"
+#include "twin/diagnosis/estimation.h"
 
 namespace thermotwin::twin {
 
@@ -21,5 +22,10 @@ inline constexpr double two_sided_95 = 1.96;
 
 /// A number of the file where its unknown is x ± `deviation`, with its interval as comment.
 [[nodiscard]] ChangedValue changed_value(UncertainNumber const& number, double x, double deviation);
+
+/// All numbers of the file at a fit.
+[[nodiscard]] std::vector<ChangedValue> changed_numbers(Estimation const& estimation, Fit const& fit);
+/// The lags of all sensors that have any of the channels.
+[[nodiscard]] std::vector<ChangedValue> changed_lags(Estimation const& estimation, Fit const& fit);
 
 }  // namespace thermotwin::twin

@@ -8,7 +8,9 @@
 #include <numeric>
 
 #include "thermal/error.h"
+#include "thermal/units.h"
 #include "twin/diagnosis/least_squares.h"
+#include "twin/file/document.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -16,6 +18,7 @@ namespace {
 
 constexpr double usual_lag = 30.0;      // [s]
 constexpr double lag_deviation = 25.0;  // [s]
+constexpr double most_lag = 900.0;      // that a sensor may have [s]
 constexpr double relative_step = 1e-4;
 constexpr int start_halvings = 4;
 
@@ -60,6 +63,16 @@ Unknown lag_unknown(std::vector<Sensor> const& sensors, std::string const& chann
       unknown.lower = -stated;
     }
   return unknown;
+}
+
+/// A sensor slower by so much than the file says.
+void add_lag(Value& document, std::string const& sensor, double more) {
+  for (auto* table : tables_of(document, "temperature_sensor")) {
+    if (name_in(*table) != sensor) continue;
+    double const stated = number_in(*table, "lag", thermal::dimension::time).value_or(0.0);
+    double const lag = std::clamp(stated + more, 0.0, most_lag);
+    set_key(*table, "lag", thermal::format_quantity(lag, thermal::dimension::time));
+  }
 }
 
 std::string table_name(std::size_t effect) { return fmt::format("diagnosed_{}", effect + 1); }
@@ -178,10 +191,18 @@ Estimation Estimation::knowing(std::vector<std::size_t> const& unknowns) const {
   return other;
 }
 
+Estimation Estimation::with_loops(double deviation) const {
+  Estimation other = *this;
+  for (auto& unknown : other.unknowns_)
+    if (unknown.kind == Unknown::Kind::loop) unknown.deviation = deviation;
+  other.eliminate(elimination_->columns());
+  return other;
+}
+
 Estimation Estimation::with_lumps() const {
   std::vector<std::size_t> hidden;
   for (std::size_t u = 0; u < unknowns_.size(); ++u)
-    if (unknowns_[u].kind == Unknown::Kind::interior) hidden.push_back(u);
+    if (is_beyond_a_file(unknowns_[u].kind)) hidden.push_back(u);
   return knowing(hidden);
 }
 
@@ -198,6 +219,8 @@ Value Estimation::document_at(Eigen::VectorXd const& x) const {
     if (unknown.kind == Unknown::Kind::number) {
       auto const& number = numbers_[unknown.index];
       set_number(document, {number.path, number.nominal, number.dimension, false}, number.value(x[Eigen::Index(u)]));
+    } else if (unknown.kind == Unknown::Kind::lag) {
+      add_lag(document, channels_[unknown.index], x[Eigen::Index(u)]);
     } else if (unknown.kind == Unknown::Kind::amplitude) {
       auto const& effect = effects_[unknown.index];
       document =
@@ -207,15 +230,7 @@ Value Estimation::document_at(Eigen::VectorXd const& x) const {
   return document;
 }
 
-Machine Estimation::machine_at(Eigen::VectorXd const& x) const {
-  Machine machine = Machine::build(document_at(x));
-  for (std::size_t u = 0; u < unknowns_.size(); ++u)
-    if (unknowns_[u].kind == Unknown::Kind::lag)
-      for (auto& sensor : machine.sensors)
-        if (sensor.description.name == channels_[unknowns_[u].index])
-          sensor.description.lag = sensor.description.lag.value_or(0.0) + x[Eigen::Index(u)];
-  return machine;
-}
+Machine Estimation::machine_at(Eigen::VectorXd const& x) const { return Machine::build(document_at(x)); }
 
 /// One per effect, in units of its trial's largest.
 std::vector<MachineDerivative> Estimation::amplitude_derivatives(Eigen::VectorXd const& x) const {

@@ -56,6 +56,8 @@ class Estimation {
   [[nodiscard]] Estimation with(std::vector<ChannelNoise> const& noise) const;
   /// The same question with some of the unknowns as good as known: to a hundredth of a per cent of their priors.
   [[nodiscard]] Estimation knowing(std::vector<std::size_t> const& unknowns) const;
+  /// The same question where displacements may leave their structural loops by so much of free growth (loop_gaps.h).
+  [[nodiscard]] Estimation with_loops(double deviation) const;
   /// The same question to a machine whose lumps hide nothing: all that a file can say.
   [[nodiscard]] Estimation with_lumps() const;
 
@@ -70,9 +72,8 @@ class Estimation {
   [[nodiscard]] Fit fit(Eigen::VectorXd const& start, int iterations = 10) const;
   [[nodiscard]] Eigen::VectorXd prior_mean() const;
 
-  /// The machine's document with the estimates in it, effects included.
+  /// The machine's document with the estimates in it: numbers, the sensors' lags, effects.
   [[nodiscard]] Value document_at(Eigen::VectorXd const& x) const;
-  /// That machine, with the instruments' lags.
   [[nodiscard]] Machine machine_at(Eigen::VectorXd const& x) const;
   /// Measured minus predicted and minus offsets, lags, start, air and gaps, row × channel of each run, not whitened.
   [[nodiscard]] std::vector<Eigen::MatrixXd> residuals_at(Eigen::VectorXd const& x) const;

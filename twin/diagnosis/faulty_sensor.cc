@@ -9,13 +9,14 @@ namespace thermotwin::twin {
 namespace {
 
 constexpr double least_jump = 0.5;  // [K]
-constexpr double driven = 180.0;    // after a change of the inputs a light body may warm as fast [s]
+constexpr double driven = 120.0;    // after a change of the inputs a light body may warm as fast [s]
 constexpr std::size_t level = 8;    // samples on each side whose mean is where a reading stands
 constexpr double unbroken = 1.9;    // usual intervals between neighbouring samples, at most: none is missing
 
 /// A change from one sample to the next.
 struct Change {
-  double time, before, by;
+  double from, time;  ///< of the samples [s]
+  double before, by;
 };
 
 /// Those between neighbouring samples of a channel, whatever rows of others are between; across a gap anything may
@@ -31,7 +32,7 @@ std::vector<Change> changes_of(Eigen::VectorXd const& time, Eigen::VectorXd cons
   std::vector<Change> changes;
   for (std::size_t i = 1; i < samples.size(); ++i)
     if (times[i] - times[i - 1] < unbroken * usual)
-      changes.push_back({times[i], samples[i - 1], samples[i] - samples[i - 1]});
+      changes.push_back({times[i - 1], times[i], samples[i - 1], samples[i] - samples[i - 1]});
   return changes;
 }
 
@@ -81,7 +82,7 @@ std::string jump_text(BinnedRun const& run, Eigen::VectorXd const& values) {
   auto const changes = changes_of(run.run->time, values);
   auto found = jumps(changes);
   std::erase_if(found, [&](std::size_t jump) {
-    return run.run->course->next_jump(changes[jump].time - driven) <= changes[jump].time;
+    return run.run->course->next_jump(changes[jump].from - driven) <= changes[jump].time;
   });
   if (found.size() > 1) return "jumps about as no body's temperature does";
   if (found.empty() || !stays(changes, found[0])) return "";

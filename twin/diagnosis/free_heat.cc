@@ -3,9 +3,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "thermal/threaded_product.h"
+#include "twin/diagnosis/regimes.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -14,13 +16,14 @@ namespace {
 constexpr double first_deviations[] = {3.0, 30.0, 300.0};  // σ_0 [W]
 constexpr double jump_time = 60.0;                         // in which the heat may jump with an input [s]
 constexpr double jump_worth = 4 * 3600.0;                  // as much as it may change otherwise in so long [s]
+constexpr double half_a_day = 12 * 3600.0;                 // [s]
 constexpr Eigen::Index knots_at_once = 12;                 // whose responses are found together
 constexpr double intensities[] = {0.01, 0.1, 0.5, 2.0};
 
 /// At regular times, and two for every jump of the inputs, before and after it: what is switched on jumps as well.
-Eigen::VectorXd knots_of(BinnedRun const& run) {
+Eigen::VectorXd knots_of(BinnedRun const& run, int count) {
   double const from = run.steps.front().begin, to = run.steps.back().end;
-  double const spacing = std::max(1800.0, (to - from) / 24.0);
+  double const spacing = std::max(half_a_day, to - from) / count;
   std::vector<double> knots = {from};
   auto const fill_until = [&](double end) {
     auto const parts = int(std::ceil((end - knots.back()) / spacing - 0.5));
@@ -178,11 +181,11 @@ std::vector<HeatSite> heat_sites(Machine const& machine) {
   return sites;
 }
 
-std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const& fit) {
-  Machine const machine = Machine::build(estimation.document_at(fit.x));
+std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const& fit, int count) {
+  Machine const machine = estimation.machine_at(fit.x);
   auto const sites = heat_sites(machine);
   std::vector<Eigen::VectorXd> knots;
-  for (auto const& run : estimation.data()) knots.push_back(knots_of(run));
+  for (auto const& run : estimation.data()) knots.push_back(knots_of(run, count));
   auto const columns = columns_of(estimation, machine, sites, knots);
   Eigen::LLT<Eigen::MatrixXd> const nuisance(square(fit.jacobian));
   Eigen::VectorXd const explained = nuisance.solve(fit.jacobian.transpose() * fit.residual);
@@ -214,6 +217,38 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
   });
   std::stable_sort(scan.begin(), scan.end(), [](auto const& a, auto const& b) { return a.gain > b.gain; });
   return scan;
+}
+
+HeatBySpeed heat_by_speed(FreeHeat const& heat, std::vector<BinnedRun> const& data) {
+  struct Sum {
+    double count = 0.0, first = 0.0, second = 0.0;
+  };
+  std::vector<std::string> names;
+  std::map<std::string, Sum> sums;
+  for (std::size_t r = 0; r < data.size(); ++r) {
+    auto const regimes = speed_regimes(*data[r].run, data[r].time);
+    for (Eigen::Index i = 0; i < data[r].time.size(); ++i) {
+      double q = 0.0;
+      for (Eigen::Index k = 0; k < heat.knots[r].size(); ++k)
+        q += heat.heat[r][k] * hat(heat.knots[r], k, data[r].time[i]);
+      auto const& name = regimes.names.empty() ? std::string() : regimes.names[regimes.of_row[std::size_t(i)]];
+      if (!sums.contains(name)) names.push_back(name);
+      auto& sum = sums[name];
+      sum.count += 1.0;
+      sum.first += q;
+      sum.second += q * q;
+    }
+  }
+  HeatBySpeed result;
+  double count = 0.0, square = 0.0;
+  for (auto const& name : names) {
+    auto const& sum = sums[name];
+    result.mean.emplace_back(name, sum.first / sum.count);
+    count += sum.count;
+    square += sum.second - sum.first * sum.first / sum.count;
+  }
+  result.swing = std::sqrt(std::max(0.0, square) / count);
+  return result;
 }
 
 LinearisedRun::MeanHeat mean_heat(FreeHeat const& heat, std::size_t r, BinnedRun const& run) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "twin/diagnosis/estimation.h"
@@ -32,8 +33,16 @@ struct FreeHeat {
   std::vector<double> mean;  ///< per run [W]
 };
 
-/// Every site as the place of such heat, best first, from one linearisation about a fit.
-[[nodiscard]] std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const& fit);
+/// Every site as the place of such heat, best first, from one linearisation about a fit. Knots besides those at jumps:
+/// so many in half a day, or in a run that is longer.
+[[nodiscard]] std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const& fit, int knots = 24);
+
+/// Such heat at each speed of the spindle, and how far it is from that otherwise.
+struct HeatBySpeed {
+  std::vector<std::pair<std::string, double>> mean;  ///< regimes.h, speed_regimes; over all runs [W]
+  double swing = 0.0;                                ///< root mean square about these means [W]
+};
+[[nodiscard]] HeatBySpeed heat_by_speed(FreeHeat const& heat, std::vector<BinnedRun> const& data);
 
 /// While the machine moves and while it stands, in one run.
 [[nodiscard]] LinearisedRun::MeanHeat mean_heat(FreeHeat const& heat, std::size_t run, BinnedRun const& data);

@@ -85,9 +85,11 @@ void Sites::for_tables(std::string_view kind, std::function<void(Value const&)> 
 void Sites::add_bodies() {
   constexpr double longest_single = 0.15;
   auto const turning = turning_bodies(document_);
-  auto const add_solid = [&](std::string const& place, std::string const& body) {
+  auto const add_solid = [&](Value const& table, std::string const& place, std::string const& body) {
     add("solid", {place, body});
-    if (std::find(turning.begin(), turning.end(), body) == turning.end()) add("resting solid", {place, body});
+    if (std::find(turning.begin(), turning.end(), body) != turning.end()) return;
+    add("resting solid", {place, body});
+    if (table.find("material")) add("casting", {place, body});
   };
   for (std::string const kind : {"lump", "bar", "hollow_cylinder", "block"})
     for_tables(kind, [&](Value const& table) {
@@ -96,9 +98,10 @@ void Sites::add_bodies() {
       if (!table.find("carried_by")) add("base", {name, name});
       auto const lengths = texts_of(table, "length");
       double const length = lengths.empty() ? 0.0 : thermal::parse_value(lengths[0], dimension::length);
-      if (kind != "bar" || length <= longest_single) return add_solid(name, name);
+      if (kind != "bar" || length <= longest_single) return add_solid(table, name, name);
       for (int third = 0; third < 3; ++third)
-        add_solid(fmt::format("{}[{:.4g} mm .. {:.4g} mm]", name, 1e3 * length * third / 3.0,
+        add_solid(table,
+                  fmt::format("{}[{:.4g} mm .. {:.4g} mm]", name, 1e3 * length * third / 3.0,
                               1e3 * length * (third + 1) / 3.0),
                   name);
     });

@@ -19,6 +19,8 @@ constexpr double air_deviation = 0.2;       // [K]
 constexpr double input_deviation = 0.7;     // of the response to what may have been given instead
 constexpr double moment_deviation = 0.577;  // about the sample that shows it, of any moment since the one before: 1/√3
 constexpr double interior_deviation = 0.5;  // of a lump: half of a slab
+constexpr double place_deviation = 0.5;     // 3 mm along a bar, a twentieth of the way to a neighbour
+constexpr double loop_deviation = 0.02;     // of free growth, as long as loops are what files say
 
 /// A probe's zero is anywhere: where it stood when it was first read, the machine had not moved yet, unless it has a
 /// past.
@@ -68,19 +70,26 @@ Eigen::MatrixXd response_to_earlier_changes(LinearisedRun const& twin) {
   return twin.response_to_earlier(times);
 }
 
+/// What a sensor shows more where its weights are others.
+Eigen::VectorXd response_to(SensorPlace const& place, LinearisedRun const& twin, Eigen::VectorXd const& prediction) {
+  Machine machine = twin.machine();
+  for (auto& sensor : machine.sensors)
+    if (sensor.description.name == place.sensor)
+      sensor.weights.insert(sensor.weights.end(), place.change.begin(), place.change.end());
+  return twin.prediction_of(machine).reshaped() - prediction;
+}
+
 }  // namespace
 
 LinearUnknowns::LinearUnknowns(Value const& document, std::vector<BinnedRun> const& data,
-                               std::vector<std::string> const& channels) {
+                               std::vector<std::string> const& channels)
+    : machine_(Machine::build(document)),
+      interiors_(document),
+      places_(sensor_places(document, machine_)),
+      gaps_(loop_gaps(machine_)) {
   add_of_channels(data, channels);
   for (std::size_t r = 0; r < data.size(); ++r) add_of_run(data[r], int(r));
-  LumpInteriors const interiors(document);
-  for (std::size_t i = 0; i < interiors.unknowns().size(); ++i)
-    unknowns_.push_back({.kind = Unknown::Kind::interior,
-                         .name = interiors.unknowns()[i].name,
-                         .deviation = interior_deviation,
-                         .index = i});
-  Machine const machine = Machine::build(document);
+  add_of_machine();
   Eigen::Index rows = 0;
   std::vector<Eigen::Index> first;
   for (auto const& run : data) {
@@ -89,7 +98,7 @@ LinearUnknowns::LinearUnknowns(Value const& document, std::vector<BinnedRun> con
   }
   columns_.setZero(rows, Eigen::Index(unknowns_.size()));
   in_parallel(data.size(), [&](std::size_t r) {
-    columns_.middleRows(first[r], data[r].values.size()) = columns_of(machine, interiors, data[r], int(r), channels);
+    columns_.middleRows(first[r], data[r].values.size()) = columns_of(data[r], int(r), channels);
   });
 }
 
@@ -136,12 +145,22 @@ void LinearUnknowns::add_of_run(BinnedRun const& data, int run) {
                          .run = run});
 }
 
-Eigen::MatrixXd LinearUnknowns::columns_of(Machine const& machine, LumpInteriors const& interiors,
-                                           BinnedRun const& data, int run,
+void LinearUnknowns::add_of_machine() {
+  auto const add = [&](Unknown::Kind kind, auto const& all, double deviation) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      unknowns_.push_back({.kind = kind, .name = all[i].name, .deviation = deviation, .index = i});
+  };
+  add(Unknown::Kind::interior, interiors_.unknowns(), interior_deviation);
+  add(Unknown::Kind::place, places_, place_deviation);
+  add(Unknown::Kind::loop, gaps_, loop_deviation);
+}
+
+Eigen::MatrixXd LinearUnknowns::columns_of(BinnedRun const& data, int run,
                                            std::vector<std::string> const& channels) const {
-  LinearisedRun const twin(machine, data);
+  LinearisedRun const twin(machine_, data);
+  Eigen::VectorXd const prediction = twin.prediction().reshaped();
   Eigen::MatrixXd const start_and_air = response_to_start_and_air(twin);
-  Eigen::MatrixXd const earlier = response_to_earlier_changes(twin), within = interiors.responses(data);
+  Eigen::MatrixXd const earlier = response_to_earlier_changes(twin), within = interiors_.responses(data);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(data.values.size(), Eigen::Index(unknowns_.size()));
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     auto const& unknown = unknowns_[u];
@@ -152,6 +171,8 @@ Eigen::MatrixXd LinearUnknowns::columns_of(Machine const& machine, LumpInteriors
     if (unknown.kind == Unknown::Kind::air) column = start_and_air.col(1);
     if (unknown.kind == Unknown::Kind::moment) column = earlier.col(own);
     if (unknown.kind == Unknown::Kind::interior) column = within.col(own);
+    if (unknown.kind == Unknown::Kind::place) column = response_to(places_[unknown.index], twin, prediction);
+    if (unknown.kind == Unknown::Kind::loop) column = twin.growth(gaps_[unknown.index].growth).reshaped();
     if (unknown.kind == Unknown::Kind::input) column = response_to(data.run->alternatives[unknown.index].course, twin);
     if (unknown.kind != Unknown::Kind::offset) continue;
     auto const rows = data.time.size();

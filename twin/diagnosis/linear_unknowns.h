@@ -5,13 +5,16 @@
 #include <vector>
 
 #include "twin/diagnosis/binned_run.h"
+#include "twin/diagnosis/loop_gaps.h"
 #include "twin/diagnosis/lump_interiors.h"
+#include "twin/diagnosis/sensor_places.h"
 #include "twin/diagnosis/unknown.h"
 
 namespace thermotwin::twin {
 
 /// Unknowns that are small, so that their response about the machine of the file serves throughout: offsets of sensors
-/// and zeros of displacements, how warm the machine starts, the air, when the inputs changed, and what lumps hide. And
+/// and zeros of displacements, how warm the machine starts, the air, when the inputs changed, what lumps hide, where
+/// exactly sensors sit, and what the structural loop leaves out. And
 /// what was given in gaps, of which a share is estimated: in proportion to its heat, of which only what is stored is
 /// seen.
 class LinearUnknowns {
@@ -25,10 +28,14 @@ class LinearUnknowns {
  private:
   void add_of_channels(std::vector<BinnedRun> const& data, std::vector<std::string> const& channels);
   void add_of_run(BinnedRun const& data, int run);
-  [[nodiscard]] Eigen::MatrixXd columns_of(Machine const& machine, LumpInteriors const& interiors,
-                                           BinnedRun const& data, int run,
+  void add_of_machine();
+  [[nodiscard]] Eigen::MatrixXd columns_of(BinnedRun const& data, int run,
                                            std::vector<std::string> const& channels) const;
 
+  Machine machine_;
+  LumpInteriors interiors_;
+  std::vector<SensorPlace> places_;
+  std::vector<LoopGap> gaps_;
   std::vector<Unknown> unknowns_;
   Eigen::MatrixXd columns_;
 };

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double pi_squared = std::numbers::pi * std::numbers::pi;
 constexpr double share = pi_squared / (3.0 + pi_squared);  // s
-constexpr double nearer = 0.1;
 constexpr double next_to_nothing = 1e-5, amount_step = 1e-3;
 
 std::string name_of_inside(std::string const& lump) { return "inside of " + lump; }
@@ -36,12 +35,6 @@ std::vector<LumpInteriors::Interior> LumpInteriors::interiors_of(Value const& do
     double const time = length * length / (pi_squared * thermal::diffusivity(*material));
     interior.heat_capacity = share * body.capacities[0];
     interior.conductance = interior.heat_capacity * (1.0 - share) / time;
-    for (auto const* joint : tables_of(copy, "joint"))
-      for (auto const& [here, there] : {std::pair("from", "to"), std::pair("to", "from")}) {
-        if (texts_of(*joint, here) != std::vector{interior.lump}) continue;
-        for (auto const& place : texts_of(*joint, there))
-          interior.neighbours.push_back({body_of(place), site_of(bodies.all().at(body_of(place)), place)});
-      }
     interiors.push_back(interior);
   }
   return interiors;
@@ -66,7 +59,7 @@ LumpInteriors::LumpInteriors(Value const& document)
 /// As much of each interior, from 0, the lump of the file, to 1.
 Machine LumpInteriors::machine_with(Value document, std::vector<double> const& amounts) const {
   for (std::size_t i = 0; i < interiors_.size(); ++i) {
-    auto const& [lump, heat_capacity, conductance, node, interior_node, neighbours] = interiors_[i];
+    auto const& [lump, heat_capacity, conductance, node, interior_node] = interiors_[i];
     for (auto* table : tables_of(document, "lump"))
       if (name_in(*table) == lump) {
         double const mass = number_in(*table, "mass", dimension::mass).value();
@@ -83,36 +76,29 @@ Machine LumpInteriors::machine_with(Value document, std::vector<double> const& a
 }
 
 void LumpInteriors::add_unknowns(std::size_t interior) {
-  auto const& [lump, heat_capacity, conductance, node, interior_node, neighbours] = interiors_[interior];
-  NodeWeights const mean{{interior_node, share}};
-  unknowns_.push_back({Unknown::Kind::heat, name_of_inside(lump), interior, "", {}});
-  auto const has_weight = [at = node](auto const& entry) {
+  auto const& lump = interiors_[interior].lump;
+  unknowns_.push_back({Unknown::Kind::heat, name_of_inside(lump), interior, ""});
+  auto const has_weight = [at = interiors_[interior].node](auto const& entry) {
     return std::any_of(entry.weights.begin(), entry.weights.end(), [&](auto const& w) { return w.first == at; });
   };
   if (std::any_of(machine_.displacements.begin(), machine_.displacements.end(), has_weight))
-    unknowns_.push_back({Unknown::Kind::growth, "growth of " + lump, interior, "", mean});
+    unknowns_.push_back({Unknown::Kind::growth, "growth of " + lump, interior, ""});
   for (auto const& sensor : machine_.sensors) {
-    if (!has_weight(sensor)) continue;
     auto const& name = sensor.description.name;
-    unknowns_.push_back({Unknown::Kind::reading, fmt::format("{} within {}", name, lump), interior, name, mean});
-    for (auto const& [body, site] : neighbours) {
-      NodeWeights there;
-      for (auto const& contact : site.contacts)
-        there.emplace_back(machine_.network().range(body).first + contact.node, nearer * contact.share);
-      unknowns_.push_back({Unknown::Kind::reading, fmt::format("{} near {}", name, body), interior, name, there});
-    }
+    if (has_weight(sensor))
+      unknowns_.push_back({Unknown::Kind::reading, fmt::format("{} within {}", name, lump), interior, name});
   }
 }
 
-Machine LumpInteriors::seeing_others(Unknown const& unknown) const {
-  auto const move = [&, node = interiors_[unknown.interior].node](NodeWeights& weights) {
+/// The mean of lump and interior in place of the lump.
+Machine LumpInteriors::seeing_means(Unknown const& unknown) const {
+  auto const& interior = interiors_[unknown.interior];
+  auto const move = [&](NodeWeights& weights) {
     for (std::size_t w = 0, count = weights.size(); w < count; ++w) {
-      if (weights[w].first != node) continue;
-      double const weight = weights[w].second;
-      for (auto const& [other, moved] : unknown.instead) {
-        weights[w].second -= moved * weight;
-        weights.emplace_back(other, moved * weight);
-      }
+      if (weights[w].first != interior.node) continue;
+      double const moved = share * weights[w].second;
+      weights[w].second -= moved;
+      weights.emplace_back(interior.interior_node, moved);
     }
   };
   Machine machine = machine_;
@@ -137,7 +123,7 @@ Eigen::MatrixXd LumpInteriors::responses(BinnedRun const& run) const {
     if (unknown.kind == Unknown::Kind::heat)
       column = heated.col(Eigen::Index(unknown.interior));
     else
-      column = twin.prediction_of(seeing_others(unknown)).reshaped() - prediction;
+      column = twin.prediction_of(seeing_means(unknown)).reshaped() - prediction;
   }
   return responses;
 }

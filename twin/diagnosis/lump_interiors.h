@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "thermal/evaluation.h"
-#include "thermal/site.h"
 #include "twin/diagnosis/binned_run.h"
 #include "twin/machine.h"
 
@@ -21,9 +20,6 @@ namespace thermotwin::twin {
 /// How much of that a lump has, no file says; nor whether the tool, and each sensor on it, follow the lump or the mean
 /// of lump and interior. These are unknowns of an estimation, linear about the machine of the file: 0 is the lump, 1
 /// the slab, or the mean. For lumps that are drawn and have a material.
-///
-/// And each sensor may sit nearer to one that the lump is joined to, or farther from it: 1 is a tenth of what the two
-/// differ by.
 class LumpInteriors {
  public:
   explicit LumpInteriors(Value const& document);
@@ -31,10 +27,9 @@ class LumpInteriors {
   struct Unknown {
     enum class Kind { heat, growth, reading };
     Kind kind;
-    std::string name;  ///< "inside of head", "growth of head", "T7 within head", "T7 near cartridge"
+    std::string name;  ///< "inside of head", "growth of head", "T7 within head"
     std::size_t interior;
-    std::string sensor;   ///< of a reading
-    NodeWeights instead;  ///< nodes that are seen instead of a share of the lump, by growth or reading
+    std::string sensor;  ///< of a reading
   };
   [[nodiscard]] std::vector<Unknown> const& unknowns() const { return unknowns_; }
   /// What the channels of a run show more of each unknown, (channel · rows + row) × unknown.
@@ -46,16 +41,11 @@ class LumpInteriors {
     double heat_capacity = 0.0;       ///< C_i [J/K]
     double conductance = 0.0;         ///< G_i [W/K]
     int node = 0, interior_node = 0;  ///< of the machine with interiors
-    struct Neighbour {
-      std::string body;
-      thermal::Site site;
-    };
-    std::vector<Neighbour> neighbours = {};
   };
   static std::vector<Interior> interiors_of(Value const& document);
   [[nodiscard]] Machine machine_with(Value document, std::vector<double> const& amounts) const;
   void add_unknowns(std::size_t interior);
-  [[nodiscard]] Machine seeing_others(Unknown const& unknown) const;
+  [[nodiscard]] Machine seeing_means(Unknown const& unknown) const;
 
   std::vector<Interior> interiors_;
   Machine machine_;                                      ///< with next to nothing of each interior

@@ -97,10 +97,7 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
                Eigen::MatrixXd& columns) {
   double const unit = hypothesis.largest;
   auto const at = [&](double amplitude) {
-    Machine machine = Machine::build(with_hypothesis(document, hypothesis, trial_table(index), amplitude * unit));
-    auto const& fitted = twins[0]->machine().sensors;
-    for (std::size_t s = 0; s < fitted.size(); ++s) machine.sensors[s].description.lag = fitted[s].description.lag;
-    return machine;
+    return Machine::build(with_hypothesis(document, hypothesis, trial_table(index), amplitude * unit));
   };
   Machine const with = at(2.0 * step);
   if (way_of(hypothesis) == Way::readings) {

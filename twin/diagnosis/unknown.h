@@ -17,6 +17,8 @@ struct Unknown {
     air,        ///< deviation of the room air from its record, in one run [K]
     input,      ///< share of what a run may have been given instead in a gap of its record
     moment,     ///< by how much an input changed before the sample that shows it [s]
+    place,      ///< of a sensor, in units of sensor_places.h
+    loop,       ///< share of a solid's growth that a displacement follows beyond its loop (loop_gaps.h)
     interior,   ///< of what a lump hides, in units of a slab's (lump_interiors.h)
   };
   Kind kind = Kind::number;
@@ -26,5 +28,10 @@ struct Unknown {
   std::size_t index = 0;  ///< of the number, the effect, the channel, the run's alternative or change, the interior
   int run = -1;           ///< −1: all
 };
+
+/// What a machine has and its file cannot say.
+[[nodiscard]] inline bool is_beyond_a_file(Unknown::Kind kind) {
+  return kind == Unknown::Kind::interior || kind == Unknown::Kind::place || kind == Unknown::Kind::loop;
+}
 
 }  // namespace thermotwin::twin

@@ -121,7 +121,7 @@ Effect const& guide_effect() {
        "sensors on rail and nut; the same mean feed with another stroke; torque of the axis"},
       {{.amplitude = "load",
         .largest = 1e5,
-        .sites = {{"rail", "solid"}, {"carriage", "nut"}},
+        .sites = {{"rail", "casting"}, {"carriage", "nut"}},
         .shapes = {{{"seal_force", "0 N"}}}}});
   return effect;
 }

@@ -25,7 +25,6 @@ std::optional<std::size_t> index_in(Value::List const& list, std::string const& 
   return list[index].is_table() ? std::optional(index) : std::nullopt;
 }
 
-/// Splits at the dots; a name may itself contain none.
 std::vector<std::string> split(std::string_view path) {
   std::vector<std::string> parts;
   std::size_t begin = 0;
@@ -35,6 +34,19 @@ std::vector<std::string> split(std::string_view path) {
       begin = i + 1;
     }
   return parts;
+}
+
+/// The table that the parts from `first` on name, all but the last, and how many of them make up its name, which may
+/// itself contain dots: as many as possible.
+std::pair<Value*, std::size_t> named_table(Value::List& list, std::vector<std::string> const& parts,
+                                           std::size_t first) {
+  for (std::size_t count = parts.size() - 1 - first; count > 0; --count) {
+    auto const begin = parts.begin() + std::ptrdiff_t(first);
+    std::string const name = fmt::format("{}", fmt::join(begin, begin + std::ptrdiff_t(count), "."));
+    for (auto& table : list)
+      if (table.is_table() && name_of(table) == name) return {&table, count};
+  }
+  return {nullptr, 0};
 }
 
 constexpr double most_whole = 0x1p53;  ///< up to which a double counts
@@ -109,14 +121,13 @@ std::pair<Value*, std::string> find_parameter(Value& document, std::string_view 
     if (found->is_list()) {
       auto& list = std::get<Value::List>(found->content);
       if (next + 2 >= parts.size()) fail("the path ends before a key", {}, "");
-      auto const& name = parts[++next];
-      auto const it =
-          std::find_if(list.begin(), list.end(), [&](auto const& v) { return v.is_table() && name_of(v) == name; });
-      if (it == list.end() && index_in(list, name)) {
-        here = &list[*index_in(list, name)];
-        continue;
-      }
-      if (it == list.end()) {
+      auto const [table, parts_of_name] = named_table(list, parts, next + 1);
+      if (!table) {
+        auto const& name = parts[++next];
+        if (auto const index = index_in(list, name)) {
+          here = &list[*index];
+          continue;
+        }
         std::vector<std::string> names;
         for (auto const& v : list)
           if (v.is_table()) names.push_back(name_of(v));
@@ -127,7 +138,8 @@ std::pair<Value*, std::string> find_parameter(Value& document, std::string_view 
                           name, parts[next - 1], tables));
         fail(fmt::format("there is no {} named '{}'", parts[next - 1], name), names, name);
       }
-      found = &*it;
+      found = table;
+      next += parts_of_name;
     }
     if (!found->is_table()) fail(fmt::format("'{}' is {}, not a table", parts[next], found->kind()), {}, "");
     here = found;

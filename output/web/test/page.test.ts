@@ -17,7 +17,7 @@ const cabinet = `
 [[heat]]
 name = "cabinet"
 at = "column_rear"
-power = "60 W"
+power = "120 W"
 while_on = "machine.on"
 `;
 

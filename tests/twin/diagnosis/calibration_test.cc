@@ -151,6 +151,8 @@ TEST_F(CalibrationTest, FileHasTheIdentifiedNumbersAndNoOthers) {
     EXPECT_NEAR(find_number(written, n.number.path).value, expected, 1e-5 * expected) << n.number.path;
   }
   EXPECT_THAT(contents(*folder / "calibrated.toml"), HasSubstr("# Calibrated from run.h5."));
+  EXPECT_NEAR(find_number(written, "temperature_sensor.T6.lag").value,
+              find_number(calibration.document, "temperature_sensor.T6.lag").value, 1e-3);
   EXPECT_EQ(contents(*folder / "mine.toml"), contents(machine_file("v450")));
 }
 

@@ -87,6 +87,10 @@ TEST_F(DiagnoseFilesTest, AmendedFileSaysWhatWasFoundAndWhere) {
   EXPECT_THAT(text, HasSubstr("2 ln of the evidence"));
   EXPECT_THAT(text, HasSubstr("growth_factor: ± "));
   EXPECT_THAT(text, HasSubstr("# was 0.55; ± 0."));
+  Machine const written = Machine::read(*folder / "amended.toml"), meant = Machine::build(report.diagnosis.document);
+  for (std::size_t s = 0; s < written.sensors.size(); ++s)  // machines are held to follow their data: so are sensors
+    EXPECT_NEAR(written.sensors[s].description.lag.value(), meant.sensors[s].description.lag.value(), 1e-3);
+  EXPECT_THAT(text, HasSubstr(" s\"  # ± "));
 }
 
 TEST_F(DiagnoseFilesTest, DoubtsOfTheDataAreToldFirst) {

@@ -1,9 +1,11 @@
 #include "twin/diagnosis/diagnosis.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <random>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/diagnosis/diagnosis_report.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -65,6 +67,53 @@ TEST(Diagnosis, KnowsNoneWhereItTakesTwoToMoveADisplacement) {
   EXPECT_EQ(name_of(diagnosis.verdict), "none_known");
   EXPECT_GE(diagnosis.effects.size(), 2);
   EXPECT_FALSE(diagnosis.unknown_heat);
+}
+
+/// Heat that comes and goes by a clock of its own: no effect has that course, and none stands in for it.
+TEST(Diagnosis, KnowsNoneWhereHeatFollowsAClockOfItsOwn) {
+  auto experiment = tests::experiment(R"(
+    duration = "12 h"
+    ambient.mean = "22 degC"
+    [spindle]
+    blocks = [{duration = "4 h", speed = "3000 rpm"}, {duration = "3 h", speed = "0 rpm"},
+              {duration = "5 h", speed = "5000 rpm"}])");
+  experiment.inputs.push_back({"hidden.on", {}});
+  for (auto const& [hours, on] : {std::pair(1.0, "0 %"), {1.5, "100 %"}, {2.3, "0 %"}, {0.7, "100 %"}, {3.0, "0 %"},
+                                  {1.0, "100 %"}, {2.5, "0 %"}})
+    experiment.inputs.back().blocks.push_back({3600.0 * hours, on});
+  Machine const truth = Machine::build(tests::with_table(tests::v450(), R"(
+    [[heat]]
+    name = "hidden"
+    at = "head_front"
+    power = "120 W"
+    while_on = "hidden.on")"));
+  auto dataset = run(truth, experiment, {}).dataset;
+  std::erase_if(dataset.inputs, [](auto const& input) { return input.name == "hidden.on"; });
+  auto measured = measured_run(dataset, Machine::build(tests::v450()), "own clock");
+  tests::add_noise(measured, 0.02, 0.05e-6, 7);
+  auto const diagnosis = diagnose(tests::v450(), {bin(measured, 300.0)}, {});
+  EXPECT_EQ(name_of(diagnosis.verdict), "none_known");
+  ASSERT_TRUE(diagnosis.unknown_heat);
+  EXPECT_EQ(diagnosis.unknown_heat->site.body, "head_front");
+  EXPECT_GT(diagnosis.unknown_heat_by_speed.swing, 25.0);  // of 120 W that are on for 3.2 of 12 h: 53 W
+  EXPECT_EQ(diagnosis.where[0].first, "head_front");
+}
+
+/// A bearing that rubs four times as much as its file says is no effect, but is told.
+TEST(Diagnosis, TellsNumbersThatAreFarFromTheFile) {
+  Value truth = tests::v450();
+  set_parameter(truth, "bearing.front.grease_factor", "2.2");
+  auto run = tests::measured(truth, tests::two_speeds());
+  tests::add_noise(run, 0.02, 0.05e-6, 7);
+  DiagnosisReport report;
+  report.diagnosis = diagnose(tests::v450(), {bin(run, 300.0)}, {});
+  EXPECT_EQ(name_of(report.diagnosis.verdict), "nothing");
+  EXPECT_THAT(report_text(report), testing::HasSubstr("of their prior deviations: bearing.front.grease_factor = 2."));
+  set_parameter(truth, "bearing.front.grease_factor", "0.55");
+  auto same = tests::measured(truth, tests::two_speeds());
+  tests::add_noise(same, 0.02, 0.05e-6, 7);
+  report.diagnosis = diagnose(tests::v450(), {bin(same, 300.0)}, {});
+  EXPECT_THAT(report_text(report), testing::Not(testing::HasSubstr("prior deviations")));
 }
 
 }  // namespace

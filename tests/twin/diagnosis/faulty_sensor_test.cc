@@ -31,12 +31,12 @@ VectorXd with_leaps(VectorXd values, int count) {
   return values;
 }
 
-/// One sample a minute; `missing` minutes without any after the 200th.
-std::optional<FaultySensor> found(std::vector<MeasuredChannel> channels, double missing = 0.0) {
+/// One sample a minute, or an interval [s]; `missing` of these without any after the 200th.
+std::optional<FaultySensor> found(std::vector<MeasuredChannel> channels, double missing = 0.0, double interval = 60.0) {
   MeasuredRun run;
   run.name = "monday";
   run.time = VectorXd::NullaryExpr(channels[0].values.size(),
-                                   [&](Eigen::Index i) { return 60.0 * (double(i) + (i < 200 ? 0.0 : missing)); });
+                                   [&](Eigen::Index i) { return interval * (double(i) + (i < 200 ? 0.0 : missing)); });
   run.channels = std::move(channels);
   auto const driven = tests::experiment(R"(
     duration = "10 h"
@@ -98,6 +98,14 @@ TEST(FaultySensor, IsNoneWhereTheSpindleStarts) {
   VectorXd values = warming();
   values.tail(480 - 51).array() += 1.0;
   EXPECT_FALSE(found({{"T1", false, warming()}, {"T2", false, values}}));
+}
+
+/// Read every five minutes, oil that answers within two has done so from one sample to the next.
+TEST(FaultySensor, IsNoneWhereTheSpindleStartsBetweenTwoSamples) {
+  VectorXd oil = VectorXd::Constant(120, 295.15);
+  for (Eigen::Index i = 11; i < oil.size(); ++i) oil[i] += 3.0 * (1.0 - std::exp(-(300.0 * double(i) - 3000.0) / 100.0));
+  EXPECT_FALSE(found({{"T1", false, oil}}, 0.0, 300.0));
+  EXPECT_TRUE(found({{"T1", false, oil.reverse()}}, 0.0, 300.0));  // nothing happens then
 }
 
 TEST(FaultySensor, IsNoneThatIsDisturbedForASample) {

@@ -1,7 +1,9 @@
 #include "twin/diagnosis/free_heat.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -140,6 +142,23 @@ TEST(FreeHeat, IsFoundAboutTheNumbersOfTheFile) {
   auto const best = scan_for_free_heat(estimation, estimation.fit(estimation.prior_mean(), 0)).front();
   EXPECT_EQ(best.site.body, "motor");
   EXPECT_NEAR(best.mean[0], 150.0, 30.0);
+}
+
+/// A watt more every hour: its means in the hours of each speed, and D/√12 about each of these, D its hours.
+TEST(FreeHeat, IsToldBySpeed) {
+  auto const run = tests::measured(v450(), tests::two_speeds());
+  std::vector<BinnedRun> const data = {bin(run, 60.0)};
+  FreeHeat rising;
+  rising.knots = {Eigen::Vector3d(0.0, 7200.0, 14400.0)};
+  rising.heat = {Eigen::Vector3d(0.0, 2.0, 4.0)};
+  auto const [mean, swing] = heat_by_speed(rising, data);
+  std::map<std::string, double> const means(mean.begin(), mean.end());
+  EXPECT_NEAR(means.at("5000 rpm"), 40.0 / 60.0, 0.02);
+  EXPECT_NEAR(means.at("2500 rpm"), 105.0 / 60.0, 0.02);
+  EXPECT_NEAR(means.at("idle"), 155.0 / 60.0, 0.02);
+  EXPECT_NEAR(means.at("4000 rpm"), 210.0 / 60.0, 0.02);
+  double const square = (std::pow(80.0, 3) + 2.0 * std::pow(50.0, 3) + std::pow(60.0, 3)) / (12.0 * 240.0 * 3600.0);
+  EXPECT_NEAR(swing, std::sqrt(square), 0.02 * std::sqrt(square));
 }
 
 }  // namespace

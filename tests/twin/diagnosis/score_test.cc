@@ -205,11 +205,8 @@ TEST(Score, SignaturesAreDifferencesOfWholeRuns) {
   auto const& hidden = hidden_at_the_motor();
   auto const& estimation = *hidden.estimation;
   Value const document = estimation.document_at(hidden.fit.x);
-  auto const lagging = estimation.machine_at(hidden.fit.x);
   auto const shown = [&](Hypothesis const& hypothesis, double amplitude) {
-    auto machine = Machine::build(with_hypothesis(document, hypothesis, "trial", amplitude * hypothesis.largest));
-    for (std::size_t s = 0; s < machine.sensors.size(); ++s)
-      machine.sensors[s].description.lag = lagging.sensors[s].description.lag;
+    auto const machine = Machine::build(with_hypothesis(document, hypothesis, "trial", amplitude * hypothesis.largest));
     VectorXd prediction = LinearisedRun(machine, hidden.data[0]).prediction().reshaped();
     estimation.whiten(prediction);
     return prediction;
