@@ -74,7 +74,9 @@ TEST(AmendedFile, NamesMayHaveDots) {
   std::string const text = "[[temperature_sensor]]\nname = \"Temp. 1.2\"\nat = \"bed\"\n";
   EXPECT_THAT(with_values(text, {{"temperature_sensor.Temp. 1.2.lag", "40 s", "± 9 s"}}),
               HasSubstr("name = \"Temp. 1.2\"\nlag = \"40 s\"  # ± 9 s\n"));
-  EXPECT_THAT(refusal([&] { (void)with_values(text, {{"temperature_sensor.Temp. 1.3.lag", "40 s", ""}}); }),
+  EXPECT_THAT(refusal([&] {
+                (void)with_values(text, {{"temperature_sensor.Temp. 1.3.lag", "40 s", ""}});
+              }),
               HasSubstr("there is no temperature_sensor named"));
 }
 

@@ -78,8 +78,13 @@ TEST(Diagnosis, KnowsNoneWhereHeatFollowsAClockOfItsOwn) {
     blocks = [{duration = "4 h", speed = "3000 rpm"}, {duration = "3 h", speed = "0 rpm"},
               {duration = "5 h", speed = "5000 rpm"}])");
   experiment.inputs.push_back({"hidden.on", {}});
-  for (auto const& [hours, on] : {std::pair(1.0, "0 %"), {1.5, "100 %"}, {2.3, "0 %"}, {0.7, "100 %"}, {3.0, "0 %"},
-                                  {1.0, "100 %"}, {2.5, "0 %"}})
+  for (auto const& [hours, on] : {std::pair(1.0, "0 %"),
+                                  {1.5, "100 %"},
+                                  {2.3, "0 %"},
+                                  {0.7, "100 %"},
+                                  {3.0, "0 %"},
+                                  {1.0, "100 %"},
+                                  {2.5, "0 %"}})
     experiment.inputs.back().blocks.push_back({3600.0 * hours, on});
   Machine const truth = Machine::build(tests::with_table(tests::v450(), R"(
     [[heat]]

@@ -103,7 +103,8 @@ TEST(FaultySensor, IsNoneWhereTheSpindleStarts) {
 /// Read every five minutes, oil that answers within two has done so from one sample to the next.
 TEST(FaultySensor, IsNoneWhereTheSpindleStartsBetweenTwoSamples) {
   VectorXd oil = VectorXd::Constant(120, 295.15);
-  for (Eigen::Index i = 11; i < oil.size(); ++i) oil[i] += 3.0 * (1.0 - std::exp(-(300.0 * double(i) - 3000.0) / 100.0));
+  for (Eigen::Index i = 11; i < oil.size(); ++i)
+    oil[i] += 3.0 * (1.0 - std::exp(-(300.0 * double(i) - 3000.0) / 100.0));
   EXPECT_FALSE(found({{"T1", false, oil}}, 0.0, 300.0));
   EXPECT_TRUE(found({{"T1", false, oil.reverse()}}, 0.0, 300.0));  // nothing happens then
 }

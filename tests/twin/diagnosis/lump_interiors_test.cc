@@ -89,8 +89,7 @@ TEST(LumpInteriors, LeadTheMeanAsAHeatedSlabDoes) {
   EXPECT_NEAR(last(E_Z, inside), growth * lead, 5e-3 * growth * lead);  // as long as the tool follows the lump
   EXPECT_NEAR(last(E_Z, grows), -growth * lead, 5e-3 * growth * lead);  // the mean is where it was
   EXPECT_NEAR(last(T1, reads), -lead, 5e-3 * lead);
-  for (auto const& [channel, unknown] :
-       {std::pair{T2, inside}, {T2, grows}, {T2, reads}, {T1, grows}, {E_Z, reads}})
+  for (auto const& [channel, unknown] : {std::pair{T2, inside}, {T2, grows}, {T2, reads}, {T1, grows}, {E_Z, reads}})
     EXPECT_NEAR(last(channel, unknown), 0.0, 1e-4 * lead);
 
   auto const& iron = thermal::material("GJL-300");
