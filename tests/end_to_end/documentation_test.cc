@@ -110,7 +110,7 @@ TEST(Documentation, DescribesAMachineThatRuns) {
   TemporaryDirectory const folder;
   auto const text = answer_of("docs/machine.md", folder);
   EXPECT_THAT(text, HasSubstr("the machine press: 11 nodes"));
-  EXPECT_THAT(text, HasSubstr("shapes of effects at their sites"));
+  EXPECT_THAT(text, HasSubstr("Every effect that is seen can be told from every other."));
   EXPECT_TRUE(fs::exists(folder / "machine" / "day.html"));
 }
 

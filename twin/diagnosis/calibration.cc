@@ -23,7 +23,6 @@ constexpr double tied = 0.95;            // correlation
 constexpr double large_share = 0.3;      // of a unit vector
 constexpr int iterations = 12;
 constexpr double more_than_noise = 2.0;  // misfit
-constexpr double far_from_file = 3.0;    // departure
 
 std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machine const& machine) {
   if (unknown.kind == Unknown::Kind::lag) return "s";

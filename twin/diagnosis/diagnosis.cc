@@ -14,10 +14,6 @@ namespace {
 
 constexpr int fine = 48;  // knots of a scan: half an hour tells from another body what is switched by its own clock
 
-bool is_about(Hypothesis const& hypothesis, std::string const& what) {
-  return hypothesis.effect->changes.find(what) != std::string::npos;
-}
-
 class Diagnostician {
  public:
   Diagnostician(Value const& machine, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options)
@@ -118,7 +114,7 @@ bool Diagnostician::is_unknown_heat() const {
   std::map<std::string, std::string> acting;  // on each body, the first
   return std::any_of(found.begin(), found.end(), [&](Explanation const& explanation) {
     auto const& effect = explanation.alternatives[0].hypothesis;
-    if (!is_about(effect, "source") && !is_about(effect, "film") && !is_about(effect, "boundary")) return false;
+    if (!effect.is_about("source") && !effect.is_about("film") && !effect.is_about("boundary")) return false;
     return acting.emplace(effect.body, effect.label()).first->second != effect.label();
   });
 }
@@ -127,7 +123,7 @@ bool Diagnostician::is_unknown_heat() const {
 bool Diagnostician::is_unknown_shift() const {
   std::set<std::string> moved;
   return std::any_of(diagnosis_.effects.begin(), diagnosis_.effects.end(), [&](Hypothesis const& effect) {
-    return is_about(effect, "deformation") && !moved.insert(effect.body).second;
+    return effect.is_about("deformation") && !moved.insert(effect.body).second;
   });
 }
 
@@ -193,7 +189,7 @@ Diagnosis::Verdict Diagnostician::verdict() const {
   if (diagnosis_.explanations.empty()) return Verdict::nothing;
   bool const sensors = std::all_of(
       diagnosis_.explanations.begin(), diagnosis_.explanations.end(),
-      [](Explanation const& explanation) { return is_about(explanation.alternatives[0].hypothesis, "sensor"); });
+      [](Explanation const& explanation) { return explanation.alternatives[0].hypothesis.is_about("sensor"); });
   if (sensors) return Verdict::sensor;
   bool const single = std::all_of(diagnosis_.explanations.begin(), diagnosis_.explanations.end(),
                                   [](Explanation const& explanation) { return explanation.alternatives.size() == 1; });

@@ -17,7 +17,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_places = 6, most_keys = 3;
 constexpr double loud = 4.0;
-constexpr double departed = 3.0;  // prior deviations
 constexpr double large_share_of_growth = 0.2;
 
 /// "coefficient = 27 W/(m2 K) ± 10 W/(m2 K), with area = 0.5 m2": few keys are told, many stand in the amended file.
@@ -224,7 +223,7 @@ std::string words_of_numbers(Diagnosis const& diagnosis) {
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
     auto const& unknown = diagnosis.unknowns[u];
     double const departure = std::abs(diagnosis.written.x[Eigen::Index(u)]) / unknown.deviation;
-    if (unknown.kind != Unknown::Kind::number || departure < departed) continue;
+    if (unknown.kind != Unknown::Kind::number || departure < far_from_file) continue;
     for (auto const& change : diagnosis.changes)
       if (change.path == unknown.name)
         far.push_back(fmt::format("{} = {} ({:.1f})", change.path, change.text, departure));
@@ -233,7 +232,7 @@ std::string words_of_numbers(Diagnosis const& diagnosis) {
   return fmt::format(
       "Numbers that had to leave the file, by more than {:g} of their prior deviations: {}. Is the file right "
       "there?\n\n",
-      departed, fmt::join(far, ", "));
+      far_from_file, fmt::join(far, ", "));
 }
 
 /// "E_Y by bed (+45 %)": shares of free growth that a displacement follows beyond its loop, evident and large.

@@ -34,7 +34,7 @@ Estimation with_rest(Estimation const& estimation, std::vector<Hypothesis> const
 std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit const& calibrated,
                                             std::vector<Hypothesis> const& hypotheses) {
   auto const is_drift = [](Hypothesis const& h) { return h.effect->name == "sensor_drift"; };
-  auto const is_of_machine = [](Hypothesis const& h) { return h.effect->changes.find("sensor") == std::string::npos; };
+  auto const is_of_machine = [](Hypothesis const& h) { return !h.is_about("sensor"); };
   std::vector<Hypothesis> drifts;
   std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(drifts), is_drift);
   if (drifts.empty()) return std::nullopt;

@@ -108,8 +108,7 @@ double EffectSearch::gain_of_one_growth() {
   auto const scores = Remainder(fit_, whitened_signatures()).scores(hypotheses_);
   std::vector<std::size_t> chosen;
   for (std::size_t const k : promising(scores, hypotheses_, 0.0, INFINITY))
-    if (hypotheses_[k].effect->changes.find("deformation") != std::string::npos && chosen.size() < most_growths)
-      chosen.push_back(k);
+    if (hypotheses_[k].is_about("deformation") && chosen.size() < most_growths) chosen.push_back(k);
   auto const found = refits(fit_, chosen, scores);
   return found.empty() ? 0.0 : found[0].strength;
 }

@@ -77,12 +77,6 @@ void add_lag(Value& document, std::string const& sensor, double more) {
 
 std::string table_name(std::size_t effect) { return fmt::format("diagnosed_{}", effect + 1); }
 
-/// What people see of an added effect acts through sensors or displacements, not through heat alone.
-bool is_read_directly(Hypothesis const& hypothesis) {
-  auto const& changes = hypothesis.effect->changes;
-  return changes.find("sensor") != std::string::npos || changes.find("deformation") != std::string::npos;
-}
-
 }  // namespace
 
 Fit without(Fit fit, Eigen::Index unknown) {
@@ -323,7 +317,7 @@ void Estimation::add_run(std::size_t run, Traced const& traced, thermal::Paramet
     if (unknown.kind == Unknown::Kind::number && moves_tool(number_derivatives_[unknown.index]))
       column -= numbers_[unknown.index].slope(value) *
                 twin.growth(number_derivatives_[unknown.index].displacements).reshaped();
-    if (unknown.kind == Unknown::Kind::amplitude && is_read_directly(effects_[unknown.index])) {
+    if (unknown.kind == Unknown::Kind::amplitude && effects_[unknown.index].is_read_directly()) {
       double const step = relative_step * std::max(std::abs(value), 1e-3);
       Eigen::VectorXd plus = traced.x;
       plus[unknowns[k]] += step;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct Hypothesis {
 
   /// What is compared: entries that differ in their shape only are one effect at one place.
   [[nodiscard]] std::string label() const { return effect->name + " at " + site; }
+  /// Whether the effect changes this: "source", "link", "film", "boundary", "sensor", "deformation" or "input".
+  [[nodiscard]] bool is_about(std::string_view what) const { return effect->changes.find(what) != std::string::npos; }
+  /// People see it through sensors or displacements, not through heat alone.
+  [[nodiscard]] bool is_read_directly() const { return is_about("sensor") || is_about("deformation"); }
   /// Of the amplitude.
   [[nodiscard]] thermal::Dimension dimension() const;
   /// Whether the 95 % interval of an amplitude (in units of `largest`, as its standard error) reaches down to what the

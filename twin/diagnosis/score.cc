@@ -25,9 +25,7 @@ enum class Way {
 };
 
 Way way_of(Hypothesis const& hypothesis) {
-  auto const& changes = hypothesis.effect->changes;
-  if (changes.find("sensor") != std::string::npos || changes.find("deformation") != std::string::npos)
-    return Way::readings;
+  if (hypothesis.is_read_directly()) return Way::readings;
   return hypothesis.site == "machine" ? Way::air : Way::shared;
 }
 

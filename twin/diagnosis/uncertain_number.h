@@ -9,6 +9,9 @@
 
 namespace thermotwin::twin {
 
+/// Beyond so many prior deviations a number no longer is what its file says.
+inline constexpr double far_from_file = 3.0;
+
 /// A number of a machine file that its author did not know exactly: value = nominal eˣ, x ~ N(0, deviation²); one of
 /// which not even the sign is known: value = nominal + x.
 struct UncertainNumber {

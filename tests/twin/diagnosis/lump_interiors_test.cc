@@ -1,8 +1,10 @@
 #include "twin/diagnosis/lump_interiors.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "thermal/material.h"
+#include "twin/diagnosis/linear_unknowns.h"
 #include "twin/experiment_file.h"
 #include "twin/file/value.h"
 #include "twin/run.h"
@@ -92,7 +94,18 @@ TEST(LumpInteriors, LeadTheMeanAsAHeatedSlabDoes) {
   for (auto const& [channel, unknown] : {std::pair{T2, inside}, {T2, grows}, {T2, reads}, {T1, grows}, {E_Z, reads}})
     EXPECT_NEAR(last(channel, unknown), 0.0, 1e-4 * lead);
 
+  // The oil stays as cold as it was: a sensor a tenth of the way to it sees a tenth less of the rise P t/C.
   auto const& iron = thermal::material("GJL-300");
+  double const rise = power * data.time[rows - 1] / (7.25 * iron.specific_heat);
+  LinearUnknowns const all(cube(), {data}, {"T1", "T2", "E_Z"});
+  auto const near =
+      std::find_if(all.all().begin(), all.all().end(), [](auto const& u) { return u.name == "T1 near oil"; });
+  ASSERT_NE(near, all.all().end());
+  Eigen::VectorXd const nearer = all.columns().col(near - all.all().begin());
+  EXPECT_NEAR(nearer[(T1 + 1) * rows - 1], -0.1 * rise, 5e-3 * rise);
+  EXPECT_EQ(nearer[(T2 + 1) * rows - 1], 0.0);
+  EXPECT_EQ(nearer[(E_Z + 1) * rows - 1], 0.0);
+
   // C d(δT)/dt = C_i (q/C) exp(−t/τ'), τ' = L² (1 + π²/3)/(π² α), from the start on.
   double const time = edge * edge * (1.0 / (M_PI * M_PI) + 1.0 / 3.0) / thermal::diffusivity(iron);
   for (Eigen::Index r = 0; r < rows; ++r)
