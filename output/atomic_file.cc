@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 #include <string>
 #include <unistd.h>
+#include <vector>
 
 #include "output/error.h"
 
@@ -95,6 +96,15 @@ void write_atomically(fs::path const& path, std::string_view contents) {
   replace(target, contents);
   Descriptor const directory(target.has_parent_path() ? target.parent_path() : fs::path("."), O_RDONLY);
   static_cast<void>(directory.synchronise());  // some file systems cannot: the rename is durable a little later there
+}
+
+void remove_leftovers(fs::path const& path) {
+  std::string const begin = path.filename().string() + '.';
+  std::vector<fs::path> leftovers;
+  for (auto const& entry : fs::directory_iterator(path.has_parent_path() ? path.parent_path() : fs::path(".")))
+    if (auto const name = entry.path().filename().string(); name.starts_with(begin) && name.ends_with(".tmp"))
+      leftovers.push_back(entry.path());
+  for (auto const& leftover : leftovers) fs::remove(leftover);
 }
 
 void make_directory(fs::path const& directory) {

@@ -13,6 +13,9 @@ namespace thermotwin::output {
 /// leaves no `.tmp` behind when the directory is missing or not writable, the disk is full or a size limit is met.
 void write_atomically(std::filesystem::path const& path, std::string_view contents);
 
+/// Removes the `.tmp` of processes that were killed while they wrote `path`. Nobody may be writing it.
+void remove_leftovers(std::filesystem::path const& path);
+
 /// Makes the directory and its parents; OutputError when that cannot be.
 void make_directory(std::filesystem::path const& directory);
 

@@ -98,6 +98,17 @@ TEST(AtomicFile, TwoProcessesMayWriteOneFile) {
   EXPECT_THAT(directory.files(), ElementsAre("a.csv"));
 }
 
+TEST(AtomicFile, LeftoversAreThoseOfThatFileAlone) {
+  TemporaryDirectory const directory;
+  for (auto const* name : {"a.h5", "a.h5.12-0.tmp", "a.h5.13-1.tmp", "a.h5.journal", "b.h5.12-0.tmp", "aa.h5.1-0.tmp"})
+    put(directory / name, "x");
+  remove_leftovers(directory / "a.h5");
+  std::vector<std::string> left;
+  for (auto const& entry : std::filesystem::directory_iterator(directory / ""))
+    left.push_back(entry.path().filename().string());
+  EXPECT_THAT(left, testing::UnorderedElementsAre("a.h5", "a.h5.journal", "b.h5.12-0.tmp", "aa.h5.1-0.tmp"));
+}
+
 TEST(AtomicFile, FollowsALink) {
   TemporaryDirectory const directory;
   put(directory / "run_7.csv", "old");

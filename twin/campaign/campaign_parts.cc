@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "output/atomic_file.h"
 #include "output/campaign_file.h"
 
 namespace thermotwin::twin {
@@ -60,7 +61,8 @@ bool CampaignParts::open_next() {
     }
     auto part = std::make_unique<Part>(journal, next_part_, first_run(next_part_), size(next_part_));
     done_ += std::int64_t(part->results.size()) - part->missing;
-    if (part->missing == 0) {
+    if (part->missing == 0) {  // whoever made it was killed before its file was there
+      output::remove_leftovers(file);
       close(*part);
       continue;
     }

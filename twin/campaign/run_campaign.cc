@@ -66,10 +66,11 @@ void refuse_foreign_folder(fs::path const& folder) {
 void claim(Campaign const& campaign, fs::path const& folder) {
   refuse_foreign_folder(folder);
   output::make_directory(folder / "parts");
+  auto const sources = sources_of(campaign);  // others need not wait for it
   output::LockedFile const lock(folder / "lock", output::LockedFile::Busy::wait);
   auto const path = folder / "manifest.json";
-  auto const sources = sources_of(campaign);
   if (!fs::exists(path)) {
+    output::remove_leftovers(path);
     output::write_atomically(path, nlohmann::ordered_json(sources).dump(2) + "\n");
     return;
   }
@@ -227,6 +228,7 @@ CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& opt
 
 bool finish_campaign(Campaign const& campaign, fs::path const& folder) {
   if (!fs::exists(folder / "manifest.json")) return false;
+  if (fs::exists(folder / "campaign.h5")) return true;
   output::LockedFile const lock(folder / "lock", output::LockedFile::Busy::wait);
   std::vector<output::CampaignPartFile> parts;
   for (std::int64_t part = 0; part < campaign.parts(); ++part) {
@@ -235,6 +237,7 @@ bool finish_campaign(Campaign const& campaign, fs::path const& folder) {
     if (!fs::exists(folder / parts.back().file)) return false;
   }
   if (fs::exists(folder / "campaign.h5")) return true;
+  for (auto const* name : {"failures.csv", "campaign.h5"}) output::remove_leftovers(folder / name);
   std::string failures = "run,reason\n";
   for (auto const& part : parts)
     for (auto const& [run, reason] : output::read_failures(folder / part.file))
