@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
+#include <set>
 
 #include "twin/instruments/random_stream.h"
 #include "twin/live_twin.h"
@@ -160,10 +161,23 @@ ReducedTwin const& reduced_twin() {
   return twin;
 }
 
+/// What an evaluation reads at least: the shapes at the laws' ports, for temperatures and again for heat.
+double bytes_of_evaluation(thermal::ReducedNetwork const& network) {
+  std::set<int> ports;
+  for (auto const& group : network.groups())
+    for (int const port : group.ports)
+      if (!network.shape_of_port(port).isZero(0.0)) ports.insert(port);
+  return 2.0 * sizeof(double) * double(ports.size()) * network.size();
+}
+
 void reduced_run(benchmark::State& state) {
   int seed = 0;
   auto const& twin = reduced_twin();
-  for (auto _ : state) benchmark::DoNotOptimize(twin.run(experiment(seed++ % 20)).steps);
+  double evaluations = 0.0;
+  for (auto _ : state) evaluations += double(twin.run(experiment(seed++ % 20)).rate_evaluations);
+  state.counters["shapes"] = twin.network().size();
+  state.counters["least_bytes"] =
+      benchmark::Counter(evaluations * bytes_of_evaluation(twin.coarse_network()), benchmark::Counter::kAvgIterations);
 }
 BENCHMARK(reduced_run)->Name("w4/one_run_reduced")->Unit(benchmark::kMillisecond);
 
@@ -178,6 +192,8 @@ void live_step(benchmark::State& state) {
     live.correct(readings);
     benchmark::DoNotOptimize(live.displacements().sum());
   }
+  state.counters["least_bytes"] =
+      2.0 * bytes_of_evaluation(twin.network()) + double(live.gain().size() * sizeof(double));
 }
 BENCHMARK(live_step)->Name("w7/live_step")->Unit(benchmark::kMicrosecond);
 

@@ -1,4 +1,4 @@
-// Shipped machines through 8 h of spectrum at a relative tolerance of 1e-6, the integration alone: 40 % of what the
+// Shipped machines through 9 h of spectrum at a relative tolerance of 1e-6, the integration alone: 40 % of what the
 // machine can, then 75 %, 100 %, rest and so on; and v450 with forward sensitivities to 40 of its numbers.
 // spectrum.py is the peer of Spectrum/v450, g200 and vmc850.
 #include <benchmark/benchmark.h>

@@ -1,4 +1,4 @@
-// How long the study of paper 004 takes: 18 batches, eight selections, all models, five seeds, nothing kept from
+// How long the study of paper 004 takes: 18 batches, all selections, all models, five seeds, nothing kept from
 // before; and how long one model takes to fit to one of its batches, of 91 readings of ten sensors (docs/study.md).
 //
 //   thermotwin_bench --benchmark_filter='Study|Training'

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
-#include <sys/resource.h>
 
 #include "tests/benchmarks/block/course.h"
+#include "tests/benchmarks/block/peak_memory.h"
 
 namespace thermotwin::block {
 namespace {
@@ -92,10 +92,7 @@ int run(int argc, char** argv) {
                std::streamsize(std::size_t(count) * sizeof(double)));
   }
   std::chrono::duration<double> const taken = std::chrono::steady_clock::now() - begin;
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  std::printf("{\"seconds\": %.6f, \"steps\": %ld, \"peak_bytes\": %ld}\n", taken.count(), steps,
-              usage.ru_maxrss * 1024L);
+  std::printf("{\"seconds\": %.6f, \"steps\": %ld, \"peak_bytes\": %ld}\n", taken.count(), steps, peak_memory());
   CVodeFree(&cvode);
   SUNLinSolFree(solver);
   N_VDestroy(y);

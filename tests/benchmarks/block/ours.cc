@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <sys/resource.h>
 
 #include "tests/benchmarks/block/course.h"
+#include "tests/benchmarks/block/peak_memory.h"
 #include "thermal/integrate.h"
 #include "thermal/laws.h"
 
@@ -81,13 +81,11 @@ int run(int argc, char** argv) {
     for (std::size_t i = 0; i < rise.size(); ++i) rise[i] = sample.temperatures[i] - room;
     file.write(reinterpret_cast<char const*>(rise.data()), std::streamsize(rise.size() * sizeof(double)));
   });
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
   std::printf(
       "{\"seconds\": %.6f, \"building\": %.6f, \"steps\": %ld, \"rates\": %ld, \"corrections\": %ld, "
       "\"jacobians\": %ld, \"failures\": %ld, \"peak_bytes\": %ld, \"imbalance\": %.1e, \"solver\": \"%s\"}\n",
       summary.wall_time, building.count(), summary.steps, summary.rate_evaluations, summary.nonlinear_iterations,
-      summary.jacobian_evaluations, summary.error_test_failures, usage.ru_maxrss * 1024L, summary.energy_imbalance(),
+      summary.jacobian_evaluations, summary.error_test_failures, peak_memory(), summary.energy_imbalance(),
       std::string(name_of(summary.solver)).c_str());
   return 0;
 }
