@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <stdexcept>
 
+#include "models/placement.h"
+
 namespace thermotwin::models {
 namespace {
 
@@ -15,13 +17,18 @@ using Set = std::vector<Index>;
 constexpr std::size_t starts = 12;
 constexpr double least_gain = 1e-9, least_sine_squared = 1e-9;
 
-/// sin² of the angle of every pair under a Gram matrix.
+/// sin² of the angle between two signatures, from their squares and their inner product.
+double sine_squared_of(double first, double second, double shared) {
+  double const sizes = first * second;
+  return sizes > 0.0 ? std::clamp(1.0 - shared * shared / sizes, 0.0, 1.0) : 0.0;
+}
+
+/// Of every pair under a Gram matrix.
 Eigen::ArrayXd sines_squared(Signatures const& signatures, MatrixXd const& gram) {
   Eigen::ArrayXd sines(Index(signatures.pairs.size()));
   for (std::size_t p = 0; p < signatures.pairs.size(); ++p) {
     auto const [a, b] = signatures.pairs[p];
-    double const sizes = gram(a, a) * gram(b, b);
-    sines[Index(p)] = sizes > 0.0 ? std::clamp(1.0 - gram(a, b) * gram(a, b) / sizes, 0.0, 1.0) : 0.0;
+    sines[Index(p)] = sine_squared_of(gram(a, a), gram(b, b), gram(a, b));
   }
   return sines;
 }
@@ -92,6 +99,80 @@ Set exchanged(Signatures const& signatures, Prices const& prices, Set set, Index
   return set;
 }
 
+/// Looks at sets one by one, each only until a pair is as close as in the best set so far; pairs that have ruled out
+/// others come first.
+class WidestSet {
+ public:
+  WidestSet(Signatures const& signatures, Prices const& prices, Index count, Set first)
+      : signatures_(signatures),
+        prices_(prices),
+        count_(count),
+        order_(signatures.pairs),
+        best_(std::move(first)),
+        widest_(smallest(signatures, gram_of(signatures, best_))) {}
+
+  [[nodiscard]] Set operator()() {
+    extend(0, prices_.budget);
+    return best_;
+  }
+
+ private:
+  /// By every set of sites from `next` on that what is left of the budget buys.
+  void extend(Index next, double left);
+  void look_at_set();
+  [[nodiscard]] double sine_squared(std::pair<Index, Index> const& pair) const;
+
+  Signatures const& signatures_;
+  Prices const& prices_;
+  Index count_;
+  std::vector<std::pair<Index, Index>> order_;
+  Set set_, best_;
+  double widest_;  ///< sin² of its smallest angle
+};
+
+void WidestSet::extend(Index next, double left) {
+  bool const fewer_will_do = std::isfinite(prices_.budget), full = Index(set_.size()) == count_;
+  if (full || (fewer_will_do && !set_.empty())) look_at_set();
+  if (full) return;
+  Index const sites = Index(signatures_.gram.size()), due = count_ - Index(set_.size());
+  for (Index site = next; site < sites && (fewer_will_do || sites - site >= due); ++site) {
+    if (prices_.cost_of(site) > left) continue;
+    set_.push_back(site);
+    extend(site + 1, left - prices_.cost_of(site));
+    set_.pop_back();
+  }
+}
+
+void WidestSet::look_at_set() {
+  double least = 1.0;
+  for (std::size_t p = 0; p < order_.size(); ++p) {
+    least = std::min(least, sine_squared(order_[p]));
+    if (least > widest_) continue;
+    std::swap(order_[p], order_[p / 2]);
+    return;
+  }
+  best_ = set_;
+  widest_ = least;
+}
+
+double WidestSet::sine_squared(std::pair<Index, Index> const& pair) const {
+  auto const [a, b] = pair;
+  double first = 0.0, second = 0.0, shared = 0.0;
+  for (auto const site : set_) {
+    auto const& gram = signatures_.gram[std::size_t(site)];
+    first += gram(a, a);
+    second += gram(b, b);
+    shared += gram(a, b);
+  }
+  return sine_squared_of(first, second, shared);
+}
+
+void check(Signatures const& signatures, Index count) {
+  auto const sites = Index(signatures.gram.size());
+  if (count < 1 || count > sites) throw std::invalid_argument(fmt::format("{} sensors for {} sites", count, sites));
+  if (signatures.pairs.empty()) throw std::invalid_argument("there are no two effects to tell apart");
+}
+
 }  // namespace
 
 Eigen::VectorXd angles(Signatures const& signatures, std::span<Index const> sensors) {
@@ -106,11 +187,9 @@ Closest closest_pair(Signatures const& signatures, std::span<Index const> sensor
 }
 
 Set place_to_distinguish(Signatures const& signatures, Index count, Prices const& prices) {
-  auto const sites = Index(signatures.gram.size());
-  if (count < 1 || count > sites) throw std::invalid_argument(fmt::format("{} sensors for {} sites", count, sites));
-  if (signatures.pairs.empty()) throw std::invalid_argument("there are no two effects to tell apart");
+  check(signatures, count);
   std::vector<std::pair<double, Index>> first;
-  for (Index i = 0; i < sites; ++i)
+  for (Index i = 0; i < Index(signatures.gram.size()); ++i)
     if (prices.cost_of(i) <= prices.budget)
       first.emplace_back(prices.cost_of(i) * crowding(signatures, signatures.gram[std::size_t(i)]), i);
   if (first.empty()) throw std::invalid_argument(fmt::format("the budget of {} buys no sensor at all", prices.budget));
@@ -123,6 +202,16 @@ Set place_to_distinguish(Signatures const& signatures, Index count, Prices const
   return *std::max_element(sets.begin(), sets.end(), [&](Set const& a, Set const& b) {
     return smallest(signatures, gram_of(signatures, a)) < smallest(signatures, gram_of(signatures, b));
   });
+}
+
+Set widest_of_all_sets(Signatures const& signatures, Index count, Prices const& prices) {
+  return WidestSet(signatures, prices, count, place_to_distinguish(signatures, count, prices))();
+}
+
+double number_of_sets(Index sites, Index count, Prices const& prices) {
+  double number = number_of_sets(sites, count);
+  for (Index fewer = 1; fewer < count && std::isfinite(prices.budget); ++fewer) number += number_of_sets(sites, fewer);
+  return number;
 }
 
 }  // namespace thermotwin::models

@@ -45,4 +45,12 @@ struct Prices {
 [[nodiscard]] std::vector<Eigen::Index> place_to_distinguish(Signatures const& signatures, Eigen::Index count,
                                                              Prices const& prices = {});
 
+/// The set of the widest smallest angle, by looking at all sets of `count` sites, within a budget of up to `count`: the
+/// truth where there are few. std::invalid_argument as above.
+[[nodiscard]] std::vector<Eigen::Index> widest_of_all_sets(Signatures const& signatures, Eigen::Index count,
+                                                           Prices const& prices = {});
+
+/// How many sets widest_of_all_sets() looks at, or more where a budget forbids some.
+[[nodiscard]] double number_of_sets(Eigen::Index sites, Eigen::Index count, Prices const& prices);
+
 }  // namespace thermotwin::models

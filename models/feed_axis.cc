@@ -74,10 +74,4 @@ Metrics FeedAxisModel::at_instant(AxisRecord const& record, Index instant, doubl
   return metrics(truth, predicted);
 }
 
-FeedAxisModel fit_feed_axis(std::span<AxisRecord const> records, ModelMethod const& method, FitOptions const& options) {
-  std::vector<Batch> batches;
-  for (auto const& record : records) batches.push_back(slope_batch(record));
-  return {method.fit(batches, options), zero_position(records)};
-}
-
 }  // namespace thermotwin::models

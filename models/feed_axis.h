@@ -51,6 +51,4 @@ struct FeedAxisModel {
   [[nodiscard]] Metrics at_instant(AxisRecord const& record, Eigen::Index instant, double from, double to) const;
 };
 
-FeedAxisModel fit_feed_axis(std::span<AxisRecord const> records, ModelMethod const& method, FitOptions const& options);
-
 }  // namespace thermotwin::models

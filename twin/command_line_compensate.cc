@@ -115,9 +115,9 @@ LiveModel CompensateCommand::live_model() const {
   auto const saved = read_error_model(model);
   check_error(saved);
   fmt::print(stderr, "{}", error_model_text(saved));
-  SavedModel live(saved.model, saved.ranges);
-  if (saved.twin) return ModelBesideTwin(twin_of(*saved.twin), saved.error, std::move(live));
-  return live;
+  auto const& first = saved.parts.front();
+  if (saved.parts.size() == 1 && !first.beside_twin) return SavedModel(first.model, first.ranges);
+  return MeanModel(saved);
 }
 
 /// An axis follows the error that it was told to follow.

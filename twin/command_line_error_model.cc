@@ -29,10 +29,12 @@ void FitCommand::add_to(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--sensors", fit.sensors, "temperatures to explain it by; default: all without a missing reading")
       ->delimiter(',');
-  command.add_option("--method", fit.method, "linear, ridge, ridge_distributed_lag, …: docs/study.md")
+  command
+      .add_option("--method", fit.method,
+                  "linear, ridge, ridge_distributed_lag, …; the mean of several: \"twin & ridge\"; docs/study.md")
       ->capture_default_str();
   command.add_option("--twin", twin,
-                     "machine, file or name, best calibrated: fit what it errs by, at the tool and at the sensors");
+                     "machine, file or name, best calibrated; a method that does not name it fits what it errs by");
   command.add_option("--sampling", sampling, "fit means over this time: \"1 min\"; default: the rows as they are");
   command.add_option("--seed", fit.seed, "of random starts")->capture_default_str();
   command.add_option("--output,-o", output, "error model to write (TOML)")->required();

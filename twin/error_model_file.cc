@@ -8,6 +8,8 @@
 #include "output/atomic_file.h"
 #include "thermal/error.h"
 #include "twin/axis_record.h"
+#include "twin/study/judgement.h"
+#include "twin/study/study_file.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -115,6 +117,7 @@ struct NetworkTable : ScalingTable {
 struct ModelTable {
   std::string method, remark;
   std::vector<std::string> inputs;
+  std::vector<double> lowest, highest;
   double sample_period = 0, parameters = 0;
   std::optional<LinearTable> linear;
   std::optional<KernelTable> kernel;
@@ -122,12 +125,14 @@ struct ModelTable {
 
   template <class Fields>
   static void fields(Fields& f) {
-    f.name("method", &ModelTable::method, "name in the catalogue");
+    f.name("method", &ModelTable::method, "name in the catalogue; \"twin ridge\" of what the twin errs by, \"twin\"");
     f("inputs", &ModelTable::inputs, "sensors in the order of the coefficients");
+    f("lowest_K", &ModelTable::lowest, dimensionless, "change of each input since the first row that the fit saw");
+    f("highest_K", &ModelTable::highest, dimensionless, "likewise; beyond, the model extrapolates");
     f("sample_period", &ModelTable::sample_period, thermal::dimension::time, "that lags count in", Range{0, 1e6});
     f("parameters", &ModelTable::parameters, dimensionless, "numbers that the fit determined");
     f("remark", &ModelTable::remark, "what the fit found out");
-    f("linear", &ModelTable::linear, "one of the three forms");
+    f("linear", &ModelTable::linear, "one of the three forms; the twin alone has none");
     f("kernel", &ModelTable::kernel, "likewise");
     f("network", &ModelTable::network, "likewise");
   }
@@ -164,7 +169,6 @@ struct TwinTable {
 struct FitTable {
   std::string version, commit;
   std::optional<double> sampling;
-  std::vector<double> lowest, highest;
   std::vector<RunTable> runs;
 
   template <class Fields>
@@ -172,8 +176,6 @@ struct FitTable {
     f("version", &FitTable::version, "of the program");
     f("commit", &FitTable::commit, "of the program");
     f("sampling", &FitTable::sampling, thermal::dimension::time, "over which rows were averaged", Range{0, 1e6});
-    f("lowest_K", &FitTable::lowest, dimensionless, "change of each input since the first row, over all runs");
-    f("highest_K", &FitTable::highest, dimensionless, "likewise; beyond, the model extrapolates");
     f("run", &FitTable::runs, "what the model was fitted to");
   }
 };
@@ -196,13 +198,15 @@ struct FileTables {
   std::optional<TwinTable> twin;
   std::optional<FitTable> fit;
   std::optional<ModelTable> model;
+  std::vector<ModelTable> parts;
 
   template <class Fields>
   static void fields(Fields& f) {
     f("predicts", &FileTables::predicts, "what the model tells");
-    f("twin", &FileTables::twin, "what the model stands beside");
+    f("twin", &FileTables::twin, "the twin of a model that is called so");
     f("fit", &FileTables::fit, "what it was fitted to; absent: nobody knows");
     f("model", &FileTables::model, "inputs and numbers");
+    f("part", &FileTables::parts, "in place of [model]: models whose mean it is, all of the same inputs");
   }
 };
 
@@ -237,23 +241,25 @@ std::string scaling_text(auto const& form) {
 }
 
 struct FormText {
+  std::string_view table;  ///< that the form is of
+
   std::string operator()(LinearForm const& form) const {
-    std::string text = fmt::format("\n[model.linear]\nintercept = {}\nunfitted = {}\nlag = [\n", number(form.intercept),
-                                   form.unfitted);
+    std::string text = fmt::format("\n[{}.linear]\nintercept = {}\nunfitted = {}\nlag = [\n", table,
+                                   number(form.intercept), form.unfitted);
     for (std::size_t l = 0; l < form.lags.size(); ++l)
       text += fmt::format("  {{ samples = {}, coefficients = {} }},\n", form.lags[l],
                           list(form.coefficients.col(Index(l))));
     return text + "]\n";
   }
   std::string operator()(KernelForm const& form) const {
-    std::string text = fmt::format("\n[model.kernel]\ng = {}\nintercept = {}\n{}support = [\n", number(form.g),
+    std::string text = fmt::format("\n[{}.kernel]\ng = {}\nintercept = {}\n{}support = [\n", table, number(form.g),
                                    number(form.intercept), scaling_text(form));
     for (Index k = 0; k < form.weights.size(); ++k)
       text += fmt::format("  {{ weight = {}, x = {} }},\n", number(form.weights(k)), list(form.support.row(k)));
     return text + "]\n";
   }
   std::string operator()(NetworkForm const& form) const {
-    std::string text = fmt::format("\n[model.network]\noutput_threshold = {}\n{}node = [\n",
+    std::string text = fmt::format("\n[{}.network]\noutput_threshold = {}\n{}node = [\n", table,
                                    number(form.output_threshold), scaling_text(form));
     for (Index k = 0; k < form.thresholds.size(); ++k)
       text += fmt::format("  {{ threshold = {}, output_weight = {}, weights = {} }},\n", number(form.thresholds(k)),
@@ -364,7 +370,6 @@ std::string fit_text(SavedErrorModel const& saved) {
   std::string text =
       fmt::format("\n[fit]\nversion = {}\ncommit = {}\n", toml_text(saved.version), toml_text(saved.commit));
   if (saved.sampling) text += fmt::format("sampling = \"{} s\"\n", number(*saved.sampling));
-  text += ranges_text(saved.ranges);
   text += "run = [\n";
   for (auto const& run : saved.runs)
     text += fmt::format(
@@ -374,33 +379,52 @@ std::string fit_text(SavedErrorModel const& saved) {
   return text + "]\n";
 }
 
-void check_method(std::string const& method, Value const& table) {
-  std::vector<std::string> known;
-  for (auto const& entry : models::model_methods()) known.emplace_back(entry.name);
-  if (std::find(known.begin(), known.end(), method) == known.end())
+NamedModel method_of(std::string const& method, Value const& table) {
+  try {
+    return named_model(method);
+  } catch (std::invalid_argument const&) {
+    std::vector<std::string> known;
+    for (auto const& entry : models::model_methods()) known.emplace_back(entry.name);
+    auto const own = method.substr(method.find_last_of(' ') + 1);  // without "twin"
     throw FileError(table.find("method")->where,
-                    fmt::format("unknown method '{}'; {}", method, thermal::did_you_mean(method, known)));
+                    fmt::format("unknown method '{}'; {}", method, thermal::did_you_mean(own, known)));
+  }
 }
 
-std::string model_text(ErrorModel const& model) {
+/// `head`: "[model]", "[[part]]"; `table`: what its form's table is of.
+std::string part_text(ModelPart const& part, std::string_view head, std::string_view table) {
+  auto const& model = part.model;
   std::vector<std::string> inputs;
   for (auto const& input : model.inputs) inputs.push_back(toml_text(input));
-  return fmt::format("\n[model]\nmethod = {}\ninputs = [{}]\nsample_period = \"{} s\"\nparameters = {}\nremark = {}\n",
-                     toml_text(model.method), fmt::join(inputs, ", "), number(model.sample_period),
-                     number(model.parameters), toml_text(model.remark));
+  std::string const text = fmt::format("\n{}\nmethod = {}\ninputs = [{}]\n{}", head, toml_text(part.name()),
+                                       fmt::join(inputs, ", "), ranges_text(part.ranges));
+  if (!part.reads()) return text;
+  return text +
+         fmt::format("sample_period = \"{} s\"\nparameters = {}\nremark = {}\n", number(model.sample_period),
+                     number(model.parameters), toml_text(model.remark)) +
+         std::visit(FormText{table}, model.form);
 }
 
-ErrorModel model_of(ModelTable const& read, Value const& table) {
-  check_method(read.method, table);
+std::string parts_text(std::vector<ModelPart> const& parts) {
+  if (parts.size() == 1) return part_text(parts.front(), "[model]", "model");
+  std::string text;
+  for (auto const& part : parts) text += part_text(part, "[[part]]", "part");
+  return text;
+}
+
+ErrorModel model_of(ModelTable const& read, std::string const& method, Value const& table) {
   if (read.inputs.empty()) throw FileError(table.where, "'inputs' is missing or empty");
-  if (read.linear.has_value() + read.kernel.has_value() + read.network.has_value() != 1)
-    throw FileError(table.where, "exactly one of [model.linear], [model.kernel] and [model.network] is due");
+  auto const forms = read.linear.has_value() + read.kernel.has_value() + read.network.has_value();
+  if (forms != (method.empty() ? 0 : 1))
+    throw FileError(table.where, method.empty() ? "the twin alone has no form: it adds nothing to what it says"
+                                                : "exactly one of 'linear', 'kernel' and 'network' is due");
+  if (method.empty()) return nothing_more(read.inputs);
   auto const place = [&](char const* key) { return TablePlace{table.find(key)->where, Index(read.inputs.size())}; };
-  ErrorModel model{read.method, read.inputs, read.sample_period, read.parameters, {}, read.remark};
+  ErrorModel model{method, read.inputs, read.sample_period, read.parameters, {}, read.remark};
   if (read.linear) {
     auto const form = form_of(*read.linear, place("linear"));
     place("linear").check(form.lags.back() == 0 || read.sample_period > 0.0,
-                          "lags count samples, and 'sample_period' of [model] is missing or 0");
+                          "lags count samples, and 'sample_period' of the model is missing or 0");
     model.form = form;
   }
   if (read.kernel) model.form = form_of(*read.kernel, place("kernel"));
@@ -426,7 +450,8 @@ void check_predicts(FileTables const& read, Value const& document) {
   if (slope && read.twin) throw FileError(document.find("twin")->where, "a slope stands beside no twin");
 }
 
-std::vector<InputRange> ranges_of(FitTable const& read, Value const& table, std::size_t inputs) {
+std::vector<InputRange> ranges_of(ModelTable const& read, Value const& table) {
+  auto const inputs = read.inputs.size();
   if (read.lowest.empty() && read.highest.empty()) return {};
   if (read.lowest.size() != inputs || read.highest.size() != inputs)
     throw FileError(table.where, fmt::format("'lowest_K' has {} numbers and 'highest_K' {}; the model has {} input{}",
@@ -441,17 +466,44 @@ std::vector<InputRange> ranges_of(FitTable const& read, Value const& table, std:
   return ranges;
 }
 
+ModelPart part_of(ModelTable const& read, Value const& table) {
+  auto const named = method_of(read.method, table);
+  return {model_of(read, named.method, table), named.twin, ranges_of(read, table)};
+}
+
+/// A twin has parts that stand beside it, and only then.
+void check_twin(FileTables const& read, Value const& document, std::vector<ModelPart> const& parts) {
+  auto const beside = std::find_if(parts.begin(), parts.end(), [](auto const& part) { return part.beside_twin; });
+  if (read.twin && beside == parts.end())
+    throw FileError(document.find("twin")->where,
+                    "no model stands beside this twin; write for example method = "
+                    "\"twin ridge\"");
+  if (!read.twin && beside != parts.end())
+    throw FileError(document.where, fmt::format("'{}' stands beside a twin, and [twin] is missing", beside->name()));
+}
+
+std::vector<ModelPart> parts_of(FileTables const& read, Value const& document) {
+  if (read.model) return {part_of(*read.model, *document.find("model"))};
+  auto const& tables = std::get<Value::List>(document.find("part")->content);
+  std::vector<ModelPart> parts;
+  for (std::size_t k = 0; k < read.parts.size(); ++k) {
+    parts.push_back(part_of(read.parts[k], tables[k]));
+    if (read.parts[k].inputs != read.parts.front().inputs)
+      throw FileError(tables[k].where, "other 'inputs' than those of the first [[part]]; all have the same");
+  }
+  return parts;
+}
+
 void take_fit(FitTable const& read, Value const& table, SavedErrorModel& saved) {
-  saved.ranges = ranges_of(read, table, saved.model.inputs.size());
   saved.version = read.version;
   saved.commit = read.commit;
   saved.sampling = read.sampling;
   for (std::size_t i = 0; i < read.runs.size(); ++i) {
     auto const& run = read.runs[i];
-    if (run.zero.size() != saved.model.inputs.size())
+    if (run.zero.size() != saved.inputs().size())
       throw FileError(std::get<Value::List>(table.find("run")->content)[i].where,
                       fmt::format("'zero_degC' has {} temperatures; the model has {} inputs", run.zero.size(),
-                                  saved.model.inputs.size()));
+                                  saved.inputs().size()));
     saved.runs.push_back({run.file, run.machine, run.fingerprint, run.rows, run.zero, run.rmse, run.largest});
   }
 }
@@ -461,15 +513,17 @@ void take_fit(FitTable const& read, Value const& table, SavedErrorModel& saved) 
 void write_error_model(std::filesystem::path const& path, SavedErrorModel const& saved) {
   auto const folder = std::filesystem::absolute(path).parent_path();
   output::write_atomically(path, predicts_text(saved) + (saved.twin ? twin_text(*saved.twin, folder) : "") +
-                                     (saved.runs.empty() ? "" : fit_text(saved)) + model_text(saved.model) +
-                                     std::visit(FormText{}, saved.model.form));
+                                     (saved.runs.empty() ? "" : fit_text(saved)) + parts_text(saved.parts));
 }
 
 SavedErrorModel read_error_model(std::filesystem::path const& path) {
   auto const document = read_toml(path);
   auto const* table = document.find("model");
-  if (!table || !table->is_table())
-    throw FileError(document.where, "no table [model]: this is not the file of an error model");
+  auto const* several = document.find("part");
+  bool const one = table && table->is_table(), mean = several && several->is_list();
+  if (!one && !mean)
+    throw FileError(document.where, "no table [model], nor [[part]]: this is not the file of an error model");
+  if (one && mean) throw FileError(table->where, "a model and parts; the mean of several models has only [[part]]");
   FileTables read;
   read_fields(document, read);
   check_predicts(read, document);
@@ -478,7 +532,8 @@ SavedErrorModel read_error_model(std::filesystem::path const& path) {
   saved.unit = read.predicts->unit;
   saved.title = read.predicts->title;
   saved.zero_position = read.predicts->zero_position;
-  saved.model = model_of(*read.model, *table);
+  saved.parts = parts_of(read, document);
+  check_twin(read, document, saved.parts);
   if (read.twin) saved.twin = {path.parent_path() / read.twin->machine, read.twin->fingerprint};
   if (read.fit) take_fit(*read.fit, *document.find("fit"), saved);
   return saved;

@@ -16,21 +16,21 @@ namespace thermotwin::twin {
 ///   unit = "um"
 ///   title = "spindle against turret, radial"
 ///
-///   [twin]                              # where the model is of what a twin errs by
+///   [twin]                              # of methods that name it
 ///   machine = "calibrated.toml"         # relative to this file
 ///   fingerprint = "1b…"                 # of its text
 ///
 ///   [fit]                               # may be missing: then nobody knows
 ///   version = "0.1.0"
 ///   commit = "1fdea30"
-///   lowest_K = [-0.1, 0]                # change of each input since the first row, that the fit saw; may be missing
-///   highest_K = [7.8, 3.2]
 ///   run = [{ file = "other.h5", machine = "g200", fingerprint = "8c…", rows = 481, rmse = 0.3, largest = 1.1,
 ///            zero_degC = [20.1, 20.0] }]
 ///
-///   [model]
-///   method = "ridge"
+///   [model]                             # or several [[part]], whose mean it is
+///   method = "ridge"                    # "twin ridge": of what the twin errs by; "twin": nothing more
 ///   inputs = ["T2", "T4"]
+///   lowest_K = [-0.1, 0]                # change of each input since the first row, that the fit saw; may be missing
+///   highest_K = [7.8, 3.2]
 ///   sample_period = "180 s"
 ///   parameters = 3
 ///   remark = "…"

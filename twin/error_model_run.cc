@@ -131,11 +131,8 @@ ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& 
   for (std::size_t j = 0; j < sensors.size(); ++j)
     result.zero.push_back(std::round(1e3 * used[j]->values[rows[0]]) / 1e3);
   if (run.said) {
-    auto said = batch;
-    take_changes(*run.said, error, rows, said);
-    result.said = said.error;
-    batch.temperature_rise -= said.temperature_rise;
-    if (shown) batch.error -= said.error;
+    result.said = batch;
+    take_changes(*run.said, error, rows, *result.said);
   }
   if (slope) {
     result.axis = axis_record(batch, laser_of(data.positioning, axis, run.file));
@@ -149,6 +146,13 @@ ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& 
   result.shown = slope || shown;
   result.fingerprint = fingerprint_of(result);
   return result;
+}
+
+models::Batch ErrorModelRun::less_twin() const {
+  models::Batch rest = batch;
+  rest.temperature_rise -= said.value().temperature_rise;
+  rest.error -= said->error;
+  return rest;
 }
 
 }  // namespace thermotwin::twin

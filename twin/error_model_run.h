@@ -29,13 +29,16 @@ struct RecordedRun {
 
 /// A run as error models see it, temperatures and errors counted from its first row.
 struct ErrorModelRun {
-  models::Batch batch;                     ///< error 0 where the run did not show it; with a twin, less what that says
-  Eigen::VectorXd said;                    ///< of the error by the twin; empty: there is none
+  models::Batch batch;                     ///< as shown; error 0 where the run did not show it
+  std::optional<models::Batch> said;       ///< by the twin, where there is one
   std::optional<models::AxisRecord> axis;  ///< where the error is a slope
   bool shown = true;                       ///< the run shows the error
   std::string unit, title;                 ///< of the error
   std::vector<double> zero;                ///< what the sensors showed in the first row, to 1 mK [°C]
   std::string fingerprint;
+
+  /// What the twin errs by. There must be one.
+  [[nodiscard]] models::Batch less_twin() const;
 };
 
 /// These sensors of a run, and its error: a displacement channel or "slope z". Rows that lack one of them are left out,

@@ -16,9 +16,7 @@ using Eigen::MatrixXd;
 
 MatrixXd predicted_of(SavedErrorModel const& saved, ErrorModelRun const& run) {
   try {
-    if (run.axis) return models::FeedAxisModel{saved.model, *saved.zero_position}.predict(*run.axis);
-    auto const own = saved.model.predict(run.batch);
-    return run.said.size() > 0 ? MatrixXd(own + run.said) : MatrixXd(own);
+    return saved.predict(run);
   } catch (std::invalid_argument const& error) {
     throw thermal::InputError(error.what());
   }
@@ -33,16 +31,18 @@ void remark_machine(SavedErrorModel const& saved, std::string const& machine, st
   remarks.push_back(fmt::format("of '{}'; the model was fitted to '{}'", machine, fmt::join(fitted, "', '")));
 }
 
-void remark_extrapolation(SavedErrorModel const& saved, models::Batch const& batch, std::vector<std::string>& remarks) {
-  for (std::size_t j = 0; j < saved.ranges.size(); ++j) {
+void remark_extrapolation(ModelPart const& part, ErrorModelRun const& run, std::string const& of,
+                          std::vector<std::string>& remarks) {
+  auto const batch = part.beside_twin ? run.less_twin() : run.batch;
+  for (std::size_t j = 0; j < part.ranges.size(); ++j) {
     auto const changes = batch.temperature_rise.col(Index(j));
-    auto const& range = saved.ranges[j];
+    auto const& range = part.ranges[j];
     Index const beyond = std::count_if(changes.begin(), changes.end(), [&](double x) { return range.left_by(x); });
     if (beyond == 0) continue;
     bool const above = changes.maxCoeff() - range.highest > range.lowest - changes.minCoeff();
     remarks.push_back(
-        fmt::format("extrapolation in {} of {} rows: {}", beyond, changes.size(),
-                    range_left_text(saved.model.inputs[j], above ? changes.maxCoeff() : changes.minCoeff(), range)));
+        fmt::format("extrapolation{} in {} of {} rows: {}", of, beyond, changes.size(),
+                    range_left_text(part.model.inputs[j], above ? changes.maxCoeff() : changes.minCoeff(), range)));
   }
 }
 
@@ -55,26 +55,24 @@ std::string metrics_line(std::string const& name, Index rows, MatrixXd const& tr
 
 }  // namespace
 
-MatrixXd ErrorPrediction::shown() const {
-  if (run.axis) return run.axis->error;
-  return run.said.size() > 0 ? MatrixXd(run.batch.error + run.said) : MatrixXd(run.batch.error);
-}
+MatrixXd ErrorPrediction::shown() const { return run.axis ? run.axis->error : MatrixXd(run.batch.error); }
 
 ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::path const& run) {
   auto const twin = saved.twin ? std::optional(twin_of(*saved.twin)) : std::nullopt;
   auto recorded = read_recorded_run(run, saved.sampling, twin ? &*twin : nullptr);
   ErrorPrediction result;
-  result.run = error_model_run(recorded, saved.model.inputs, saved.error, false);
+  result.run = error_model_run(recorded, saved.inputs(), saved.error, false);
   if (result.run.shown && result.run.unit != saved.unit)
     throw thermal::InputError(fmt::format("{} shows {} in {}; the model predicts {}", recorded.file, saved.error,
                                           result.run.unit, saved.unit));
   result.predicted = predicted_of(saved, result.run);
-  result.unclaimed = saved.model.unclaimed_instants();
+  result.unclaimed = saved.unclaimed_instants();
   result.unit = result.run.axis ? "um" : saved.unit;
   result.seen_before = std::any_of(saved.runs.begin(), saved.runs.end(),
                                    [&](auto const& fitted) { return fitted.fingerprint == result.run.fingerprint; });
   remark_machine(saved, recorded.machine, recorded.remarks);
-  remark_extrapolation(saved, result.run.batch, recorded.remarks);
+  for (auto const& part : saved.parts)
+    remark_extrapolation(part, result.run, saved.parts.size() > 1 ? " of " + part.name() : "", recorded.remarks);
   for (auto const& remark : recorded.remarks) result.remarks.push_back(recorded.file + ": " + remark);
   return result;
 }

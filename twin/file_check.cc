@@ -89,8 +89,8 @@ std::string counted(std::size_t count, std::string const& what) {
 std::string checked_error_model(std::filesystem::path const& file) {
   auto const saved = read_error_model(file);
   if (saved.twin) static_cast<void>(twin_of(*saved.twin));
-  return fmt::format("an error model: {} of {} [{}] on {}, fitted to {}", saved.model.method, saved.error, saved.unit,
-                     counted(saved.model.inputs.size(), "input"),
+  return fmt::format("an error model: {} of {} [{}] on {}, fitted to {}", saved.method(), saved.error, saved.unit,
+                     counted(saved.inputs().size(), "input"),
                      saved.runs.empty() ? "nobody knows what" : counted(saved.runs.size(), "run"));
 }
 

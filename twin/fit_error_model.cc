@@ -9,6 +9,8 @@
 #include "thermal/error.h"
 #include "twin/axis_record.h"
 #include "twin/error_model_run.h"
+#include "twin/study/judgement.h"
+#include "twin/study/study_file.h"
 #include "twin/version.h"
 
 namespace thermotwin::twin {
@@ -47,10 +49,17 @@ void check_units(std::vector<ErrorModelRun> const& runs, std::string const& erro
                                             runs.front().unit, runs.front().batch.name));
 }
 
+/// Of a slope: in its unit, not at positions.
+Eigen::VectorXd slopes(SavedErrorModel const& saved, ErrorModelRun const& run) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(run.batch.time.size());
+  for (auto const& part : saved.parts) sum += part.model.predict(run.batch);
+  return sum / double(saved.parts.size());
+}
+
 FittedRun fitted_run(SavedErrorModel const& saved, ErrorModelRun const& run, std::string const& machine) {
-  auto const first = saved.model.unclaimed_instants();
+  auto const first = saved.unclaimed_instants();
   auto const rows = run.batch.time.size() - first;
-  Eigen::VectorXd const predicted = saved.model.predict(run.batch);
+  Eigen::VectorXd const predicted = run.axis ? slopes(saved, run) : Eigen::VectorXd(saved.predict(run));
   auto const judged = models::metrics(run.batch.error.tail(rows), predicted.tail(rows));
   return {run.batch.name, machine, run.fingerprint, int(rows), run.zero, judged.rmse, judged.max};
 }
@@ -64,31 +73,44 @@ void remark_repeated(std::vector<ErrorModelRun> const& runs, std::vector<Recorde
       }
 }
 
-void fit_form(SavedErrorModel& saved, std::vector<ErrorModelRun> const& runs, ErrorModelFit const& fit) {
-  auto const& method = models::model_method(fit.method);
-  models::FitOptions options;
-  options.seed = fit.seed;
+/// What a study would call the models whose mean is fitted. Beside a twin stands what names none, too.
+std::vector<NamedModel> models_of(ErrorModelFit const& fit) {
+  auto models = named_models(fit.method);
+  bool const named = std::any_of(models.begin(), models.end(), [](auto const& model) { return model.twin; });
+  if (named && !fit.twin)
+    throw thermal::InputError(fmt::format("'{}': the twin's machine file is missing; give --twin FILE", fit.method));
+  if (fit.twin && !named)
+    for (auto& model : models) model.twin = true;
+  if (fit.twin && fit.error.starts_with(slope_prefix))
+    throw thermal::InputError(fmt::format("'{}': a slope is fitted without a twin", fit.error));
+  return models;
+}
+
+ModelPart fitted_part(NamedModel const& named, std::vector<ErrorModelRun> const& runs, std::uint64_t seed) {
   std::vector<models::Batch> batches;
+  for (auto const& run : runs) batches.push_back(named.twin ? run.less_twin() : run.batch);
+  if (named.method.empty()) return {nothing_more(batches.front().sensors), true, {}};
+  return {models::model_method(named.method).fit(batches, {.seed = seed}), named.twin, input_ranges(batches)};
+}
+
+void fit_parts(SavedErrorModel& saved, std::vector<NamedModel> const& models, std::vector<ErrorModelRun> const& runs,
+               std::uint64_t seed) {
+  for (auto const& named : models) saved.parts.push_back(fitted_part(named, runs, seed));
   std::vector<models::AxisRecord> records;
-  for (auto const& run : runs) {
-    batches.push_back(run.batch);
+  for (auto const& run : runs)
     if (run.axis) records.push_back(*run.axis);
-  }
-  saved.ranges = input_ranges(batches);
-  if (records.empty()) {
-    saved.model = method.fit(batches, options);
-    return;
-  }
-  auto const axis = models::fit_feed_axis(records, method, options);
-  saved.model = axis.slope;
-  saved.zero_position = axis.zero_position;
+  if (!records.empty()) saved.zero_position = models::zero_position(records);
 }
 
 }  // namespace
 
 SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::string>& remarks) {
-  if (fit.twin && fit.error.starts_with(slope_prefix))
-    throw thermal::InputError(fmt::format("'{}': a slope is fitted without a twin", fit.error));
+  std::vector<NamedModel> models;
+  try {
+    models = models_of(fit);
+  } catch (std::invalid_argument const& error) {
+    throw thermal::InputError(error.what());
+  }
   auto const beside = fit.twin ? std::optional(twin_beside(*fit.twin)) : std::nullopt;
   auto const twin = beside ? std::optional(twin_of(*beside)) : std::nullopt;
   std::vector<RecordedRun> recorded;
@@ -107,7 +129,7 @@ SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::strin
   saved.sampling = fit.sampling;
   saved.twin = beside;
   try {
-    fit_form(saved, runs, fit);
+    fit_parts(saved, models, runs, fit.seed);
     for (std::size_t r = 0; r < runs.size(); ++r) saved.runs.push_back(fitted_run(saved, runs[r], recorded[r].machine));
   } catch (std::invalid_argument const& error) {
     throw thermal::InputError(error.what());

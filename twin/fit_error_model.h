@@ -13,9 +13,10 @@ struct ErrorModelFit {
   std::vector<std::filesystem::path> runs;  ///< data sets (.h5), tables (.csv), measurement files (.toml)
   std::string error = "E_X";                ///< displacement to explain, or "slope z" of an axis' error
   std::vector<std::string> sensors{};       ///< of the readings; none: all that have all their readings in every run
-  std::string method = "linear";            ///< of models::model_methods()
+  std::string method = "linear";            ///< as studies name models (named_models()): "ridge", "twin & ridge"
   std::uint64_t seed = 1;
-  std::optional<std::filesystem::path> twin{};  ///< machine file, best calibrated: the model is of what that errs by
+  std::optional<std::filesystem::path> twin{};  ///< machine file, best calibrated; a method that names no twin is of
+                                                ///< what it errs by
   std::optional<double> sampling{};             ///< means over this time [s]; none: the rows as they are
 };
 

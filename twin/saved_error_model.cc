@@ -8,6 +8,7 @@
 #include "thermal/error.h"
 #include "twin/file/text_file.h"
 #include "twin/fingerprint.h"
+#include "twin/study/study_file.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -40,6 +41,37 @@ Machine twin_of(TwinBeside const& twin) {
   return Machine::read(twin.machine);
 }
 
+bool ModelPart::reads() const { return model.method != twin_alone; }
+
+std::string ModelPart::name() const {
+  return beside_twin && reads() ? fmt::format("{} {}", twin_alone, model.method) : model.method;
+}
+
+std::string SavedErrorModel::method() const {
+  std::vector<std::string> names;
+  for (auto const& part : parts) names.push_back(part.name());
+  return fmt::format("{}", fmt::join(names, " & "));
+}
+
+int SavedErrorModel::unclaimed_instants() const {
+  int most = 0;
+  for (auto const& part : parts) most = std::max(most, part.model.unclaimed_instants());
+  return most;
+}
+
+Eigen::MatrixXd SavedErrorModel::predict(ErrorModelRun const& run) const {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(run.batch.time.size(), run.axis ? run.axis->position.size() : 1);
+  for (auto const& part : parts) {
+    if (run.axis)
+      sum += models::FeedAxisModel{part.model, zero_position.value()}.predict(*run.axis);
+    else if (part.beside_twin)
+      sum += run.said.value().error + part.model.predict(run.less_twin());
+    else
+      sum += part.model.predict(run.batch);
+  }
+  return sum / double(parts.size());
+}
+
 double SavedErrorModel::rmse() const {
   double sum = 0.0, rows = 0.0;
   for (auto const& run : runs) {
@@ -50,13 +82,15 @@ double SavedErrorModel::rmse() const {
 }
 
 std::string error_model_text(SavedErrorModel const& saved) {
-  auto const& model = saved.model;
-  std::string text = fmt::format("{} of {} [{}]{} on {}{}{}\n", model.method, saved.error, saved.unit,
-                                 saved.title.empty() ? "" : " (" + saved.title + ")", fmt::join(model.inputs, ", "),
-                                 model.remark.empty() ? "" : ": ", model.remark);
+  std::vector<std::string> remarks;
+  for (auto const& part : saved.parts)
+    if (!part.model.remark.empty()) remarks.push_back(part.model.remark);
+  std::string text =
+      fmt::format("{}{} of {} [{}]{} on {}{}{}\n", saved.parts.size() > 1 ? "the mean of " : "", saved.method(),
+                  saved.error, saved.unit, saved.title.empty() ? "" : " (" + saved.title + ")",
+                  fmt::join(saved.inputs(), ", "), remarks.empty() ? "" : ": ", fmt::join(remarks, "; "));
   if (saved.zero_position) text += fmt::format("zero position {:.2f} mm\n", 1e3 * *saved.zero_position);
-  if (saved.twin)
-    text += fmt::format("beside the twin {}: of what that errs by\n", saved.twin->machine.filename().string());
+  if (saved.twin) text += fmt::format("the twin is {}\n", saved.twin->machine.filename().string());
   text += fmt::format("zero in the first row of a run{}\n", zero_text(saved));
   for (auto const& run : saved.runs)
     text += fmt::format("fitted to {}{}: {} rows, RMSE {:.3g}, largest {:.3g} {}\n", run.file,

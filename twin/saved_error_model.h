@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/error_model.h"
+#include "twin/error_model_run.h"
 #include "twin/input_range.h"
 #include "twin/machine.h"
 
@@ -32,7 +33,18 @@ struct TwinBeside {
 [[nodiscard]] Machine twin_of(TwinBeside const& twin);
 [[nodiscard]] TwinBeside twin_beside(std::filesystem::path const& machine);
 
-/// An error model, of what, from which data, and how well it meets them.
+/// One of the models whose mean is a saved error model.
+struct ModelPart {
+  models::ErrorModel model;
+  bool beside_twin = false;        ///< what the twin says, and the model of what that errs by; "twin": nothing more
+  std::vector<InputRange> ranges;  ///< of the inputs, in their order; empty: its file does not say
+
+  [[nodiscard]] std::string name() const;  ///< "ridge", "twin ridge", "twin", as studies call it
+  [[nodiscard]] bool reads() const;        ///< its sensors: it is not the twin alone
+};
+
+/// An error model, of what, from which data, and how well it meets them: the mean of its parts (Bates & Granger 1969,
+/// named_models()), all of the same inputs.
 struct SavedErrorModel {
   std::string error;                    ///< displacement channel, or "slope z": of the position error of axis z
   std::string unit = "um";              ///< "um", "urad"; of a slope "um/m"
@@ -40,12 +52,17 @@ struct SavedErrorModel {
   std::optional<double> zero_position;  ///< P₀ of a slope: E = K (P − P₀) [m]
   std::string version, commit;          ///< of the program that fitted it
   std::optional<double> sampling;       ///< means over this time were fitted [s]; none: the rows as they are
-  std::optional<TwinBeside> twin;
+  std::optional<TwinBeside> twin;       ///< where a part stands beside it
   std::vector<FittedRun> runs;
-  std::vector<InputRange> ranges;  ///< of the inputs, in their order; empty: its file does not say
-  models::ErrorModel model;
+  std::vector<ModelPart> parts;  ///< at least one
 
-  [[nodiscard]] double rmse() const;  ///< over all runs
+  [[nodiscard]] std::vector<std::string> const& inputs() const { return parts.front().model.inputs; }
+  [[nodiscard]] std::string method() const;      ///< "ridge", "twin & ridge_distributed_lag"
+  [[nodiscard]] int unclaimed_instants() const;  ///< the most of its parts
+  [[nodiscard]] double rmse() const;             ///< over all runs
+  /// Errors of a run, a row per instant; of a slope a column per position of the laser. std::invalid_argument for a run
+  /// that a part refuses.
+  [[nodiscard]] Eigen::MatrixXd predict(ErrorModelRun const& run) const;
 };
 
 /// What it predicts, from which inputs, what it was fitted to and what it errs by there: a few lines.

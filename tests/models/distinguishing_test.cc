@@ -41,6 +41,7 @@ TEST(Distinguishing, KnowsTheAnglesOfPlainSignatures) {
   EXPECT_NEAR(closest_pair(signatures, Set{0}).angle, 0.0, 1e-7);
 }
 
+/// And the exchanges come close to it.
 TEST(Distinguishing, FindsTheWidestSmallestAngleOfAllSets) {
   int exact = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
@@ -49,6 +50,7 @@ TEST(Distinguishing, FindsTheWidestSmallestAngleOfAllSets) {
     for (Index a = 0; a < 9; ++a)
       for (Index b = a + 1; b < 9; ++b)
         for (Index c = b + 1; c < 9; ++c) best = std::max(best, closest_pair(signatures, Set{a, b, c}).angle);
+    EXPECT_NEAR(closest_pair(signatures, widest_of_all_sets(signatures, 3)).angle, best, 1e-12) << "seed " << seed;
     double const found = closest_pair(signatures, place_to_distinguish(signatures, 3)).angle;
     EXPECT_LE(found, best * (1.0 + 1e-9));
     EXPECT_GE(found, 0.9 * best) << "seed " << seed;
@@ -74,6 +76,9 @@ TEST(Distinguishing, FindsTheWidestSmallestAngleThatTheBudgetBuys) {
         if ((members >> unsigned(i) & 1U) != 0) set.push_back(i);
       if (set.size() <= 3 && cost(set) <= prices.budget) best = std::max(best, closest_pair(signatures, set).angle);
     }
+    auto const widest = widest_of_all_sets(signatures, 3, prices);
+    EXPECT_LE(cost(widest), prices.budget) << "seed " << seed;
+    EXPECT_NEAR(closest_pair(signatures, widest).angle, best, 1e-12) << "seed " << seed;
     auto const chosen = place_to_distinguish(signatures, 3, prices);
     double const found = closest_pair(signatures, chosen).angle;
     EXPECT_LE(cost(chosen), prices.budget) << "seed " << seed;
@@ -85,9 +90,16 @@ TEST(Distinguishing, FindsTheWidestSmallestAngleThatTheBudgetBuys) {
   EXPECT_GE(dearer_without_budget, 5);
 }
 
+TEST(Distinguishing, CountsTheSetsThatItLooksAt) {
+  EXPECT_EQ(number_of_sets(9, 3, {}), 84.0);
+  EXPECT_EQ(number_of_sets(9, 3, {{}, 2.0}), 84.0 + 36.0 + 9.0);
+  EXPECT_GT(number_of_sets(200, 8, {}), 1e13);
+}
+
 TEST(Distinguishing, RefusesWhatCannotBe) {
   auto signatures = random_signatures(1, 4, 3);
   EXPECT_THROW((void)place_to_distinguish(signatures, 5), std::invalid_argument);
+  EXPECT_THROW((void)widest_of_all_sets(signatures, 5), std::invalid_argument);
   EXPECT_THROW((void)place_to_distinguish(signatures, 2, {{}, 0.5}), std::invalid_argument);
   signatures.pairs.clear();
   EXPECT_THROW((void)place_to_distinguish(signatures, 2), std::invalid_argument);

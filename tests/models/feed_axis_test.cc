@@ -64,13 +64,19 @@ TEST(FeedAxis, FindsTheZeroWithinTwoMillimetres) {
   }
 }
 
+FeedAxisModel fitted(std::vector<AxisRecord> const& records) {
+  std::vector<Batch> batches;
+  for (auto const& record : records) batches.push_back(slope_batch(record));
+  return {model_method("linear").fit(batches, {}), zero_position(records)};
+}
+
 TEST(FeedAxis, IsExactWithoutNoise) {
   std::vector<AxisRecord> records{feed_run(1.0, 1, 0.0), feed_run(1.5, 2, 0.0)};
   for (auto& record : records) {
     record.position.conservativeResize(12);
     record.error.conservativeResize(Eigen::NoChange, 12);
   }
-  auto const model = fit_feed_axis(records, model_method("linear"), {});
+  auto const model = fitted(records);
   EXPECT_NEAR(model.zero_position, zero, 1e-12);
   EXPECT_LT((model.predict(records[1]) - records[1].error).cwiseAbs().maxCoeff(), 1e-9);
 }
@@ -83,7 +89,7 @@ TEST(FeedAxis, ReachesThePapersLevelAtAnotherFeed) {
       record.position.conservativeResize(12);
       record.error.conservativeResize(Eigen::NoChange, 12);
     }
-    auto const model = fit_feed_axis(records, model_method("linear"), {});
+    auto const model = fitted(records);
     auto const other = feed_run(1.5, seed + 20, 0.5);
     for (Eigen::Index const instant : {4, 10}) {
       auto const at = model.at_instant(other, instant, 0.0, 0.55);

@@ -7,6 +7,7 @@
 
 #include "tests/output/temporary_directory.h"
 #include "thermal/error.h"
+#include "twin/study/judgement.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -43,8 +44,7 @@ SavedErrorModel saved(ErrorModel const& model) {
   all.sampling = 60.0;
   all.runs = {{"monday.h5", "v450", "8c", 60, {20.1, 19.98}, 0.1, 1.0 / 3.0},
               {"tuesday.csv", "", "9d", 41, {7, 8}, 0, 0}};
-  all.ranges = {{-0.125, 7.8}, {0.0, 3.251}};
-  all.model = model;
+  all.parts = {{model, false, {{-0.125, 7.8}, {0.0, 3.251}}}};
   return all;
 }
 
@@ -66,13 +66,14 @@ TEST_P(SavedModel, PredictsTheSameBytes) {
   auto const fitted = models::model_method(GetParam()).fit(std::span(&batch, 1), {});
   write_error_model(directory_ / "model.toml", saved(fitted));
   auto const whole = read_error_model(directory_ / "model.toml");
-  auto const& read = whole.model;
+  ASSERT_EQ(whole.parts.size(), 1U);
+  auto const& read = whole.parts[0].model;
   EXPECT_EQ(read.predict(batch), fitted.predict(batch));
   EXPECT_EQ(whole.error, "E_Z");
   EXPECT_EQ(whole.title, "spindle nose, \"axial\"");
   EXPECT_EQ(whole.sampling, 60.0);
   EXPECT_EQ(whole.runs[0].largest, 1.0 / 3.0);
-  EXPECT_EQ(whole.ranges, (std::vector<InputRange>{{-0.125, 7.8}, {0.0, 3.251}}));
+  EXPECT_EQ(whole.parts[0].ranges, (std::vector<InputRange>{{-0.125, 7.8}, {0.0, 3.251}}));
   EXPECT_EQ(read.method, fitted.method);
   EXPECT_EQ(read.inputs, fitted.inputs);
   EXPECT_EQ(read.parameters, fitted.parameters);
@@ -129,7 +130,7 @@ TEST_F(ErrorModelFile, CountsTheNumbersOfEachLag) {
                                "{ samples = 1, coefficients = [1, 2] }]\n")),
               HasSubstr("lags ascend"));
   EXPECT_THAT(complaint(linear("intercept = 1\nlag = [{ samples = 2, coefficients = [1, 2] }]\n")),
-              HasSubstr("model.toml:5:1: lags count samples, and 'sample_period' of [model] is missing"));
+              HasSubstr("model.toml:5:1: lags count samples, and 'sample_period' of the model is missing"));
   EXPECT_THAT(complaint(linear("intercept = 1\n")), HasSubstr("'lag' is missing"));
   EXPECT_THAT(complaint(linear("lag = [{ samples = 0, coefficients = [1, 2] }]\n")),
               HasSubstr("'intercept' is missing"));
@@ -153,19 +154,66 @@ TEST_F(ErrorModelFile, SaysWhatItPredicts) {
   EXPECT_THAT(complaint(whole("predicts = { error = \"slope z\", unit = \"um/m\", zero_position = \"3 mm\" }\n"
                               "twin = { machine = \"a.toml\", fingerprint = \"8c\" }\n")),
               HasSubstr("model.toml:2:8: a slope stands beside no twin"));
+  EXPECT_THAT(complaint(whole(predicts + "twin = { machine = \"a.toml\", fingerprint = \"8c\" }\n")),
+              HasSubstr("model.toml:2:8: no model stands beside this twin; write for example method = \"twin ridge\""));
   EXPECT_THAT(complaint(whole(predicts + "fit = { run = [{ file = \"a.h5\", rmse = 1, largest = 2 }] }\n")),
               HasSubstr("model.toml:2:16: 'zero_degC' has 0 temperatures; the model has 1 inputs"));
 }
 
 TEST_F(ErrorModelFile, KnowsTheRangeOfEachInputOrOfNone) {
-  EXPECT_EQ(complaint(whole(predicts + "fit = { lowest_K = [0], highest_K = [3] }\n")), "");
-  EXPECT_EQ(complaint(whole(predicts + "fit = { version = \"0.1.0\" }\n")), "");
-  EXPECT_THAT(complaint(whole(predicts + "fit = { lowest_K = [0, 1], highest_K = [3, 4] }\n")),
-              HasSubstr("model.toml:2:7: 'lowest_K' has 2 numbers and 'highest_K' 2; the model has 1 input"));
-  EXPECT_THAT(complaint(whole(predicts + "fit = { lowest_K = [0] }\n")),
-              HasSubstr("'lowest_K' has 1 numbers and 'highest_K' 0"));
-  EXPECT_THAT(complaint(whole(predicts + "fit = { lowest_K = [4], highest_K = [3] }\n")),
-              HasSubstr("model.toml:2:20: 'lowest_K' 4 is above 'highest_K' 3"));
+  auto const ranged = [](std::string const& ranges) {
+    auto text = whole(predicts);
+    return text.insert(text.find("[model.linear]"), ranges);
+  };
+  EXPECT_EQ(complaint(ranged("lowest_K = [0]\nhighest_K = [3]\n")), "");
+  EXPECT_THAT(complaint(ranged("lowest_K = [0, 1]\nhighest_K = [3, 4]\n")),
+              HasSubstr("model.toml:2:1: 'lowest_K' has 2 numbers and 'highest_K' 2; the model has 1 input"));
+  EXPECT_THAT(complaint(ranged("lowest_K = [0]\n")), HasSubstr("'lowest_K' has 1 numbers and 'highest_K' 0"));
+  EXPECT_THAT(complaint(ranged("lowest_K = [4]\nhighest_K = [3]\n")),
+              HasSubstr("model.toml:5:12: 'lowest_K' 4 is above 'highest_K' 3"));
+}
+
+/// A mean of what the twin errs by and of a network, with the twin itself: all three, and the same bytes again.
+TEST_F(ErrorModelFile, HoldsTheMeanOfSeveralModels) {
+  auto const batch = run();
+  auto all = saved(models::model_method("ridge_distributed_lag").fit(std::span(&batch, 1), {}));
+  all.parts[0].beside_twin = true;
+  all.parts.push_back({models::model_method("back_propagation").fit(std::span(&batch, 1), {}), false, {}});
+  all.parts.push_back({nothing_more(batch.sensors), true, {}});
+  all.twin = {directory_ / "mine.toml", "8c"};
+  write_error_model(directory_ / "model.toml", all);
+  auto const read = read_error_model(directory_ / "model.toml");
+  EXPECT_EQ(read.method(), "twin ridge_distributed_lag & back_propagation & twin");
+  EXPECT_EQ(read.inputs(), batch.sensors);
+  EXPECT_EQ(read.unclaimed_instants(), all.unclaimed_instants());
+  ErrorModelRun seen;
+  seen.batch = batch;
+  seen.said = batch;
+  seen.said->temperature_rise *= 0.9;
+  EXPECT_EQ(read.predict(seen), all.predict(seen));
+  Eigen::VectorXd const own = all.parts[0].model.predict(seen.less_twin()) + all.parts[1].model.predict(batch);
+  EXPECT_TRUE(Eigen::VectorXd(read.predict(seen)).isApprox((own + 2.0 * batch.error) / 3.0, 1e-12));
+  write_error_model(directory_ / "again.toml", read);
+  EXPECT_EQ(tests::contents(directory_ / "again.toml"), tests::contents(directory_ / "model.toml"));
+}
+
+TEST_F(ErrorModelFile, RefusesPartsThatMakeNoMean) {
+  auto const part = [](std::string const& method, std::string const& input, std::string const& form) {
+    return "[[part]]\nmethod = \"" + method + "\"\ninputs = [\"" + input + "\"]\n" + form;
+  };
+  std::string const form = "linear = { intercept = 1, lag = [{ samples = 0, coefficients = [1] }] }\n";
+  std::string const twin = "twin = { machine = \"a.toml\", fingerprint = \"8c\" }\n";
+  EXPECT_EQ(complaint(predicts + part("ridge", "T2", form) + part("linear", "T2", form)), "");
+  EXPECT_EQ(complaint(predicts + twin + part("ridge", "T2", form) + part("twin", "T2", "")), "");
+  EXPECT_THAT(complaint(predicts + part("ridge", "T2", form) + part("linear", "T4", form)),
+              HasSubstr("model.toml:6:1: other 'inputs' than those of the first [[part]]; all have the same"));
+  EXPECT_THAT(complaint(predicts + part("ridge", "T2", form) + part("twin", "T2", "")),
+              HasSubstr("'twin' stands beside a twin, and [twin] is missing"));
+  EXPECT_THAT(complaint(predicts + twin + part("twin", "T2", form)), HasSubstr("the twin alone has no form"));
+  EXPECT_THAT(complaint(predicts + part("ridge", "T2", form) + whole("")),
+              HasSubstr("the mean of several models has only [[part]]"));
+  EXPECT_THAT(complaint(predicts + twin + part("twin rigde", "T2", form)),
+              HasSubstr("model.toml:4:10: unknown method 'twin rigde'; did you mean 'ridge'?"));
 }
 
 TEST_F(ErrorModelFile, IsReadWithoutItsFit) {

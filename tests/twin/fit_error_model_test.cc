@@ -77,7 +77,7 @@ class FitErrorModel : public testing::Test {
     return read_error_model(folder_ / "model.toml");
   }
   static Eigen::RowVectorXd coefficients(SavedErrorModel const& saved) {
-    return std::get<models::LinearForm>(saved.model.form).coefficients.transpose();
+    return std::get<models::LinearForm>(saved.parts.at(0).model.form).coefficients.transpose();
   }
 
   TemporaryDirectory folder_;
@@ -103,7 +103,7 @@ TEST_F(FitErrorModel, FindsTheErrorAndSaysOfWhatItIs) {
 TEST_F(FitErrorModel, PredictsTheSameBytesReadBack) {
   auto const monday = put_run(warming(1.5), "monday.h5"), tuesday = put_run(warming(0.7, 24.0), "tuesday.csv");
   for (auto const* error : {"E_Z", "slope z"})
-    for (auto const* method : {"linear", "ridge", "ridge_distributed_lag"}) {
+    for (auto const* method : {"linear", "ridge", "ridge_distributed_lag", "linear & ridge_distributed_lag"}) {
       auto const saved = fitted({{monday}, error, {"T1", "T2", "T3"}, method});
       auto const& test = saved.zero_position ? monday : tuesday;
       auto const before = predict_error(saved, test), after = predict_error(read_back(saved), test);
@@ -114,7 +114,7 @@ TEST_F(FitErrorModel, PredictsTheSameBytesReadBack) {
 
 TEST_F(FitErrorModel, FindsItsInputsByNameInWhateverOrder) {
   auto const saved = read_back(fitted({{put_run(warming(1.5), "monday.h5")}, "E_Z", {"T2", "T1"}}));
-  EXPECT_THAT(saved.model.inputs, ElementsAre("T2", "T1"));
+  EXPECT_THAT(saved.inputs(), ElementsAre("T2", "T1"));
   auto data = warming(0.7);
   auto const in_order = predict_error(saved, put_run(data, "tuesday.h5"));
   std::reverse(data.readings.begin(), data.readings.end());
@@ -157,7 +157,7 @@ TEST_F(FitErrorModel, LeavesOutWhatIsDeadAndSaysSo) {
   readings(data, "T3").setConstant(21.0);
   auto const file = put_run(data, "run.csv");
   auto const saved = fitted({{file}, "E_Z"});
-  EXPECT_THAT(saved.model.inputs, ElementsAre("T1", "T2"));
+  EXPECT_THAT(saved.inputs(), ElementsAre("T1", "T2"));
   EXPECT_THAT(remarks_, ElementsAre("run.csv: 'T3' is dead: it never moves", "run.csv: T3 is left out: it is dead"));
   EXPECT_THAT(
       refusal([&] {
@@ -180,7 +180,7 @@ TEST_F(FitErrorModel, LeavesOutRowsWithoutAReadingOfWhatWasNamed) {
               }),
               HasSubstr("'run.csv': row 11 comes 360 s after the one before, others 60 s; lags need even steps"));
   auto const averaged = fitted({{file}, "E_Z", {"T1", "T2"}, "distributed_lag", 1, {}, 600.0});
-  EXPECT_EQ(averaged.model.sample_period, 600.0);
+  EXPECT_EQ(averaged.parts[0].model.sample_period, 600.0);
   EXPECT_EQ(read_back(averaged).sampling, 600.0);
   EXPECT_THAT(refusal([&] {
                 fitted({{file}, "E_Z", {"T1"}, "linear", 1, {}, 30.0});
@@ -196,9 +196,9 @@ TEST_F(FitErrorModel, SaysWhichDataItWasGivenTwice) {
 
 TEST_F(FitErrorModel, SaysWhereItExtrapolates) {
   auto const saved = read_back(fitted({{put_run(warming(1.0), "monday.h5")}, "E_Z", {"T1", "T2"}}));
-  ASSERT_EQ(saved.ranges.size(), 2U);
-  EXPECT_EQ(saved.ranges[0].lowest, 0.0);
-  EXPECT_NEAR(saved.ranges[1].highest, 3.0 * std::sqrt(119.0 / 60.0), 1e-3);
+  ASSERT_EQ(saved.parts[0].ranges.size(), 2U);
+  EXPECT_EQ(saved.parts[0].ranges[0].lowest, 0.0);
+  EXPECT_NEAR(saved.parts[0].ranges[1].highest, 3.0 * std::sqrt(119.0 / 60.0), 1e-3);
   auto inside = warming(1.0, 35.0);  // another room is no extrapolation: the model sees changes
   EXPECT_THAT(predict_error(saved, put_run(inside, "inside.h5")).remarks, IsEmpty());
   auto beyond = inside;
@@ -207,7 +207,7 @@ TEST_F(FitErrorModel, SaysWhereItExtrapolates) {
               ElementsAre("beyond.h5: extrapolation in 7 of 120 rows: T2 changed by 6.22 K; the model was fitted on "
                           "changes of 0.00 K to 4.22 K"));
   auto unknown = saved;
-  unknown.ranges.clear();
+  unknown.parts[0].ranges.clear();
   EXPECT_THAT(predict_error(read_back(unknown), folder_ / "beyond.h5").remarks, IsEmpty());
 }
 
@@ -245,6 +245,17 @@ TEST_F(FitErrorModel, BesideATwinAddsToWhatThatSays) {
   auto const rms = [](ErrorPrediction const& p) { return (p.shown() - p.predicted).norm(); };
   EXPECT_LT(rms(beside), 0.5 * rms(alone));
 
+  fit.method = "twin & linear & twin ridge";
+  auto const mean = read_back(fitted(fit));
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(beside.predicted.rows(), 1);
+  for (auto const* part : {"twin", "twin ridge"}) {
+    fit.method = part;
+    sum += predict_error(read_back(fitted(fit)), test).predicted;
+  }
+  EXPECT_TRUE(predict_error(mean, test).predicted.isApprox((sum + alone.predicted) / 3.0, 1e-12));
+  EXPECT_THAT(error_model_text(mean), HasSubstr("the mean of twin & linear & twin ridge of E_Z [um]"));
+  EXPECT_THAT(error_model_text(mean), HasSubstr("\nthe twin is mine.toml\n"));
+
   put(folder_ / "mine.toml", contents(folder_ / "mine.toml") + "# changed\n");
   EXPECT_THAT(refusal([&] { (void)predict_error(saved, test); }),
               HasSubstr("mine.toml is no longer the file beside which the model was fitted"));
@@ -252,6 +263,10 @@ TEST_F(FitErrorModel, BesideATwinAddsToWhatThatSays) {
                 fitted({{train}, "slope z", {"T1"}, "linear", 1, folder_ / "mine.toml"});
               }),
               HasSubstr("'slope z': a slope is fitted without a twin"));
+  EXPECT_THAT(refusal([&] {
+                fitted({{train}, "E_Z", {"T1"}, "twin & ridge"});
+              }),
+              HasSubstr("'twin & ridge': the twin's machine file is missing; give --twin FILE"));
 }
 
 TEST_F(FitErrorModel, IsJudgedOnOtherRuns) {

@@ -74,7 +74,7 @@ double Compensator::estimate(double time) {
 /// The twin itself was fitted to no range of readings.
 std::map<std::string, std::string> Compensator::extrapolated() const {
   if (auto const* saved = std::get_if<SavedModel>(&model_)) return saved->extrapolated();
-  if (auto const* beside = std::get_if<ModelBesideTwin>(&model_)) return beside->extrapolated();
+  if (auto const* mean = std::get_if<MeanModel>(&model_)) return mean->extrapolated();
   return {};
 }
 

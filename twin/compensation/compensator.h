@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "twin/compensation/axis_shift.h"
-#include "twin/compensation/model_beside_twin.h"
+#include "twin/compensation/mean_model.h"
 #include "twin/compensation/reading.h"
 #include "twin/compensation/saved_model.h"
 #include "twin/compensation/sensor_watch.h"
@@ -18,7 +18,7 @@
 namespace thermotwin::twin {
 
 /// What tells the error from the readings.
-using LiveModel = std::variant<SavedModel, TwinObserver, ModelBesideTwin>;
+using LiveModel = std::variant<SavedModel, TwinObserver, MeanModel>;
 
 struct CompensationSettings {
   ShiftLimits shift;

@@ -47,17 +47,27 @@ std::string numbers_text(PlacementReport const& report) {
 
 double degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
 
-std::string distinction_text(Distinction const& d) {
+/// How much wider the angle of another set of so many could be.
+std::string widest_text(Distinction const& d, std::size_t count) {
+  return d.proved ? fmt::format("no set of {} has a wider one: all were looked at\n", count)
+                  : fmt::format("sets of {} are too many to look at all: another may have a wider one\n", count);
+}
+
+std::string distinction_text(Distinction const& d, std::size_t count) {
   std::string text = fmt::format(
       "\ntelling {} missing effects apart: smallest angle between the signatures of two\n"
       "  recommended      {:6.2f} degrees ({} and {})\n"
       "  for displacement {:6.2f} degrees: the set that would be chosen for the smallest error\n",
       d.effects, degrees(d.recommended), d.first, d.second, degrees(d.for_displacement));
+  if (d.fewer) text += fmt::format("  best {:<11} {:6.2f} degrees\n", count - 1, degrees(*d.fewer));
+  if (d.more) text += fmt::format("  best {:<11} {:6.2f} degrees\n", count + 1, degrees(*d.more));
   if (d.proposed) text += fmt::format("  proposed         {:6.2f} degrees\n", degrees(*d.proposed));
-  return text + fmt::format(
-                    "  all candidates   {:6.2f} degrees\n"
-                    "{} pairs; {} more that even all candidates take for each other (cosine beyond 0.6) are left out\n",
-                    degrees(d.of_all), d.pairs, d.alike);
+  return text +
+         fmt::format(
+             "  all candidates   {:6.2f} degrees\n"
+             "{} pairs; {} more that even all candidates take for each other (cosine beyond 0.6) are left out\n",
+             degrees(d.of_all), d.pairs, d.alike) +
+         widest_text(d, count);
 }
 
 Json to_json(Distinction const& d) {
@@ -67,7 +77,10 @@ Json to_json(Distinction const& d) {
                {"recommended_deg", degrees(d.recommended)},
                {"for_displacement_deg", degrees(d.for_displacement)},
                {"all_candidates_deg", degrees(d.of_all)},
-               {"closest", {d.first, d.second}}};
+               {"closest", {d.first, d.second}},
+               {"all_sets_looked_at", d.proved}};
+  if (d.fewer) json["one_fewer_deg"] = degrees(*d.fewer);
+  if (d.more) json["one_more_deg"] = degrees(*d.more);
   if (d.proposed) json["proposed_deg"] = degrees(*d.proposed);
   return json;
 }
@@ -76,6 +89,14 @@ std::string error_line(std::string const& what, SetFigures const& set, double re
   return fmt::format("  {:<26} {:>8.2f} {:>13.2f} {:>12.2f}  {:>6.2f} .. {:<6.2f} {:>+6.1f} %\n", what, set.model_um,
                      set.predicted_um, set.unseen_um, set.unseen_low_um, set.unseen_high_um,
                      percent(set.model_um, reference));
+}
+
+std::string proposed_lines(Proposed const& proposed, double reference) {
+  std::string text;
+  if (proposed.fewer) text += error_line("proposed, no " + proposed.without, *proposed.fewer, reference);
+  text += error_line(fmt::format("proposed {}", proposed.set.sensors.size()), proposed.set, reference);
+  if (proposed.more) text += error_line("proposed + " + proposed.with, *proposed.more, reference);
+  return text;
 }
 
 Json to_json(SetFigures const& set, int dead) {
@@ -116,7 +137,7 @@ std::string placement_text(PlacementReport const& report) {
       "{}\n{}\n\nrecommended\n\n{}\n",
       count, report.candidates, report.machine, report.noise, report.members, report.experiments.size(),
       report.unseen_members, numbers_text(report), teacher_text(report.teacher), set_table(best, report.dead));
-  if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(*report.proposed, 0));
+  if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(report.proposed->set, 0));
   text += fmt::format("  {:<26} {:>8} {:>13} {:>12}  {:>16}\n", "all displacements [um]", "model", "predicted 1s",
                       "unseen rms", "80 % of machines");
   text += fmt::format("  {:<26} {:>8.2f}\n", "no sensor", report.prior_um);
@@ -124,15 +145,14 @@ std::string placement_text(PlacementReport const& report) {
     text += error_line(fmt::format("best {}", report.fewer->sensors.size()), *report.fewer, best.model_um);
   text += error_line(fmt::format("recommended {}", count), best, best.model_um);
   if (report.more) text += error_line(fmt::format("best {}", report.more->sensors.size()), *report.more, best.model_um);
-  if (report.proposed)
-    text += error_line(fmt::format("proposed {}", report.proposed->sensors.size()), *report.proposed, best.model_um);
+  if (report.proposed) text += proposed_lines(*report.proposed, best.model_um);
   text +=
       fmt::format("  {:<26} {:>8.2f}                                              {:>+6.1f} %\n",
                   fmt::format("all {}", report.candidates), report.floor_um, percent(report.floor_um, best.model_um));
   if (report.dead > 0)
     text += fmt::format("\nwith any {} of them dead: at most {:.2f} um, {:.2f} times the error of all\n", report.dead,
                         best.worst_um, best.worst_um / best.model_um);
-  if (report.distinction) return text + distinction_text(*report.distinction);
+  if (report.distinction) return text + distinction_text(*report.distinction, count);
   text += report.proved
               ? fmt::format("\nno set of {} is better: all were looked at\n", count)
               : fmt::format("\nno set of {} has less than {:.2f} um: this one is at most {:.1f} % above the best\n",
@@ -159,7 +179,13 @@ std::string placement_json(PlacementReport const& report) {
   json["recommended"] = to_json(report.recommended, report.dead);
   if (report.fewer) json["one_fewer"] = to_json(*report.fewer, report.dead);
   if (report.more) json["one_more"] = to_json(*report.more, report.dead);
-  if (report.proposed) json["proposed"] = to_json(*report.proposed, report.dead);
+  if (auto const& proposed = report.proposed) {
+    json["proposed"] = to_json(proposed->set, report.dead);
+    if (proposed->fewer)
+      json["proposed_one_fewer"] = {{"without", proposed->without}, {"set", to_json(*proposed->fewer, report.dead)}};
+    if (proposed->more)
+      json["proposed_one_more"] = {{"with", proposed->with}, {"set", to_json(*proposed->more, report.dead)}};
+  }
   if (report.distinction) json["distinction"] = to_json(*report.distinction);
   if (report.map)
     json["map"] = {{"alone_um", list_of(report.map->alone_um)}, {"beside_um", list_of(report.map->beside_um)}};

@@ -27,6 +27,7 @@ using Sites = std::vector<Index>;
 
 constexpr double idle_share = 0.01;               // of the error: what the loss of an idle sensor adds at most
 constexpr double most_sets = 1e6;                 // that are all looked at
+constexpr double most_angles = 2e7;               // likewise, of sets that shall tell effects apart
 constexpr std::uint64_t unseen_seed = 1'000'000;  // members of the design have smaller numbers
 
 void check(PlacementOptions const& options, std::size_t candidates) {
@@ -126,9 +127,15 @@ class Judge {
   [[nodiscard]] models::Placement best(Index count, Index dead) const;
   /// The same places, where no spare stands beside a sensor that is not there.
   [[nodiscard]] Sites spares_last(Sites const& set) const;
+  [[nodiscard]] Proposed proposed() const;
   [[nodiscard]] InformationMap map(Sites const& set) const;
+  [[nodiscard]] std::optional<double> widest_angle(models::Signatures const& signatures, Index count) const;
+  [[nodiscard]] Sites widest_set(models::Signatures const& signatures, Index count) const;
   /// Fills in what the signatures say; returns the set that tells effects apart.
   [[nodiscard]] Sites distinguishing(Distinction& distinction, Sites const& for_displacement) const;
+  [[nodiscard]] bool all_looked_at(Index count) const {
+    return models::number_of_sets(candidates_, count, prices_) <= most_angles;
+  }
   [[nodiscard]] EnsembleOptions unseen_options() const;
 
   Value const& document_;
@@ -143,6 +150,7 @@ class Judge {
   std::optional<SnapshotMoments> moments_;
   models::PlacementProblem problem_;  ///< of the candidates
   models::PlacementProblem all_;      ///< of the proposed sites as well
+  models::Prices prices_;             ///< of the candidates
 };
 
 Judge::Judge(Value const& document, PlacementOptions const& options)
@@ -173,6 +181,7 @@ Judge::Judge(Value const& document, PlacementOptions const& options)
   problem_.cost.resize(candidates_);
   for (Index i = 0; i < candidates_; ++i) problem_.cost[i] = sites_[std::size_t(i)].cost;
   all_ = moments_->problem(Index(sites_.size()));
+  prices_ = {problem_.cost, problem_.budget};
 }
 
 EnsembleOptions Judge::unseen_options() const {
@@ -244,6 +253,29 @@ SetFigures Judge::figures(Sites const& set) const {
   return result;
 }
 
+Proposed Judge::proposed() const {
+  auto const variance = [&](Sites const& set) { return models::remaining_variance(all_, set); };
+  Proposed result{figures(proposed_), {}, {}, {}, {}};
+  Sites fewer, more;
+  for (auto const site : proposed_) {
+    auto const rest = without(proposed_, site);
+    if (rest.empty() || (!fewer.empty() && variance(rest) >= variance(fewer))) continue;
+    fewer = rest;
+    result.without = sites_[std::size_t(site)].name;
+  }
+  for (Index site = 0; site < places_; ++site) {
+    if (std::find(proposed_.begin(), proposed_.end(), site) != proposed_.end()) continue;
+    auto beside = proposed_;
+    beside.push_back(site);
+    if (!more.empty() && variance(beside) >= variance(more)) continue;
+    more = beside;
+    result.with = sites_[std::size_t(site)].name;
+  }
+  if (!fewer.empty()) result.fewer = figures(fewer);
+  if (!more.empty()) result.more = figures(more);
+  return result;
+}
+
 /// As RemainingVariance does it, with every node as one more site.
 InformationMap Judge::map(Sites const& set) const {
   Index const nodes = design_.node_rise.cols();
@@ -274,11 +306,22 @@ InformationMap Judge::map(Sites const& set) const {
   return {lessened(all_.prior(), alone), lessened(models::remaining_variance(all_, set), beside)};
 }
 
+Sites Judge::widest_set(models::Signatures const& signatures, Index count) const {
+  return all_looked_at(count) ? models::widest_of_all_sets(signatures, count, prices_)
+                              : models::place_to_distinguish(signatures, count, prices_);
+}
+
+/// None for a number of sensors that cannot be.
+std::optional<double> Judge::widest_angle(models::Signatures const& signatures, Index count) const {
+  if (count < 1 || count > candidates_) return std::nullopt;
+  return models::closest_pair(signatures, widest_set(signatures, count)).angle;
+}
+
 Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacement) const {
   auto const found = effect_signatures(document_, sites_, options_.design);
   auto signatures = found.signatures;
   signatures.gram.resize(std::size_t(candidates_));
-  auto const set = models::place_to_distinguish(signatures, options_.sensors, {problem_.cost, problem_.budget});
+  auto const set = widest_set(signatures, options_.sensors);
   auto const closest = models::closest_pair(signatures, set);
   auto const [first, second] = signatures.pairs[closest.pair];
   Sites every(static_cast<std::size_t>(places_));
@@ -289,9 +332,12 @@ Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacem
                  closest.angle,
                  models::closest_pair(signatures, every).angle,
                  models::closest_pair(signatures, for_displacement).angle,
+                 widest_angle(signatures, options_.sensors - 1),
+                 widest_angle(signatures, options_.sensors + 1),
                  {},
                  found.effects[std::size_t(first)],
-                 found.effects[std::size_t(second)]};
+                 found.effects[std::size_t(second)],
+                 all_looked_at(options_.sensors)};
   if (!proposed_.empty()) distinction.proposed = models::closest_pair(found.signatures, proposed_).angle;
   return set;
 }
@@ -327,7 +373,7 @@ PlacementReport Judge::operator()() {
   report.recommended = figures(chosen.sensors);
   if (count > 1) report.fewer = figures(best(count - 1, std::min(dead, count - 2)).sensors);
   if (count < candidates_) report.more = figures(best(count + 1, dead).sensors);
-  if (!proposed_.empty()) report.proposed = figures(proposed_);
+  if (!proposed_.empty()) report.proposed = proposed();
   if (options_.map) report.map = map(chosen.sensors);
   return report;
 }

@@ -63,9 +63,18 @@ struct Distinction {
   std::size_t effects = 0, pairs = 0;
   std::size_t alike = 0;  ///< pairs that a sensor at every candidate does not tell apart: cosine beyond 0.6
   double recommended = 0.0, of_all = 0.0;
-  double for_displacement = 0.0;  ///< of the set that would be chosen for the displacement
+  double for_displacement = 0.0;      ///< of the set that would be chosen for the displacement
+  std::optional<double> fewer, more;  ///< of the best sets of one sensor less, and one more
   std::optional<double> proposed;
   std::string first, second;  ///< that the recommended set tells apart worst
+  bool proved = false;        ///< all sets were looked at: none of that number has a wider smallest angle
+};
+
+/// A set that the user proposes, and the best that one change of it makes.
+struct Proposed {
+  SetFigures set;
+  std::optional<SetFigures> fewer, more;  ///< without its least useful sensor; beside the most useful site
+  std::string without, with;              ///< which these are
 };
 
 struct PlacementReport {
@@ -81,7 +90,8 @@ struct PlacementReport {
   double bound_um = 0.0;  ///< √V of no set is less
   bool proved = false;    ///< all sets were looked at, and the recommended one has the least √V
   SetFigures recommended;
-  std::optional<SetFigures> fewer, more, proposed;  ///< best sets of one sensor less, and one more
+  std::optional<SetFigures> fewer, more;  ///< best sets of one sensor less, and one more
+  std::optional<Proposed> proposed;
   std::optional<InformationMap> map;
   std::optional<Distinction> distinction;
 };

@@ -52,17 +52,6 @@ void put_spread(Named& figures, std::string const& name, VectorXd const& values)
   figures[name + ".most"] = values.maxCoeff();
 }
 
-/// The twin's answer is all: every reading counts nothing.
-models::ErrorModel nothing_more(models::Batch const& batch) {
-  models::LinearForm form;
-  form.coefficients = Eigen::MatrixXd::Zero(Index(batch.sensors.size()), 1);
-  models::ErrorModel model;
-  model.method = "twin";
-  model.inputs = batch.sensors;
-  model.form = form;
-  return model;
-}
-
 /// Models of single runs.
 void put_statistics(Named& figures, std::vector<Answer> const& fits,
                     std::vector<std::vector<VectorXd>> const& predictions) {
@@ -104,6 +93,16 @@ void put_statistics(Named& figures, Answer const& fit, std::vector<VectorXd> con
 
 }  // namespace
 
+models::ErrorModel nothing_more(std::vector<std::string> const& sensors) {
+  models::LinearForm form;
+  form.coefficients = Eigen::MatrixXd::Zero(Index(sensors.size()), 1);
+  models::ErrorModel model;
+  model.method = twin_alone;
+  model.inputs = sensors;
+  model.form = form;
+  return model;
+}
+
 FittedModel fit_model(NamedModel const& named, Question const& question, std::vector<Index> const& columns,
                       std::uint64_t seed) {
   std::vector<Index> own;
@@ -111,7 +110,7 @@ FittedModel fit_model(NamedModel const& named, Question const& question, std::ve
     own.push_back(std::find(question.columns.begin(), question.columns.end(), column) - question.columns.begin());
   std::vector<models::Batch> batches;
   for (auto const& batch : question.training) batches.push_back(models::with_sensors(batch, own));
-  if (named.method.empty()) return {nothing_more(batches.front()), ""};
+  if (named.method.empty()) return {nothing_more(batches.front().sensors), ""};
   try {
     return {models::model_method(named.method).fit(batches, {.seed = seed}), ""};
   } catch (std::invalid_argument const& error) {

@@ -15,6 +15,9 @@ struct FittedModel {
   std::string refused;  ///< empty if it was fitted
 };
 
+/// The model that adds nothing to what the twin says, called twin_alone: every reading counts nothing.
+[[nodiscard]] models::ErrorModel nothing_more(std::vector<std::string> const& sensors);
+
 /// On the question's sensors `columns` (of the world's, ascending). The twin alone adds nothing to what it says.
 [[nodiscard]] FittedModel fit_model(NamedModel const& named, Question const& question,
                                     std::vector<Eigen::Index> const& columns, std::uint64_t seed);

@@ -299,7 +299,7 @@ void StudyRunner::put_means(StudyReport& report) const {
   if (worlds_.size() < 2 || !alike) return;
   std::size_t const per_world = report.rows.size() / worlds_.size();
   for (std::size_t i = 0; i < per_world; ++i) {
-    Combination mean{"mean of worlds", report.rows[i].selection, report.rows[i].model, {}, {}, {}, {}};
+    Combination mean{std::string(mean_of_worlds), report.rows[i].selection, report.rows[i].model, {}, {}, {}, {}};
     for (auto const* figure : {"self.rmse", "cross.rmse", "validation.rmse"}) {
       std::vector<double> sum(std::size_t(worlds_.front().repetitions()), 0.0);
       bool everywhere = true;

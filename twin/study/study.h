@@ -42,7 +42,7 @@ struct StudyReport {
   std::vector<std::string> units;  ///< of the errors, per world
   std::vector<int> repetitions;    ///< per world
   std::vector<Combination> rows;   ///< world by world, selection by selection
-  std::vector<Combination> means;  ///< over the worlds, where there are several: cross.rmse and validation.rmse only
+  std::vector<Combination> means;  ///< over the worlds, where there are several: self.rmse, cross.rmse, validation.rmse
   std::vector<SelectionFigures> selections;
   std::vector<ClaimVerdict> claims;
   std::vector<std::string> verdict;  ///< sentences

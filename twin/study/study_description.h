@@ -71,25 +71,33 @@ struct StudyWorld {
   }
 };
 
+/// What a claim may name in place of a world, and in place of a combination.
+inline constexpr std::string_view mean_of_worlds = "mean of worlds";
+inline constexpr std::string_view chosen_by_validation = "chosen by cross-validation";  ///< least validation.rmse
+inline constexpr std::string_view best_of_papers = "best of papers";  ///< least of the figure, of the papers' methods
+
 /// `[[claim]]`: what a paper says, put so that figures decide.
 struct StudyClaim {
   std::string says, combination, than, figure = "cross.rmse", world;
-  std::optional<double> at_most, improvement, tolerance;
+  std::optional<double> at_most, improvement, tolerance, share;
 
   template <class Fields>
   static void fields(Fields& f) {
     namespace dimension = thermal::dimension;
     f.name("says", &StudyClaim::says, "the claim in words");
-    f.name("combination", &StudyClaim::combination, "\"selection + model\"");
-    f("than", &StudyClaim::than, "the other combination; 'combination' shall have less of 'figure'");
+    f.name("combination", &StudyClaim::combination, "\"selection + model\", or \"chosen by cross-validation\"");
+    f("than", &StudyClaim::than,
+      "the other combination, or \"best of papers\"; 'combination' shall have less of 'figure'");
     f("figure", &StudyClaim::figure, "column of the table");
-    f("world", &StudyClaim::world, "where; default: the first");
+    f("world", &StudyClaim::world, "where; default: the first; \"mean of worlds\": in the mean of all");
     f("at_most", &StudyClaim::at_most, dimension::dimensionless, "in the figure's unit, in place of 'than'");
     f("improvement", &StudyClaim::improvement, dimension::dimensionless,
       "by how many percent less; default: less at all");
     f("tolerance", &StudyClaim::tolerance, dimension::dimensionless,
       "no worse than 'than': more of 'figure' by so many percent at most; 0: not more; in place of 'improvement'",
       Range{0.0});
+    f("share", &StudyClaim::share, dimension::dimensionless,
+      "at most so much of 'than': 0.5 for half of it; in place of 'improvement'", Range{0.0});
   }
 };
 

@@ -92,10 +92,8 @@ void check_combination(Value const& table, std::string const& key, std::string c
                     fmt::format("the study has no combination '{}'; {}", name, thermal::did_you_mean(name, known)));
 }
 
-void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::string> const& combinations,
-                 std::vector<std::string> const& worlds) {
-  check_combination(table, "combination", claim.combination, combinations);
-  check_combination(table, "than", claim.than, combinations);
+/// What is compared, and by which of the keys.
+void check_comparison(Value const& table, StudyClaim const& claim) {
   if (claim.than.empty() == !claim.at_most)
     throw FileError(table.where, "a claim is either less 'than' another combination or 'at_most' a number");
   if (claim.improvement && claim.than.empty())
@@ -103,6 +101,23 @@ void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::s
   if (claim.tolerance && (claim.than.empty() || claim.improvement))
     throw FileError(place_of_key(table, "tolerance"),
                     "a 'tolerance' says no worse than another combination; give 'than', and no 'improvement'");
+  if (claim.share && (claim.than.empty() || claim.improvement || claim.tolerance))
+    throw FileError(place_of_key(table, "share"),
+                    "a 'share' is of another combination; give 'than', and no 'improvement' or 'tolerance'");
+}
+
+void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::string> combinations,
+                 StudyDescription const& study) {
+  combinations.emplace_back(best_of_papers);
+  check_combination(table, "than", claim.than, combinations);
+  combinations.back() = chosen_by_validation;
+  check_combination(table, "combination", claim.combination, combinations);
+  check_comparison(table, claim);
+  if (claim.combination == chosen_by_validation && study.folds == 0)
+    throw FileError(place_of_key(table, "combination"), "there is no cross-validation to choose by; give 'folds'");
+  std::vector<std::string> worlds;
+  for (auto const& world : study.worlds) worlds.push_back(world.name);
+  if (worlds.size() > 1) worlds.emplace_back(mean_of_worlds);
   if (!claim.world.empty() && std::find(worlds.begin(), worlds.end(), claim.world) == worlds.end())
     throw FileError(place_of_key(table, "world"),
                     fmt::format("no world '{}'; {}", claim.world, thermal::did_you_mean(claim.world, worlds)));
@@ -131,18 +146,18 @@ void check_study(Value const& document, StudyDescription const& study) {
     for (auto const& model : study.models) combinations.push_back(combination_name(selection, model));
   check_combination(document, "reference", study.reference, combinations);
   for (std::size_t c = 0; c < study.claims.size(); ++c)
-    check_claim(tables(document, "claim")[c], study.claims[c], combinations, names);
+    check_claim(tables(document, "claim")[c], study.claims[c], combinations, study);
   if (study.folds == 1) throw FileError(place_of_key(document, "folds"), "'folds' is 1; 0 or at least 2 are due");
 }
 
+}  // namespace
+
 NamedModel named_model(std::string const& text) {
-  bool const twin = text == "twin" || text.starts_with("twin ");
-  NamedModel model{twin, twin ? text.substr(std::min<std::size_t>(5, text.size())) : text};
+  bool const twin = text == twin_alone || text.starts_with(std::string(twin_alone) + " ");
+  NamedModel model{twin, twin ? text.substr(std::min(twin_alone.size() + 1, text.size())) : text};
   if (!twin || !model.method.empty()) (void)models::model_method(model.method);
   return model;
 }
-
-}  // namespace
 
 NamedSelection named_selection(std::string const& text) {
   auto const space = text.find(' ');

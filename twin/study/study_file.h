@@ -18,6 +18,9 @@ struct NamedSelection {
 /// InputError for an unknown method, with the nearest; for a count that is no number from 1 on; for "all" with one.
 [[nodiscard]] NamedSelection named_selection(std::string const& text);
 
+/// What the calibrated twin is called that no model helps.
+inline constexpr std::string_view twin_alone = "twin";
+
 /// "ridge", "twin", or "twin ridge": a method on the readings; the calibrated twin (study_twin.h), driven by the
 /// inputs; a method that learns from the readings what the twin does not know.
 struct NamedModel {
@@ -26,6 +29,9 @@ struct NamedModel {
 
   bool operator==(NamedModel const&) const = default;
 };
+
+/// One of them. std::invalid_argument for an unknown method, with the nearest.
+[[nodiscard]] NamedModel named_model(std::string const& text);
 
 /// "ridge", or "twin & ridge": several models, whose answers are averaged. Means of forecasts from different knowledge
 /// err less than most of those they are of, and need no choice between them (Bates & Granger 1969, Oper. Res. Q. 20,

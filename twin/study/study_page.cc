@@ -200,7 +200,7 @@ std::string study_text(StudyReport const& report) {
     for (auto const& instant : world.instants) text += instant_table(rows, instant.name());
   }
   if (!report.means.empty())
-    text += "\nmean of worlds\n\n" + combination_table(of_world(report.means, "mean of worlds"));
+    text += "\nmean of worlds\n\n" + combination_table(of_world(report.means, std::string(mean_of_worlds)));
   text += fmt::format("\nintervals: 95 % over the seeds; better: {} of cross-prediction against {}\n",
                       report.description.metric, report.description.reference);
   for (auto const& remark : report.remarks) text += remark + "\n";

@@ -22,6 +22,12 @@ bool of_papers(Combination const& row) {
          models::model_method(row.model).source.find("methods.md") != std::string_view::npos;
 }
 
+Rows papers_of(Rows const& rows) {
+  Rows papers;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(papers), [](auto const* row) { return of_papers(*row); });
+  return papers;
+}
+
 Combination const* best_of(Rows const& rows, std::string const& figure) {
   Combination const* best = nullptr;
   double least = INFINITY;
@@ -52,9 +58,7 @@ std::vector<std::string> sentences(Rows const& rows, std::string const& unit) {
   if (auto const* chosen = best_of(rows, "validation.rmse"))
     words.push_back(fmt::format("chosen by cross-validation within the training runs: {}, {}", chosen->name(),
                                 figure_text(*chosen, figure, unit)));
-  Rows papers;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(papers), [](auto const* row) { return of_papers(*row); });
-  auto const* paper = best_of(papers, figure);
+  auto const* paper = best_of(papers_of(rows), figure);
   if (paper && paper != best)
     words.push_back(
         fmt::format("best of the papers' selections and models: {}, {}; the ratio to it is {}", paper->name(),
@@ -72,56 +76,99 @@ ClaimVerdict::Answer answer_of(Interval const& margin, bool equal_will_do) {
   return ClaimVerdict::Answer::undecided;
 }
 
-Combination const& row_of(StudyReport const& report, std::string const& world, std::string const& name) {
-  return *std::find_if(report.rows.begin(), report.rows.end(),
-                       [&](auto const& row) { return row.world == world && row.name() == name; });
+Rows rows_in(std::vector<Combination> const& rows, std::string_view world) {
+  Rows found;
+  for (auto const& row : rows)
+    if (row.world == world && row.refused.empty()) found.push_back(&row);
+  return found;
+}
+
+/// The row that a claim names, or none: it is refused.
+Combination const* named_row(Rows const& rows, std::string const& name, std::string const& figure) {
+  if (name == chosen_by_validation) return best_of(rows, "validation.rmse");
+  if (name == best_of_papers) return best_of(papers_of(rows), figure);
+  auto const it = std::find_if(rows.begin(), rows.end(), [&](auto const* row) { return row->name() == name; });
+  return it == rows.end() ? nullptr : *it;
+}
+
+/// The values of a claim's figure in both rows, repetition by repetition.
+struct Compared {
+  std::string name, than;
+  std::vector<double> values, others;
+};
+
+/// How far a claim is on the right side, in every repetition, and in words.
+struct Margin {
+  std::vector<double> values;
+  std::string words;
+};
+
+Margin below(double limit, Compared const& compared) {
+  Margin margin{{}, fmt::format(", against {:g}", limit)};
+  for (double const x : compared.values) margin.values.push_back(limit - x);
+  return margin;
+}
+
+std::string other_text(Compared const& compared) {
+  return fmt::format(", of {}: {}; ", compared.than, text_of(interval(compared.others), 3));
+}
+
+Margin within_share(double share, Compared const& compared) {
+  auto const own = ratios(compared.values, compared.others);
+  Margin margin{{}, other_text(compared) + fmt::format("{} of it, against {:g}", text_of(interval(own), 3), share)};
+  for (double const ratio : own) margin.values.push_back(share - ratio);
+  return margin;
+}
+
+/// Less by `improvement`, or more by `tolerance` at most [%].
+Margin less_than(StudyClaim const& claim, Compared const& compared) {
+  double const share = 0.01 * (claim.improvement.value_or(0.0) - claim.tolerance.value_or(0.0));
+  double const whole = interval(compared.others).mean;
+  Margin margin;
+  std::vector<double> less;
+  for (std::size_t r = 0; r < std::min(compared.values.size(), compared.others.size()); ++r) {
+    less.push_back(100.0 * (compared.others[r] - compared.values[r]) / whole);
+    margin.values.push_back((1.0 - share) * compared.others[r] - compared.values[r]);
+  }
+  margin.words = other_text(compared) + text_of(interval(less), 1) + " % less";
+  if (claim.improvement) margin.words += fmt::format(", against {:g} %", *claim.improvement);
+  if (claim.tolerance) margin.words += fmt::format(", against {:g} % more at most", *claim.tolerance);
+  return margin;
 }
 
 ClaimVerdict judged_claim(StudyReport const& report, StudyClaim const& claim) {
   auto const world = claim.world.empty() ? report.description.worlds.front().name : claim.world;
-  auto const& row = row_of(report, world, claim.combination);
-  auto const values = values_of(row.figures, claim.figure);
-  std::vector<double> margin;
-  std::string words;
-  if (claim.at_most) {
-    for (double const x : values) margin.push_back(*claim.at_most - x);
-    words = fmt::format("{} of {}: {}, against {:g}", claim.figure, claim.combination, text_of(interval(values), 3),
-                        *claim.at_most);
-  } else {
-    auto const others = values_of(row_of(report, world, claim.than).figures, claim.figure);
-    double const share = 0.01 * (claim.improvement.value_or(0.0) - claim.tolerance.value_or(0.0));
-    double const whole = interval(others).mean;
-    std::vector<double> less;
-    for (std::size_t r = 0; r < std::min(values.size(), others.size()); ++r) {
-      less.push_back(100.0 * (others[r] - values[r]) / whole);
-      margin.push_back((1.0 - share) * others[r] - values[r]);
-    }
-    words =
-        fmt::format("{} of {}: {}, of {}: {}; {} % less", claim.figure, claim.combination, text_of(interval(values), 3),
-                    claim.than, text_of(interval(others), 3), text_of(interval(less), 1));
-    if (claim.improvement) words += fmt::format(", against {:g} %", *claim.improvement);
-    if (claim.tolerance) words += fmt::format(", against {:g} % more at most", *claim.tolerance);
+  auto const rows = rows_in(world == mean_of_worlds ? report.means : report.rows, world);
+  auto const* row = named_row(rows, claim.combination, claim.figure);
+  auto const* other = claim.than.empty() ? nullptr : named_row(rows, claim.than, claim.figure);
+  Compared compared;
+  if (row) compared = {row->name(), "", values_of(row->figures, claim.figure), {}};
+  if (other) {
+    compared.than = claim.than == best_of_papers ? fmt::format("{} ({})", other->name(), claim.than) : other->name();
+    compared.others = values_of(other->figures, claim.figure);
   }
-  if (margin.empty()) words = fmt::format("there is no '{}' of these combinations in '{}'", claim.figure, world);
-  return {claim, answer_of(interval(margin), claim.at_most || claim.tolerance), words};
+  auto const margin = claim.at_most ? below(*claim.at_most, compared)
+                      : claim.share ? within_share(*claim.share, compared)
+                                    : less_than(claim, compared);
+  if (margin.values.empty())
+    return {claim, ClaimVerdict::Answer::refused,
+            fmt::format("there is no '{}' of these combinations in '{}'", claim.figure, world)};
+  return {
+      claim, answer_of(interval(margin.values), claim.at_most || claim.tolerance || claim.share),
+      fmt::format("{} of {}: {}{}", claim.figure, compared.name, text_of(interval(compared.values), 3), margin.words)};
 }
 
 }  // namespace
 
 void put_verdict(StudyReport& report) {
   for (std::size_t w = 0; w < report.units.size(); ++w) {
-    Rows rows;
     auto const& world = report.description.worlds[w].name;
-    for (auto const& row : report.rows)
-      if (row.world == world && row.refused.empty()) rows.push_back(&row);
-    for (auto const& sentence : sentences(rows, report.units[w])) report.verdict.push_back(world + ": " + sentence);
+    for (auto const& sentence : sentences(rows_in(report.rows, world), report.units[w]))
+      report.verdict.push_back(world + ": " + sentence);
   }
-  Rows means;
-  for (auto const& row : report.means)
-    if (row.refused.empty()) means.push_back(&row);
-  if (!means.empty())
+  if (auto const means = rows_in(report.means, mean_of_worlds); !means.empty())
     for (auto const& sentence : sentences(means, report.units.front()))
-      report.verdict.push_back("mean of worlds: " + sentence);
+      report.verdict.push_back(fmt::format("{}: {}", mean_of_worlds, sentence));
   for (auto const& claim : report.description.claims) report.claims.push_back(judged_claim(report, claim));
 }
 

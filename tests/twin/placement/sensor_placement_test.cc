@@ -247,7 +247,12 @@ TEST(PlaceSensors, TellsWhatSensorsAreWorth) {
   EXPECT_GE(best.model_um, report.bound_um * (1.0 - 1e-9));
   EXPECT_GE(report.fewer->model_um, best.model_um);
   EXPECT_LE(report.more->model_um, best.model_um);
-  EXPECT_GE(report.proposed->model_um, best.model_um);
+  auto const& proposed = report.proposed.value();
+  EXPECT_GE(proposed.set.model_um, best.model_um);
+  double least = INFINITY;
+  for (auto const& sensor : proposed.set.sensors) least = std::min(least, sensor.error_without_um);
+  EXPECT_NEAR(proposed.fewer->model_um, least, 1e-9 * least);
+  EXPECT_LE(proposed.more->model_um, proposed.set.model_um);
   EXPECT_LE(best.unseen_low_um, best.unseen_high_um);
   for (auto const& sensor : best.sensors) EXPECT_GE(sensor.error_without_um, best.model_um);
   auto const machine = Machine::build(v450());
@@ -262,9 +267,20 @@ TEST(PlaceSensors, FindsTheIdleSensorOfAProposal) {
   options.proposed = {"head_front", "T6", "column_front"};
   auto const report = place_sensors(v450(), options);
   std::vector<std::string> idle;
-  for (auto const& sensor : report.proposed->sensors)
+  for (auto const& sensor : report.proposed->set.sensors)
     if (sensor.idle) idle.push_back(sensor.site.name);
   EXPECT_THAT(idle, testing::ElementsAre(testing::AnyOf("head_front", "T6")));
+}
+
+/// The best set of all is what one more sensor makes of all but one of it.
+TEST(PlaceSensors, FindsTheSensorThatAProposalLacks) {
+  auto options = quick(3);
+  auto const best = place_sensors(v450(), options).recommended;
+  options.proposed = {best.sensors[0].site.name, best.sensors[2].site.name};
+  auto const report = place_sensors(v450(), options);
+  EXPECT_EQ(report.proposed->with, best.sensors[1].site.name);
+  EXPECT_NEAR(report.proposed->more->model_um, best.model_um, 1e-9 * best.model_um);
+  EXPECT_THAT(placement_text(report), HasSubstr("proposed + " + best.sensors[1].site.name));
 }
 
 TEST(PlaceSensors, TellsMissingEffectsApart) {
@@ -278,7 +294,9 @@ TEST(PlaceSensors, TellsMissingEffectsApart) {
   EXPECT_GE(distinction.recommended, distinction.for_displacement);
   EXPECT_GT(distinction.recommended, 0.0);
   EXPECT_LT(distinction.recommended, 1.5708);
-  EXPECT_THAT(placement_text(report), HasSubstr("degrees"));
+  EXPECT_TRUE(distinction.proved);
+  EXPECT_TRUE(distinction.fewer && distinction.more);
+  EXPECT_THAT(placement_text(report), HasSubstr("no set of 2 has a wider one: all were looked at"));
 }
 
 /// Without the sites that tell effects apart best, which nobody can pay.

@@ -2,7 +2,10 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <set>
 
+#include "models/error_model.h"
+#include "models/selection.h"
 #include "twin/study/study.h"
 #include "twin/study/study_page.h"
 #include "twin/study/study_runs.h"
@@ -30,6 +33,19 @@ TEST(ShippedStudies, AskForWhatTheirMachinesHave) {
     ++studies;
   }
   EXPECT_GE(studies, 6);
+}
+
+/// What "all methods" means is what the catalogues hold.
+TEST(ShippedStudies, OfAllMethodsNameEveryOne) {
+  for (auto const* name : {"paper_004", "all_methods"}) {
+    auto const study = read_study(study_file(name)).description;
+    std::set<std::string, std::less<>> selections, models;
+    for (auto const& text : study.selections) selections.insert(named_selection(text).name);
+    for (auto const& text : study.models) models.insert(text);
+    for (auto const& method : models::selection_methods()) EXPECT_TRUE(selections.contains(method.name)) << method.name;
+    for (auto const& method : models::model_methods()) EXPECT_TRUE(models.contains(method.name)) << method.name;
+    for (auto const* twin : {"twin", "twin ridge"}) EXPECT_TRUE(models.contains(twin)) << name;
+  }
 }
 
 /// E2: the three rules on the same data, within and beyond the runs that they were fitted to, in ten draws of the

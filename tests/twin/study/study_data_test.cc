@@ -1,0 +1,161 @@
+#include "twin/study/study_data.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "output/dataset_file.h"
+#include "tests/twin/study/small_study.h"
+#include "twin/experiment_file.h"
+#include "twin/run.h"
+#include "twin/study/study_page.h"
+#include "twin/study/study_runs.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using testing::HasSubstr;
+
+/// The small study's world on measured files.
+std::string measured_world(std::string const& sampling) {
+  auto text = head + world + "sampling = \"" + sampling + "\"\n";
+  for (auto const* name : {"fast", "slow"})
+    text.replace(text.find(std::string(name) + ".toml"), 9, std::string(name) + ".h5");
+  return text;
+}
+
+/// Writes these, fast as `spoil` leaves it.
+template <class Spoil>
+void measure(SmallStudy const& study, Spoil spoil) {
+  for (std::string const name : {"fast", "slow"}) {
+    auto const programme = study.experiment_path(name + ".toml");
+    auto data = run(Machine::read(machine_file("v450")), read_experiment(read_toml(programme), programme), {}).dataset;
+    if (name == "fast") spoil(data);
+    output::write(data, study.experiment_path(name + ".h5"));
+  }
+}
+
+output::Channel& channel(std::vector<output::Channel>& group, std::string const& name) {
+  return *std::find_if(group.begin(), group.end(), [&](auto const& one) { return one.name == name; });
+}
+
+/// Two of T1's readings are missing, and one of E_Z's.
+void lose_some(output::Dataset& data) {
+  channel(data.readings, "T1").values.segment(4, 2).setConstant(NAN);
+  channel(data.displacements, "E_Z").values[10] = NAN;
+}
+
+/// A sensor stands still, the machine lacks one, and readings are missing.
+void measure_with_faults(SmallStudy const& study) {
+  measure(study, [](output::Dataset& data) {
+    lose_some(data);
+    channel(data.readings, "T9").values.setConstant(20.0);
+    data.readings.push_back(data.readings.front());
+    data.readings.back().name = "T99";
+  });
+}
+
+TEST(Study, SaysWhatMeasuredRunsLack) {
+  SmallStudy const study(measured_world("9 min"));
+  measure_with_faults(study);
+  auto const remarks = study.report().remarks;
+  for (auto const* remark :
+       {"v450: fast.h5: 'T9' is dead: it never moves", "v450: T9 is left out: it is dead in fast.h5",
+        "v450: fast.h5: in the data, but not used: T99",
+        "v450: fast.h5: of 31 rows, readings are missing, and the means are over the others: "
+        "T1 2, E_Z 1"})
+    EXPECT_THAT(remarks, testing::Contains(remark));
+  SmallStudy const finer(measured_world("1 min"));
+  measure_with_faults(finer);
+  EXPECT_THAT(finer.complaint(),
+              HasSubstr("world 'v450': 'sampling' is 60 s, finer than the 180 s between the rows of "));
+}
+
+/// Rows are left out as `fit` leaves them out, and not the sensor, for three empty cells; lags do not reach across
+/// them.
+TEST(Study, LeavesOutRowsWhereFewReadingsAreMissing) {
+  auto text = measured_world("3 min");
+  text.replace(text.find("\"ridge\""), 7, "\"distributed_lag\", \"twin\"");
+  SmallStudy const study(text);
+  std::vector<Eigen::Index> kept;
+  Eigen::MatrixXd inputs = Eigen::MatrixXd::Ones(28, 4);
+  Eigen::VectorXd error;
+  measure(study, [&](output::Dataset& data) {
+    lose_some(data);
+    for (Eigen::Index i = 0; i < data.time_s.size(); ++i)
+      if (i != 4 && i != 5 && i != 10) kept.push_back(i);
+    int column = 1;
+    for (auto const* sensor : {"T1", "T8", "T9"}) inputs.col(column++) = channel(data.readings, sensor).values(kept);
+    error = channel(data.displacements, "E_Z").values(kept);
+  });
+  auto const report = study.report();
+  EXPECT_THAT(report.remarks, testing::Contains("v450: fast.h5: 3 of 31 rows are left out: no value of T1 in 2, of "
+                                                "E_Z in 1"));
+  auto const& linear = row(report, "all + linear");
+  EXPECT_EQ(linear.sensors, (std::vector<std::string>{"T1", "T8", "T9"}));
+  Eigen::VectorXd const residual = error - inputs * inputs.colPivHouseholderQr().solve(error);
+  EXPECT_NEAR(linear.figures.at("self.rmse").front(), std::sqrt(residual.squaredNorm() / 28.0), 1e-6);
+  EXPECT_THAT(row(report, "all + distributed_lag").refused, HasSubstr("lags need even steps"));
+  EXPECT_LT(row(report, "all + twin").figures.at("self.rmse").front(), 1.0);
+}
+
+/// In a gap of the record every channel lacks what the others lack: no sensor is the worse for it.
+TEST(Study, LeavesOutTheRowsOfAGap) {
+  SmallStudy const study(measured_world("6 min"));
+  measure(study, [](output::Dataset& data) {
+    for (auto* group : {&data.readings, &data.displacements})
+      for (auto& one : *group) one.values.segment(10, 8).setConstant(NAN);
+  });
+  auto const report = study.report();
+  EXPECT_THAT(
+      report.remarks,
+      testing::Contains(HasSubstr("v450: fast.h5: 4 of 16 rows are left out: no value of T1 in 4, of T8 in 4")));
+  EXPECT_EQ(row(report, "all + linear").sensors.size(), 3U);
+}
+
+/// Before the verdict, which rests on the others.
+TEST(Study, LeavesOutASensorThatLacksMuch) {
+  SmallStudy const study(measured_world("3 min"));
+  measure(study, [](output::Dataset& data) { channel(data.readings, "T8").values.segment(4, 4).setConstant(NAN); });
+  auto const report = study.report();
+  std::string const remark = "v450: T8 is left out: 4 of 31 readings are missing in fast.h5, more than 10 %";
+  EXPECT_THAT(report.remarks, testing::Contains(remark));
+  EXPECT_EQ(row(report, "all + linear").sensors, (std::vector<std::string>{"T1", "T9"}));
+  auto const text = study_text(report);
+  EXPECT_LT(text.find(remark), text.find("\nverdict\n"));
+}
+
+TEST(Study, SaysWhichSensorsItLeavesOut) {
+  auto text = head + world;
+  text += R"(add = '''
+[[temperature_sensor]]
+name = "still"
+at = "ambient"
+kind = "ideal"
+[[temperature_sensor]]
+name = "broken"
+at = "motor"
+dead_from = "30 min"
+'''
+)";
+  text.replace(text.find("\"T9\""), 4, "\"T9\", \"still\", \"broken\"");
+  auto const report = SmallStudy(text).report();
+  EXPECT_THAT(report.remarks, testing::Contains("v450: still stands still in fast.toml, and is left out there"));
+  EXPECT_THAT(report.remarks,
+              testing::Contains(HasSubstr("v450: broken is left out: 21 of 31 readings are missing in fast.toml")));
+  EXPECT_EQ(row(report, "all + linear").sensors, (std::vector<std::string>{"T1", "T8", "T9"}));
+}
+
+TEST(StudyAverages, AreOverStretchesAndSkipWhatIsMissing) {
+  output::Dataset data;
+  data.time_s = Eigen::VectorXd::LinSpaced(7, 0.0, 90.0);  // every 15 s
+  data.readings.push_back({"T", "degC", "", (Eigen::VectorXd(7) << 1, 2, 3, 4, 5, NAN, 7).finished()});
+  auto const mean = averaged(data, 30.0);
+  EXPECT_EQ(mean.time_s, (Eigen::VectorXd(4) << 0, 30, 60, 90).finished());
+  EXPECT_EQ(mean.readings[0].values, (Eigen::VectorXd(4) << 1.5, 3.5, 5, 7).finished());
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

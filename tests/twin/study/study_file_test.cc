@@ -1,0 +1,82 @@
+#include "twin/study/study_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/twin/study/small_study.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Study, MistakesAreNamedWhereTheyStand) {
+  auto const with = [](std::string text, std::string const& what, std::string const& instead) {
+    text.replace(text.find(what), what.size(), instead);
+    return SmallStudy(text).complaint();
+  };
+  std::string const all = head + world;
+  EXPECT_THAT(with(all, "forward 2", "foward 2"), HasSubstr("small.toml:4:22: no selection method 'foward'; did you"));
+  EXPECT_THAT(with(all, "forward 2", "forward two"), HasSubstr("a number of sensors from 1 on is due"));
+  EXPECT_THAT(with(all, "forward 2", "all 2"), HasSubstr("all sensors have no number"));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"rigde\""), HasSubstr("small.toml:5:21: no model 'rigde'; known: linear, "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"twin rigde\""),
+              HasSubstr("small.toml:5:21: no model 'rigde'; known: linear, "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"twins\""), HasSubstr("small.toml:5:21: no model 'twins'; known: "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"linear\""), HasSubstr("small.toml:5:21: 'linear' is given twice"));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"linear & rigde\""), HasSubstr("small.toml:5:21: no model 'rigde'; known: "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"linear & \""), HasSubstr("small.toml:5:21: no model ''; known: "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"ridge & ridge\""),
+              HasSubstr("small.toml:5:21: 'ridge & ridge' has a model twice"));
+  EXPECT_THAT(with(all, "seeds = 5", "seeds = 3"), HasSubstr("'seeds' is 3; allowed is 5 to 1000"));
+  EXPECT_THAT(with(all, "E_Z", "E_W"),
+              HasSubstr("small.toml:10:9: world 'v450': the machine has no displacement 'E_W'; did you mean"));
+  EXPECT_THAT(with(all, "\"T9\"", "\"T19\""),
+              HasSubstr("small.toml:11:24: world 'v450': the machine has no sensor 'T19'; did you mean"));
+  EXPECT_THAT(with(all, "error =", "eror ="), HasSubstr("small.toml:10:1: unknown key 'eror'; did you mean 'error'"));
+  EXPECT_THAT(SmallStudy(all + "[[claim]]\nsays = \"x\"\ncombination = \"all + linear\"\nat_most = 1\ntolerance = 5\n")
+                  .complaint(),
+              HasSubstr("small.toml:18:13: a 'tolerance' says no worse than another combination; give 'than'"));
+  auto const claimed = [&](std::string const& keys) {
+    return SmallStudy(all + "[[claim]]\nsays = \"x\"\n" + keys).complaint();
+  };
+  EXPECT_THAT(claimed("combination = \"all + linear\"\nat_most = 1\nshare = 0.5\n"),
+              HasSubstr("small.toml:18:9: a 'share' is of another combination; give 'than', and no 'improvement'"));
+  EXPECT_THAT(
+      claimed("combination = \"all + linear\"\nthan = \"best of paper\"\nshare = 0.5\n"),
+      HasSubstr("small.toml:17:8: the study has no combination 'best of paper'; did you mean 'best of papers'?"));
+  EXPECT_THAT(claimed("combination = \"chosen by cross-validation\"\nat_most = 1\n"),
+              HasSubstr("small.toml:16:15: there is no cross-validation to choose by; give 'folds'"));
+  EXPECT_THAT(claimed("combination = \"all + linear\"\nat_most = 1\nworld = \"mean of worlds\"\n"),
+              HasSubstr("small.toml:18:9: no world 'mean of worlds'; "));
+  EXPECT_THAT(with(all, "error =", "sampling = \"0 s\"\nerror ="),
+              HasSubstr("small.toml:10:12: 'sampling' is 0 s; an interval of more than 0 is due"));
+  EXPECT_THAT(with(all, "test =", "instant = [{ experiment = \"slow.toml\", time = \"60 min\" }]\ntest ="),
+              HasSubstr("small.toml:13:12: an 'instant' judges the error over an axis, but 'error' is 'E_Z'; give a "
+                        "slope, for example \"slope z\""));
+  EXPECT_THAT(with(all, "slow.toml", "missing.toml"),
+              HasSubstr("small.toml:13:9: world 'v450': 'missing.toml' is not there: "));
+  EXPECT_THAT(with(all, "slow.toml", "fast.toml"), HasSubstr("'fast.toml' is in 'train', too"));
+  EXPECT_THAT(with(all, "test = [\"slow.toml\"]", ""), HasSubstr("has nothing to test on; give 'test' or 'split'"));
+  EXPECT_THAT(with("reference = \"all + liner\"\n" + all, "Small", "Small"),
+              HasSubstr("small.toml:1:13: the study has no combination 'all + liner'; did you mean 'all + linear'?"));
+  EXPECT_THAT(with(all, "error = \"E_Z\"", "error = \"slope z\""), HasSubstr("no laser measurement of axis 'z'"));
+}
+
+TEST(Study, JudgesInstantsByOneModelOfAllRuns) {
+  std::string const each = R"(
+[[world]]
+name = "axis"
+machine = "vmc850"
+error = "slope z"
+fit = "each"
+train = ["feed_8000", "feed_12000", "feed_16000"]
+instant = [{ experiment = "feed_12000", time = "150 min" }]
+)";
+  EXPECT_THAT(SmallStudy(head + each).complaint(),
+              HasSubstr("small.toml:13:12: an 'instant' is judged by the one model of all of 'train', but 'fit' is "
+                        "each; give fit = \"together\", or no 'instant'"));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

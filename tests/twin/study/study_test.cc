@@ -1,0 +1,165 @@
+#include "twin/study/study.h"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/twin/study/small_study.h"
+#include "twin/experiment_file.h"
+#include "twin/run.h"
+#include "twin/study/study_page.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using testing::HasSubstr;
+
+/// Rises of T1, T8, T9 with a column of ones, seen or true, and the error.
+struct Regression {
+  Eigen::MatrixXd inputs;
+  Eigen::VectorXd seen, truth;
+
+  Regression(std::filesystem::path const& file, int seed) {
+    auto programme = read_experiment(read_toml(file), file);
+    programme.seed = seed;
+    auto const data = run(Machine::read(machine_file("v450")), programme, {}).dataset;
+    inputs = Eigen::MatrixXd::Ones(data.time_s.size(), 4);
+    int column = 1;
+    for (auto const& channel : data.readings)
+      if (channel.name == "T1" || channel.name == "T8" || channel.name == "T9")
+        inputs.col(column++) = channel.values.array() - channel.values[0];
+    for (auto const& channel : data.displacements)
+      if (channel.name == "E_Z") seen = channel.values;
+    for (auto const& channel : data.truth_displacements)
+      if (channel.name == "E_Z") truth = channel.values;
+  }
+};
+
+TEST(Study, FiguresAreThoseOfLeastSquaresByHand) {
+  SmallStudy const study;
+  auto const report = study.report();
+  auto const& figures = row(report, "all + linear").figures;
+  for (int r = 0; r < 5; ++r) {
+    Regression const train(study.experiment_path("fast.toml"), 1 + 2 * r);
+    Regression const test(study.experiment_path("slow.toml"), 2 + 2 * r);
+    Eigen::VectorXd const b = train.inputs.colPivHouseholderQr().solve(train.seen);
+    Eigen::VectorXd const self = train.truth - train.inputs * b, cross = test.truth - test.inputs * b;
+    auto const value = [&](char const* name) { return figures.at(name)[std::size_t(r)]; };
+    EXPECT_NEAR(value("self.rmse"), std::sqrt(self.squaredNorm() / double(self.size())), 1e-8);
+    EXPECT_NEAR(value("cross.rmse"), std::sqrt(cross.squaredNorm() / double(cross.size())), 1e-8);
+    EXPECT_NEAR(value("cross.mae"), cross.cwiseAbs().mean(), 1e-8);
+    EXPECT_NEAR(value("cross.max"), cross.cwiseAbs().maxCoeff(), 1e-8);
+    double const variation = (test.truth.array() - test.truth.mean()).square().sum();
+    EXPECT_NEAR(value("cross.r_squared"), 1.0 - cross.squaredNorm() / variation, 1e-8);
+    Eigen::VectorXd const residual = train.seen - train.inputs * b;
+    EXPECT_NEAR(value("S"), std::sqrt(residual.squaredNorm() / double(residual.size() - 4)), 1e-8);
+    EXPECT_NEAR(value("improvement"), 0.0, 1e-12);  // it is the reference
+  }
+}
+
+TEST(Study, ImprovementIsOverTheReferenceInTheNamedMetric) {
+  SmallStudy const study("metric = \"mae\"\nreference = \"forward 2 + ridge\"\n" + head + world);
+  auto const report = study.report();
+  auto const& figures = row(report, "all + linear").figures;
+  auto const& reference = row(report, "forward 2 + ridge").figures;
+  double const before = interval(reference.at("cross.mae")).mean, after = interval(figures.at("cross.mae")).mean;
+  for (std::size_t r = 0; r < 5; ++r)
+    EXPECT_NEAR(figures.at("improvement")[r],
+                100.0 * (reference.at("cross.mae")[r] - figures.at("cross.mae")[r]) / before, 1e-9);
+  EXPECT_NEAR(interval(figures.at("improvement")).mean, 100.0 * (1.0 - after / before), 1e-9);
+  EXPECT_THAT(study_text(report), HasSubstr("better: mae of cross-prediction against forward 2 + ridge"));
+  EXPECT_EQ(row(report, "forward 2 + ridge").sensors.size(), 2U);
+}
+
+TEST(Study, MeasuresSelectionsAgainstTheBestSet) {
+  auto const report = SmallStudy("folds = 3\n" + head + world).report();
+  auto const& forward = report.selections.at(1).figures;
+  for (std::size_t r = 0; r < 5; ++r) {
+    EXPECT_GE(forward.at("regret")[r], 0.0);
+    EXPECT_EQ(forward.at("informative")[r], 2.0);
+    EXPECT_EQ(forward.at("regret")[r] == 0.0, forward.at("found")[r] == 2.0);
+  }
+  EXPECT_FALSE(report.selections.at(0).figures.contains("regret"));  // all sensors are no choice
+  EXPECT_EQ(row(report, "all + ridge").figures.at("validation.rmse").size(), 5U);
+}
+
+TEST(Study, MayCutOneRunInTwo) {
+  auto text = head + world;
+  text.replace(text.find("test = [\"slow.toml\"]"), 20, "split = \"60 min\"");
+  auto const report = SmallStudy(text).report();
+  auto const& figures = row(report, "all + linear").figures;
+  EXPECT_GT(interval(figures.at("cross.rmse")).mean, interval(figures.at("self.rmse")).mean);
+  text.replace(text.find("\"ridge\""), 7, "\"twin ridge\"");  // calibrated on the first hour
+  auto const of_twin = row(SmallStudy(text).report(), "all + twin ridge").figures;
+  EXPECT_LT(interval(of_twin.at("cross.rmse")).mean, interval(figures.at("cross.rmse")).mean);
+}
+
+TEST(Study, TreatsEachRunAsABatchOfItsOwn) {
+  std::string const batches = R"(
+[[world]]
+name = "batches"
+machine = "v450"
+error = "E_Z"
+fit = "each"
+train = ["batch_004_K01", "batch_004_K05", "batch_004_K09"]
+test = ["batch_004_V1", "batch_004_V2"]
+)";
+  auto const report = SmallStudy(head + batches).report();
+  auto const& figures = row(report, "forward 2 + linear").figures;
+  for (char const* name : {"S", "Mn", "Sd", "verification.Mn", "verification.Sd"})
+    EXPECT_EQ(figures.at(name).size(), 5U) << name;
+  EXPECT_LT(figures.at("S")[0], figures.at("Mn")[0]);
+  EXPECT_LE(figures.at("Mn.least")[0], figures.at("Mn.most")[0]);
+  EXPECT_EQ(report.selections.at(0).figures.at("switches")[0], 0.0);  // all sensors, always
+}
+
+TEST(Study, JudgesAFeedAxisByTheSlopeOfItsError) {
+  std::string const axis = R"(
+[[world]]
+name = "axis"
+machine = "vmc850"
+error = "slope z"
+sensors = ["S5", "S6", "S7", "S9"]
+train = ["feed_8000", "feed_16000"]
+test = ["feed_12000"]
+to = "550 mm"
+instant = [{ experiment = "feed_12000", time = "150 min" }]
+)";
+  auto const report = SmallStudy(head + axis).report();
+  EXPECT_EQ(report.units.at(0), "um/m");
+  EXPECT_THAT(study_text(report), HasSubstr("feed_12000 at 150 min"));
+  auto late = axis;
+  late.replace(late.find("150 min"), 7, "900 min");
+  EXPECT_THAT(SmallStudy(head + late).complaint(),
+              HasSubstr("world 'axis': no pass of the laser in feed_12000 at 900 min; they are from 0 min to "));
+  auto const& figures = row(report, "all + linear").figures;
+  for (double const rmse : figures.at("feed_12000 at 150 min.rmse")) EXPECT_LT(rmse, 5.0);
+  EXPECT_LE(figures.at("feed_12000 at 150 min.mae")[0], figures.at("feed_12000 at 150 min.max")[0]);
+}
+
+TEST(Study, RefusedCombinationsStandInTheTable) {
+  auto text = head + world;
+  text.replace(text.find("\"linear\", \"ridge\""), 17, "\"linear\", \"distributed_lag\"");
+  text.replace(text.find("sensors = [\"T1\", \"T8\", \"T9\"]\n"), 29, "");
+  auto const report = SmallStudy(text).report();  // 31 readings, 29 of them after the lags
+  auto const& refused = row(report, "all + distributed_lag");
+  EXPECT_EQ(refused.refused, "29 samples are too few for 30 regressors: at least 32");
+  EXPECT_TRUE(refused.figures.empty());
+  EXPECT_FALSE(row(report, "forward 2 + distributed_lag").figures.empty());
+  EXPECT_THAT(study_text(report), HasSubstr("refused: "));
+  EXPECT_THAT(study_csv(report), HasSubstr(",distributed_lag,"));
+}
+
+TEST(Study, RemarksOfFitsStandInTheTable) {
+  auto text = head + world;
+  text.replace(text.find("\"ridge\""), 7, "\"back_propagation\"");
+  auto const report = SmallStudy(text).report();  // 3 + 7 + 1 nodes
+  auto const remark = row(report, "all + back_propagation").remark;
+  EXPECT_THAT(remark, HasSubstr("36 parameters for 31 samples"));
+  EXPECT_THAT(study_text(report), HasSubstr("  " + remark + "\n"));
+  EXPECT_THAT(study_csv(report), HasSubstr(",T1 T8 T9,\"" + remark + "\","));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

@@ -1,0 +1,75 @@
+#include "twin/study/study_twin.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "output/dataset_file.h"
+#include "tests/twin/study/small_study.h"
+#include "twin/experiment_file.h"
+#include "twin/run.h"
+#include "twin/setting.h"
+
+namespace thermotwin::twin {
+namespace {
+
+/// The twin starts from a file whose numbers are wrong, is calibrated on the training run, and then beats what
+/// regressions learn from that run; what its readings err by tells more.
+TEST(Study, TwinIsCalibratedOnTheTrainingRuns) {
+  SmallStudy const study(
+      "title = \"x\"\nseeds = 5\nselections = [\"all\"]\n"
+      "models = [\"linear\", \"twin\", \"twin ridge\", \"twin & linear\"]\n" +
+      world);
+  auto const report = study.report();
+  auto const mean = [&](std::string const& name) { return interval(row(report, name).figures.at("cross.rmse")).mean; };
+  EXPECT_LT(mean("all + twin"), 1.0);
+  EXPECT_LT(mean("all + twin"), mean("all + linear"));
+  EXPECT_LT(mean("all + twin ridge"), mean("all + linear"));
+  EXPECT_GT(mean("all + twin"), 0.0);  // it does not know the truth
+  auto const figure = [&](std::string const& name, std::size_t seed) {
+    return row(report, name).figures.at("cross.rmse").at(seed);
+  };
+  for (std::size_t seed = 0; seed < 5; ++seed) {  // norm of a mean: between half the norms' difference and their mean
+    double const twin = figure("all + twin", seed), line = figure("all + linear", seed);
+    EXPECT_LE(figure("all + twin & linear", seed), 0.5 * (twin + line) * (1.0 + 1e-12));
+    EXPECT_GE(figure("all + twin & linear", seed), 0.5 * std::abs(twin - line) * (1.0 - 1e-12));
+  }
+  EXPECT_EQ(row(report, "all + twin").sensors.size(), 3U);
+}
+
+/// What the study adds to the machine, the twin lacks: no number of its file stands for a heater on the head.
+TEST(Study, TwinLacksWhatTheStudyAdds) {
+  std::string const twin_only = "title = \"x\"\nseeds = 5\nselections = [\"all\"]\nmodels = [\"twin\"]\n" + world;
+  SmallStudy const heated(twin_only +
+                          "add = '''\n[[heat]]\nname = \"heater\"\nat = \"head_front\"\npower = \"150 W\"\n'''\n");
+  auto const error = [](SmallStudy const& study) {
+    return interval(row(study.report(), "all + twin").figures.at("cross.rmse")).mean;
+  };
+  EXPECT_GT(error(heated), 3.0 * error(SmallStudy(twin_only)));
+}
+
+/// Somebody's machine, whose bearings rub less than the file says, measured by a probe whose zero is anywhere.
+TEST(Study, MeasuredRunsHaveATwinToo) {
+  auto text = "folds = 2\n" + head + world;
+  for (auto const* name : {"fast", "slow"})
+    text.replace(text.find(std::string(name) + ".toml"), 9, std::string(name) + ".h5");
+  text.replace(text.find("\"ridge\""), 7, "\"twin\"");
+  SmallStudy const study(text);
+  Value document = read_toml(machine_file("v450"));
+  set_parameter(document, "bearing.front.grease_factor", "0.7");
+  double zero = 40.0;
+  for (std::string const name : {"fast", "slow"}) {
+    auto const programme = study.experiment_path(name + ".toml");
+    auto data = run(Machine::build(document), read_experiment(read_toml(programme), programme), {}).dataset;
+    for (auto& channel : data.displacements) channel.values.array() += zero;
+    zero = -70.0;
+    output::write(data, study.experiment_path(name + ".h5"));
+  }
+  auto const report = study.report();
+  auto const& twin = row(report, "all + twin").figures;
+  EXPECT_LT(twin.at("self.rmse").front(), 1.0);
+  EXPECT_LT(twin.at("cross.rmse").front(), 1.5);
+  EXPECT_LT(twin.at("validation.rmse").front(), 2.0);
+}
+
+}  // namespace
+}  // namespace thermotwin::twin

@@ -1,0 +1,160 @@
+#include "twin/study/verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/twin/study/small_study.h"
+#include "twin/study/study_page.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Study, ClaimsAreDecidedByIntervals) {
+  std::string const claims = R"(
+[[claim]]
+says = "two sensors fit no better than three"
+combination = "all + linear"
+than = "forward 2 + linear"
+figure = "S"
+[[claim]]
+says = "nobody errs by more than a metre"
+combination = "all + linear"
+at_most = 1e6
+[[claim]]
+says = "nobody errs"
+combination = "all + linear"
+at_most = 0
+[[claim]]
+says = "there is such a figure"
+combination = "all + linear"
+figure = "verification.Mn"
+at_most = 1
+[[claim]]
+says = "it is better than itself"
+combination = "all + linear"
+than = "all + linear"
+[[claim]]
+says = "it is no worse than itself"
+combination = "all + linear"
+than = "all + linear"
+tolerance = 0
+[[claim]]
+says = "it is better than itself by three quarters"
+combination = "all + linear"
+than = "all + linear"
+improvement = 75
+)";
+  auto const report = SmallStudy(head + world + claims).report();
+  EXPECT_EQ(report.claims.at(1).answer, ClaimVerdict::Answer::holds);
+  EXPECT_EQ(report.claims.at(2).answer, ClaimVerdict::Answer::fails);
+  EXPECT_EQ(report.claims.at(3).answer, ClaimVerdict::Answer::refused);
+  EXPECT_EQ(report.claims.at(4).answer, ClaimVerdict::Answer::fails);
+  EXPECT_EQ(report.claims.at(5).answer, ClaimVerdict::Answer::holds);
+  EXPECT_EQ(report.claims.at(6).answer, ClaimVerdict::Answer::fails);
+  EXPECT_THAT(study_text(report), HasSubstr("\"nobody errs\" does not hold: cross.rmse of all + linear: "));
+}
+
+/// Errors of an own method and of two of the papers' (a method of theirs on sensors that one of theirs chose), in three
+/// repetitions of two worlds, whose mean is the last three rows.
+StudyReport of_two_worlds() {
+  StudyReport report;
+  report.description.worlds.resize(2);
+  report.description.worlds[0].name = "lathe";
+  report.description.worlds[1].name = "mill";
+  report.units = {"um", "um"};
+  auto const add = [](std::vector<Combination>& rows, std::string const& world, double scale) {
+    auto const times = [&](double a, double b, double c) { return std::vector{scale * a, scale * b, scale * c}; };
+    rows.push_back(
+        {world, "all", "ridge", {{"cross.rmse", times(1, 2, 3)}, {"validation.rmse", times(3, 3, 3)}}, {}, {}, {}});
+    rows.push_back({world,
+                    "grey_fuzzy",
+                    "linear",
+                    {{"cross.rmse", times(2, 4, 6)}, {"validation.rmse", times(2, 2, 2)}},
+                    {},
+                    {},
+                    {}});
+    rows.push_back({world,
+                    "grey_relational",
+                    "linear",
+                    {{"cross.rmse", times(5, 5, 5)}, {"validation.rmse", times(4, 4, 4)}},
+                    {},
+                    {},
+                    {}});
+  };
+  add(report.rows, "lathe", 1.0);
+  add(report.rows, "mill", 3.0);
+  add(report.means, "mean of worlds", 2.0);
+  return report;
+}
+
+StudyClaim share_of_papers(double share, std::string const& combination, std::string const& world) {
+  StudyClaim claim;
+  claim.combination = combination;
+  claim.than = best_of_papers;
+  claim.share = share;
+  claim.world = world;
+  return claim;
+}
+
+/// Exactly half of the best paper method's in each repetition, though repetitions differ by three.
+TEST(StudyVerdict, ComparesWithAShareOfTheBestOfThePapers) {
+  using enum ClaimVerdict::Answer;
+  auto report = of_two_worlds();
+  for (double const share : {0.5, 0.49, 0.6})
+    report.description.claims.push_back(share_of_papers(share, "all + ridge", "mean of worlds"));
+  report.description.claims.push_back(share_of_papers(1.0, "chosen by cross-validation", "mill"));
+  report.description.claims.push_back(share_of_papers(0.5, "grey_relational + linear", ""));
+  put_verdict(report);
+  EXPECT_EQ(report.claims.at(0).answer, holds);
+  EXPECT_EQ(report.claims.at(1).answer, fails);
+  EXPECT_EQ(report.claims.at(2).answer, holds);
+  EXPECT_THAT(report.claims.at(0).words,
+              HasSubstr("cross.rmse of all + ridge: 4.000 ± 4.968, of grey_fuzzy + linear (best of papers): 8.000 ± "
+                        "9.937; 0.500 ± 0.000 of it, against 0.5"));
+  EXPECT_THAT(report.claims.at(3).words, HasSubstr("cross.rmse of grey_fuzzy + linear: 12.000"));
+  EXPECT_EQ(report.claims.at(3).answer, holds);
+  EXPECT_EQ(report.claims.at(4).answer, undecided);  // 2.5, 1.25 and 0.83 of it
+}
+
+TEST(StudyVerdict, SaysWhereAClaimHasNothingToCompare) {
+  auto report = of_two_worlds();
+  std::erase_if(report.rows, [](auto const& row) { return row.selection != "all"; });
+  report.rows.front().refused = "no reason";
+  report.description.claims = {share_of_papers(0.5, "all + ridge", "mill"),
+                               share_of_papers(0.5, "all + ridge", "lathe")};
+  put_verdict(report);
+  for (auto const& claim : report.claims) {
+    EXPECT_EQ(claim.answer, ClaimVerdict::Answer::refused);
+    EXPECT_THAT(claim.words, HasSubstr("there is no 'cross.rmse' of these combinations in '"));
+  }
+}
+
+/// Half a micrometre less in each repetition, though repetitions differ by eight.
+TEST(StudyVerdict, ComparesCombinationsInTheSameRepetition) {
+  StudyReport report;
+  report.description.worlds.resize(1);
+  report.units = {"um"};
+  report.rows = {{"", "all", "linear", {{"cross.rmse", {1.0, 5.0, 9.0}}}, {}, {}, {}},
+                 {"", "all", "ridge", {{"cross.rmse", {1.5, 5.5, 9.5}}}, {}, {}, {}}};
+  StudyClaim claim;
+  claim.combination = "all + linear";
+  claim.than = "all + ridge";
+  report.description.claims.push_back(claim);
+  claim.improvement = 20.0;
+  report.description.claims.push_back(claim);
+  claim.improvement = {};
+  std::swap(claim.combination, claim.than);
+  claim.tolerance = 60.0;
+  report.description.claims.push_back(claim);
+  put_verdict(report);
+  EXPECT_EQ(report.claims.at(0).answer, ClaimVerdict::Answer::holds);
+  EXPECT_THAT(report.claims.at(0).words, HasSubstr("; 9.1 ± 0.0 % less"));
+  EXPECT_EQ(report.claims.at(1).answer, ClaimVerdict::Answer::undecided);
+  EXPECT_EQ(report.claims.at(2).answer, ClaimVerdict::Answer::undecided);
+  EXPECT_THAT(report.claims.at(2).words, HasSubstr("-10.0 ± 0.0 % less, against 60 % more at most"));
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
