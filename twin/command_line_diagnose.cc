@@ -68,6 +68,8 @@ void add_diagnose_command(CLI::App& app) {
   auto* amended =
       command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
   command->add_option("--without", files->without, "effects that are not to be tried")->delimiter(',');
+  command->add_option("--start", files->start,
+                      "seed: begin the search from numbers drawn from their priors; the verdict must be the same");
   auto folder = std::make_shared<std::string>();
   auto* page =
       command->add_option("--report", *folder, "folder for a page to look at (report.html) and diagnosis.json");

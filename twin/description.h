@@ -254,7 +254,7 @@ struct InfluenceDescription {
 struct DisplacementDescription {
   std::string name, title;
   std::string direction = "z";
-  std::vector<LoopSegment> segment;
+  std::vector<LoopSegment> segment, beyond;
   std::vector<InfluenceDescription> influence;
   std::optional<double> base;     ///< rotations: distance by which the difference of growth is divided
   std::optional<double> closure;  ///< sum of weight · length around the loop: the offset from table to tool [m]
@@ -266,6 +266,8 @@ struct DisplacementDescription {
     f.choice("direction", &DisplacementDescription::direction, {"x", "y", "z", "-x", "-y", "-z"},
              "in which influence weights are taken");
     f("segment", &DisplacementDescription::segment, "steps along the structural loop");
+    f("beyond", &DisplacementDescription::beyond,
+      "what the castings do besides, as so much more of them in the loop; neither closure nor levers count it");
     f("influence", &DisplacementDescription::influence, "blocks with influence weights");
     f("base", &DisplacementDescription::base, dimension::length,
       "of a rotation: distance between the two ends that grow; bending has its height");

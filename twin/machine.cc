@@ -1,7 +1,9 @@
 #include "twin/machine.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 #include <utility>
 
 #include "thermal/error.h"
@@ -98,6 +100,20 @@ void check_channel_name(Value const& table, std::string const& name) {
 /// Keys of the two places between which a part carries heat.
 constexpr std::pair<char const*, char const*> ends[] = {{"from", "to"},   {"inner", "outer"},  {"shaft", "ring"},
                                                         {"nut", "screw"}, {"rotor", "stator"}, {"first", "second"}};
+
+/// InputError for a sensor without a place, in air and elsewhere at once, or with shares that do not add up to 1.
+void check_places(SensorDescription const& d) {
+  if (d.at.empty()) throw InputError(fmt::format("sensor '{}' needs a place: at = \"head\"", d.name));
+  if (d.at.size() > 1 && std::find(d.at.begin(), d.at.end(), "ambient") != d.at.end())
+    throw InputError(fmt::format("sensor '{}': one in the room, 'ambient', has no other place", d.name));
+  if (d.shares.empty()) return;
+  if (d.shares.size() != d.at.size())
+    throw InputError(
+        fmt::format("sensor '{}': 'shares' has {} numbers for {} places", d.name, d.shares.size(), d.at.size()));
+  double const sum = std::accumulate(d.shares.begin(), d.shares.end(), 0.0);
+  if (std::abs(sum - 1.0) > 1e-6)
+    throw InputError(fmt::format("sensor '{}': 'shares' must add up to 1, not to {:g}", d.name, sum));
+}
 
 }  // namespace
 
@@ -217,13 +233,13 @@ void MachineBuilder::read_sensors() {
     located(*table, [&, &d = description, &table = *table] {
       check_channel_name(table, d.name);
       Sensor sensor{d, {}, {0.0, 0.0, 0.0}};
-      if (d.at.empty()) throw InputError(fmt::format("sensor '{}' needs a place: at = \"head\"", d.name));
-      for (auto const& text : d.at) {
-        if (text == "ambient") continue;
-        Place const place = assembly_.place(text, {"ambient"});
+      check_places(d);
+      for (std::size_t i = 0; i < d.at.size(); ++i) {
+        if (d.at[i] == "ambient") continue;
+        Place const place = assembly_.place(d.at[i], {"ambient"});
         for (auto const& contact : place.site.contacts)
-          sensor.weights.emplace_back(place.first_node + contact.node, contact.share / double(d.at.size()));
-        sensor.position += place.centre() / double(d.at.size());
+          sensor.weights.emplace_back(place.first_node + contact.node, contact.share * d.share(i));
+        sensor.position += place.centre() * d.share(i);
       }
       check_sensor(d, d.name);
       if (sensor.weights.empty()) sensor.position = machine_.up;  // at 1 m
@@ -232,16 +248,19 @@ void MachineBuilder::read_sensors() {
 }
 
 void MachineBuilder::read_displacements() {
+  std::vector<Tabled<DisplacementDescription>> all;
   for (bool const rotation : {true, false})
-    for (auto const& [description, table] :
-         tables_.read<DisplacementDescription>(rotation ? "rotation" : "displacement"))
-      located(*table, [&, &d = description, &table = *table] {
+    for (auto& tabled : tables_.read<DisplacementDescription>(rotation ? "rotation" : "displacement")) {
+      located(*tabled.table, [&, &d = tabled.description, &table = *tabled.table] {
         check_channel_name(table, d.name);
         auto const& others = loop_.channels();
         if (std::any_of(others.begin(), others.end(), [&](auto const& other) { return other.name == d.name; }))
           throw FileError(table.find("name")->where, fmt::format("the name '{}' is taken by a [[rotation]]", d.name));
         loop_.add(d, rotation);
       });
+      all.push_back(std::move(tabled));
+    }
+  for (auto const& tabled : all) located(*tabled.table, [&] { loop_.add_beyond(tabled.description); });
   machine_.displacements = loop_.channels();
 }
 
@@ -398,7 +417,7 @@ std::vector<TableRecord> describe_machine() {
        list_fields<HollowCylinderDescription>()},
       {"block", "a box of cells; faces: x_min, x_max, y_min, y_max, z_min, z_max", list_fields<BlockDescription>()},
       {"channel", "a fluid that moves along a line; face: wall", list_fields<ChannelDescription>()},
-      {"temperature_sensor", "an instrument at a place, or at the mean of several", list_fields<SensorDescription>()},
+      {"temperature_sensor", "an instrument at a place, or at a mean of several", list_fields<SensorDescription>()},
       {"rotation", "a rotation of the tool relative to the workpiece", list_fields<DisplacementDescription>()},
       {"displacement", "a displacement of the tool relative to the workpiece", list_fields<DisplacementDescription>()},
       {"ball_screw", "error of position along a stroke", list_fields<BallScrewDescription>()},

@@ -22,10 +22,14 @@
 
 namespace thermotwin::twin {
 
-/// `[[temperature_sensor]]`: an instrument at a place, or at the mean of several.
+/// `[[temperature_sensor]]`: an instrument at a place, or at a mean of several.
 struct SensorDescription : TemperatureSensor {
   std::string name, title;
   std::vector<std::string> at;
+  std::vector<double> shares;
+  [[nodiscard]] double share(std::size_t place) const {
+    return shares.empty() ? 1.0 / double(at.size()) : shares[place];
+  }
   std::string component;
 
   template <class Fields>
@@ -33,6 +37,8 @@ struct SensorDescription : TemperatureSensor {
     f.name("name", &SensorDescription::name, "of the channel: T1");
     f("title", &SensorDescription::title, "one line for people");
     f("at", &SensorDescription::at, "place on a body; several: their mean; \"ambient\": room air");
+    f("shares", &SensorDescription::shares, dimension::dimensionless,
+      "of each place in what it reads, sum 1; default: equal; below 0: farther from there than the others are");
     f("component", &SensorDescription::component, "group that it belongs to when sensors are selected");
     TemperatureSensor::fields(f);
   }

@@ -106,4 +106,10 @@ void StructuralLoop::add(DisplacementDescription const& description, bool rotati
   channels_.push_back(std::move(channel));
 }
 
+void StructuralLoop::add_beyond(DisplacementDescription const& description) {
+  auto const channel =
+      std::find_if(channels_.begin(), channels_.end(), [&](auto const& d) { return d.name == description.name; });
+  for (auto const& segment : description.beyond) add_segment(*channel, description, segment);
+}
+
 }  // namespace thermotwin::twin

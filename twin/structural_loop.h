@@ -34,6 +34,8 @@ class StructuralLoop {
 
   /// InputError for an unknown place or rotation, a missing length, a loop that does not close.
   void add(DisplacementDescription const& description, bool rotation);
+  /// What a channel that was added does beyond its loop; once all rotations have served displacements.
+  void add_beyond(DisplacementDescription const& description);
 
   [[nodiscard]] std::vector<Displacement> const& channels() const { return channels_; }
 

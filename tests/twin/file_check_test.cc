@@ -100,7 +100,7 @@ TEST(FileCheck, KnowsEveryKindOfFile) {
                    folder / "sites.toml", folder / "model.toml", folder / "run.csv", folder / "run.toml",
                    source / "scenarios/campaigns/v450_spectra.toml"});
   for (auto const& check : checks) EXPECT_EQ(check.mistake, "");
-  EXPECT_EQ(checks[0].text, "a study of 1 world, 8 selections and 11 models");
+  EXPECT_EQ(checks[0].text, "a study of 1 world, 17 selections and 14 models");
   EXPECT_EQ(checks[1].text, "a campaign of 200 runs on v450");
   EXPECT_THAT(checks[2].text, HasSubstr("candidates of a placement: 1 site; name a machine"));
   EXPECT_EQ(checks[3].text, "an error model: linear of E_X [um] on 1 input, fitted to nobody knows what");
@@ -162,6 +162,21 @@ TEST(FileCheck, RefusesWhatAnInstrumentCannotDo) {
   EXPECT_THAT(
       check_files({folder / "experiment.toml", machine_file("v450")})[0].mistake,
       HasSubstr("experiment.toml:4:8: laser.axis: the laser measures axis 'z', but the machine has no ball_screw"));
+}
+
+TEST(FileCheck, RefusesPlacesThatNoSensorCanHave) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& places) {
+    put(folder / "mine.toml", machine_with("[[temperature_sensor]]\nname = \"both\"\n" + places));
+    return check_files({folder / "mine.toml"})[0].mistake;
+  };
+  EXPECT_EQ(mistake("at = [\"bed\", \"motor\"]\nshares = [1.1, -0.1]\n"), "");
+  EXPECT_THAT(mistake("at = [\"bed\", \"motor\"]\nshares = [1]\n"),
+              MatchesRegex(".*mine.toml:[0-9]+:[0-9]+: sensor 'both': 'shares' has 1 numbers for 2 places"));
+  EXPECT_THAT(mistake("at = [\"bed\", \"motor\"]\nshares = [0.5, 0.4]\n"),
+              HasSubstr("'shares' must add up to 1, not to 0.9"));
+  EXPECT_THAT(mistake("at = [\"bed\", \"ambient\"]\n"),
+              HasSubstr("sensor 'both': one in the room, 'ambient', has no other place"));
 }
 
 TEST(FileCheck, LeavesAComplaintThatNamesItsOwnFile) {

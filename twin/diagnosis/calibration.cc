@@ -135,7 +135,7 @@ std::vector<std::string> Calibration::shortcomings() const {
 }
 
 Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) {
-  Estimation const estimation = expected_estimation(machine, runs).with_lumps();
+  Estimation const estimation = expected_estimation(machine, runs).with_form_of_file();
   if (estimation.numbers().empty())
     throw thermal::InputError(
         "the machine has no number that calibration could change: no conductance, film, friction, loss, mass or step "

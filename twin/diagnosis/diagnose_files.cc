@@ -96,6 +96,7 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   report.doubts = doubts(machine, every_run);
   DiagnosisOptions options;
   options.without = files.without;
+  options.start = files.start;
   options.progress = files.progress;
   report.diagnosis = diagnose(document, fitted, options);
   if (identify_nothing(report.diagnosis))

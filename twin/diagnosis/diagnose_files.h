@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@ struct DiagnoseFiles {
   std::filesystem::path output;  ///< of the amended machine; empty: none
   std::vector<std::string> without;
   std::function<void(std::string const&)> progress;
+  std::optional<std::uint64_t> start = {};  ///< seed of where the search begins
 };
 
 /// Reads machine and data, diagnoses, and compares the machine before and after on both. InputError for files that

@@ -8,6 +8,7 @@
 #include "twin/diagnosis/drifting_sensor.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/excitation.h"
+#include "twin/diagnosis/seen_form.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -31,6 +32,7 @@ class Diagnostician {
   }
   [[nodiscard]] std::vector<Hypothesis> excited_hypotheses() const;
   [[nodiscard]] FreeHeat unknown_heat() const;
+  struct Written;
   void write_down();
   void find_where();
   using HeatAt = std::map<std::pair<std::string, std::string>, double>;  ///< body and regime, watts
@@ -87,17 +89,37 @@ Diagnosis Diagnostician::operator()() {
   return d;
 }
 
-/// What files get: the fit for lumps that hide nothing, and its amplitudes. Their errors are those of the fit that
-/// knows what lumps may hide.
+/// What a file can say of these unknowns: the fit for lumps that hide nothing.
+struct Diagnostician::Written {
+  Written(Estimation const& estimation, Fit const& whole)
+      : seen(seen_of_form(estimation, whole)),
+        fit(fit_of(estimation.with_form_of_file(seen), whole.x)),
+        form(estimation, seen, fit.x),
+        document(estimation.document_at(fit.x)) {
+    form.put_into(document);
+  }
+  /// Places and steps beyond a loop act as the calibrated bodies warm, not as those of the first file.
+  static Fit fit_of(Estimation const& estimation, Eigen::VectorXd const& start) {
+    Fit const fit = estimation.fit(start);
+    return estimation.about(fit.x).fit(fit.x);
+  }
+  std::vector<std::size_t> seen;
+  Fit fit;
+  SeenForm form;
+  Value document;
+};
+
+/// Amplitudes are those of what files get; their errors are those of the fit that knows what lumps may hide.
 void Diagnostician::write_down() {
   auto& d = diagnosis_;
   auto const& amended = search_.estimation();
-  d.written = amended.with_lumps().fit(d.amended.x);
-  d.document = amended.document_at(d.written.x);
-  d.changes = changed_numbers(amended, d.written);
-  for (auto& lag : changed_lags(amended, d.written)) d.changes.push_back(std::move(lag));
-  auto const& plain = search_.plain();
-  d.calibrated_document = d.effects.empty() ? d.document : plain.document_at(plain.with_lumps().fit(d.calibrated.x).x);
+  Written written(amended, d.amended);
+  d.changes = changed_numbers(amended, written.fit);
+  for (auto& lag : changed_lags(amended, written.fit)) d.changes.push_back(std::move(lag));
+  for (auto& change : written.form.changes()) d.changes.push_back(std::move(change));
+  d.written = std::move(written.fit);
+  d.document = std::move(written.document);
+  d.calibrated_document = d.effects.empty() ? d.document : Written(search_.plain(), d.calibrated).document;
   auto const first = d.amended.x.size() - Eigen::Index(d.effects.size());
   for (std::size_t e = 0; e < d.effects.size(); ++e) {
     auto const u = first + Eigen::Index(e);

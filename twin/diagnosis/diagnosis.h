@@ -42,7 +42,7 @@ struct Diagnosis {
   std::vector<Hypothesis> effects;    ///< of `amended`
   std::vector<Unknown> unknowns;      ///< of `amended`
   Value document;                     ///< the machine as amended: calibrated values and the effects
-  std::vector<ChangedValue> changes;  ///< of the user's numbers, and of the sensors' lags, to what that has
+  std::vector<ChangedValue> changes;  ///< of the user's numbers, of sensors and loops, to what that has
   Value calibrated_document;          ///< with calibrated values alone
   std::vector<std::pair<std::string, double>> noise_heard;  ///< of every channel, over what was expected
   std::size_t visible = 0;  ///< hypotheses that would have been seen at half of their largest amplitude

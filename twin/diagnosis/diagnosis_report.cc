@@ -247,9 +247,8 @@ std::string words_of_loop(Diagnosis const& diagnosis) {
   }
   if (steps.empty()) return "";
   return fmt::format(
-      "The file's structural loop leaves out, in shares of a solid's free growth: {}. The file that is written does "
-      "so, "
-      "too.\n\n",
+      "The file's structural loop leaves out, in shares of a solid's free growth: {}. The file that is written has it "
+      "as 'beyond'.\n\n",
       fmt::join(steps, ", "));
 }
 

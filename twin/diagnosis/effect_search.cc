@@ -65,7 +65,7 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs));
   expected_ = estimation_->noise();
-  fit_ = estimation_->fit(estimation_->prior_mean(), to_the_end);
+  fit_ = estimation_->fit(options.start ? estimation_->drawn(*options.start) : estimation_->prior_mean(), to_the_end);
   open_loops();
   listen_to_noise();
   plain_ = estimation_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,6 +24,9 @@ struct DiagnosisOptions {
   double further_threshold = 20.0;
   double least_share = 0.02;
   double indistinct = 9.0;  ///< alternatives within this of the best are told as well
+  /// Seed of the numbers and lags that the first fit starts from, drawn from their priors; none: from their means.
+  /// What is found must not depend on it.
+  std::optional<std::uint64_t> start;
   std::function<void(std::string const&)> progress;
 };
 

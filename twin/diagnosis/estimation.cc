@@ -11,6 +11,7 @@
 #include "thermal/units.h"
 #include "twin/diagnosis/least_squares.h"
 #include "twin/file/document.h"
+#include "twin/instruments/random_stream.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -193,16 +194,44 @@ Estimation Estimation::with_loops(double deviation) const {
   return other;
 }
 
-Estimation Estimation::with_lumps() const {
+Estimation Estimation::about(Eigen::VectorXd const& x) const {
+  Estimation other = *this;
+  auto linear = std::make_shared<LinearUnknowns const>(document_at(x), *data_, channels_);
+  if (linear->all().size() != linear_->all().size()) return other;
+  other.linear_ = std::move(linear);
+  other.hear(noise_);
+  return other;
+}
+
+bool Estimation::has_open_loops() const {
+  auto const& closed = linear_->all();
+  for (std::size_t l = 0; l < closed.size(); ++l)
+    if (closed[l].kind == Unknown::Kind::loop &&
+        unknowns_[std::size_t(first_linear_) + l].deviation > closed[l].deviation)
+      return true;
+  return false;
+}
+
+Estimation Estimation::with_form_of_file(std::vector<std::size_t> const& but) const {
   std::vector<std::size_t> hidden;
   for (std::size_t u = 0; u < unknowns_.size(); ++u)
-    if (is_beyond_a_file(unknowns_[u].kind)) hidden.push_back(u);
+    if (is_beyond_a_file(unknowns_[u].kind) && std::find(but.begin(), but.end(), u) == but.end()) hidden.push_back(u);
   return knowing(hidden);
 }
 
 Eigen::VectorXd Estimation::prior_mean() const {
   Eigen::VectorXd x(Eigen::Index(unknowns_.size()));
   for (std::size_t u = 0; u < unknowns_.size(); ++u) x[Eigen::Index(u)] = unknowns_[u].mean;
+  return x;
+}
+
+Eigen::VectorXd Estimation::drawn(std::uint64_t seed) const {
+  Eigen::VectorXd x = prior_mean();
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    auto const& unknown = unknowns_[u];
+    double const draw = unknown.mean + unknown.deviation * RandomStream(seed, unknown.name).normal();
+    x[Eigen::Index(u)] = std::clamp(draw, unknown.lower, unknown.upper);
+  }
   return x;
 }
 

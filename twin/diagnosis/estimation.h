@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -58,12 +59,19 @@ class Estimation {
   [[nodiscard]] Estimation knowing(std::vector<std::size_t> const& unknowns) const;
   /// The same question where displacements may leave their structural loops by so much of free growth (loop_gaps.h).
   [[nodiscard]] Estimation with_loops(double deviation) const;
-  /// The same question to a machine whose lumps hide nothing: all that a file can say.
-  [[nodiscard]] Estimation with_lumps() const;
+  [[nodiscard]] bool has_open_loops() const;
+  /// The same question where what is linear answers as about these estimates; where effects brought more of it, as it
+  /// was.
+  [[nodiscard]] Estimation about(Eigen::VectorXd const& x) const;
+  /// The same question to a machine of the form that its file has, but for these unknowns of it (is_beyond_a_file).
+  [[nodiscard]] Estimation with_form_of_file(std::vector<std::size_t> const& but = {}) const;
 
+  [[nodiscard]] Value const& document() const { return document_; }
   [[nodiscard]] std::vector<Unknown> const& unknowns() const { return unknowns_; }
   [[nodiscard]] std::vector<Hypothesis> const& effects() const { return effects_; }
   [[nodiscard]] std::vector<UncertainNumber> const& numbers() const { return numbers_; }
+  [[nodiscard]] std::vector<SensorPlace> const& places() const { return linear_->places(); }
+  [[nodiscard]] std::vector<LoopGap> const& gaps() const { return linear_->gaps(); }
   [[nodiscard]] std::vector<std::string> const& channels() const { return channels_; }
   [[nodiscard]] std::vector<BinnedRun> const& data() const { return *data_; }
   [[nodiscard]] std::vector<ChannelNoise> const& noise() const { return noise_; }
@@ -71,6 +79,8 @@ class Estimation {
   /// From there on; what is linear needs no start.
   [[nodiscard]] Fit fit(Eigen::VectorXd const& start, int iterations = 10) const;
   [[nodiscard]] Eigen::VectorXd prior_mean() const;
+  /// Drawn from the priors, within bounds.
+  [[nodiscard]] Eigen::VectorXd drawn(std::uint64_t seed) const;
 
   /// The machine's document with the estimates in it: numbers, the sensors' lags, effects.
   [[nodiscard]] Value document_at(Eigen::VectorXd const& x) const;

@@ -23,6 +23,8 @@ class LinearUnknowns {
   [[nodiscard]] std::vector<Unknown> const& all() const { return unknowns_; }
   /// What the channels show more of each: (run; channel · rows + row) × unknown.
   [[nodiscard]] Eigen::MatrixXd const& columns() const { return columns_; }
+  [[nodiscard]] std::vector<SensorPlace> const& places() const { return places_; }
+  [[nodiscard]] std::vector<LoopGap> const& gaps() const { return gaps_; }
 
  private:
   void add_of_channels(std::vector<BinnedRun> const& data, std::vector<std::string> const& channels);

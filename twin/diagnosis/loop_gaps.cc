@@ -1,10 +1,13 @@
 #include "twin/diagnosis/loop_gaps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <string>
 
 #include "thermal/bounding_box.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -16,6 +19,14 @@ NodeWeights free_growth(thermal::GrowingBody const& solid, double length) {
   for (std::size_t n = 0; n < solid.weights.size(); ++n)
     weights.emplace_back(solid.first_node + int(n), solid.expansion * length * solid.weights[n] / sum);
   return weights;
+}
+
+/// `{ of = "bed", length = "24 mm" }`.
+std::string inline_text(Value const& table) {
+  std::vector<std::string> keys;
+  for (auto const& entry : std::get<Value::Table>(table.content))
+    keys.push_back(fmt::format("{} = {}", entry.key, entry.value.text()));
+  return fmt::format("{{ {} }}", fmt::join(keys, ", "));
 }
 
 }  // namespace
@@ -31,13 +42,40 @@ std::vector<LoopGap> loop_gaps(Machine const& machine) {
       if (drawn == machine.geometry.end() || solid.expansion == 0.0) continue;
       auto const& channel = machine.displacements[d];
       double const length = channel.rotation ? 1.0 : thermal::bounding_box(drawn->cells).sizes().maxCoeff();
-      LoopGap gap{fmt::format("{} by {}", channel.name, drawn->name), {}};
+      LoopGap gap{fmt::format("{} by {}", channel.name, drawn->name), channel.name, drawn->name, length, {}};
       gap.growth.resize(machine.displacements.size());
       gap.growth[d] = free_growth(solid, length);
       gaps.push_back(std::move(gap));
     }
   }
   return gaps;
+}
+
+std::vector<StepBeyond> steps_beyond(std::vector<LoopGap> const& gaps, std::vector<double> const& x) {
+  std::vector<StepBeyond> steps;
+  for (std::size_t g = 0; g < gaps.size(); ++g)
+    if (x[g] != 0.0) steps.push_back({gaps[g].displacement, gaps[g].body, x[g] * gaps[g].length});
+  return steps;
+}
+
+std::vector<LoopBeyond> loops_beyond(Value document, std::vector<StepBeyond> const& steps) {
+  std::vector<LoopBeyond> loops;
+  for (std::string const kind : {"rotation", "displacement"})
+    for (auto const* channel : tables_of(document, kind)) {
+      std::vector<std::string> texts;
+      for (auto const& step : steps)
+        if (step.displacement == name_in(*channel)) {
+          double const base = kind == "rotation" ? number_in(*channel, "base", dimension::length).value_or(1.0) : 1.0;
+          texts.push_back(fmt::format(R"({{ of = "{}", length = "{:.4g} mm"{} }})", step.body,
+                                      1e3 * base * std::abs(step.length), step.length < 0.0 ? ", weight = -1" : ""));
+        }
+      if (texts.empty()) continue;
+      Value const* before = channel->find("beyond");
+      if (before && before->is_list())
+        for (auto const& step : std::get<Value::List>(before->content)) texts.push_back(inline_text(step));
+      loops.push_back({kind + '.' + name_in(*channel), fmt::format("[{}]", fmt::join(texts, ", "))});
+    }
+  return loops;
 }
 
 }  // namespace thermotwin::twin

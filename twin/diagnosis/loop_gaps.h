@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "twin/file/value.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -12,10 +13,27 @@ namespace thermotwin::twin {
 /// free growth, x α L (T − T(0)), L its longest edge; a rotation by x α (T − T(0)).
 /// Not where a step of the loop has the weight 0: that file knows of none what it does.
 struct LoopGap {
-  std::string name;                 ///< "E_Y by bed"
+  std::string name;  ///< "E_Y by bed"
+  std::string displacement, body;
+  double length = 0.0;              ///< that grows where x is 1 [m]; of a rotation over a base of 1 m
   std::vector<NodeWeights> growth;  ///< per displacement of the machine; empty but for one [m/K, rad/K]
 };
 
 [[nodiscard]] std::vector<LoopGap> loop_gaps(Machine const& machine);
+
+/// How a file says what a displacement does beyond its loop: `beyond = [{ of = "bed", length = "24 mm" }]`.
+struct StepBeyond {
+  std::string displacement, body;
+  double length = 0.0;  ///< signed [m]; of a rotation over a base of 1 m
+};
+
+/// The steps of a loop that `x` of each of `gaps` makes; none where it is 0.
+[[nodiscard]] std::vector<StepBeyond> steps_beyond(std::vector<LoopGap> const& gaps, std::vector<double> const& x);
+
+/// `displacement.E_Y`, `rotation.A`, and the text of its list `beyond` with these steps before those that it has.
+struct LoopBeyond {
+  std::string channel, text;
+};
+[[nodiscard]] std::vector<LoopBeyond> loops_beyond(Value document, std::vector<StepBeyond> const& steps);
 
 }  // namespace thermotwin::twin

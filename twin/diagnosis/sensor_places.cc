@@ -1,11 +1,15 @@
 #include "twin/diagnosis/sensor_places.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "thermal/site.h"
+#include "thermal/units.h"
 #include "twin/assembly.h"
 #include "twin/bodies.h"
 #include "twin/file/document.h"
@@ -21,7 +25,7 @@ constexpr double share_beyond = 0.1;
 struct Meeting {
   std::string body;
   std::vector<int> nodes;  ///< of the body, from 0
-  std::string other;
+  std::string other, place;
   NodeWeights beyond;  ///< of the machine's network; Σ = 1
 };
 
@@ -31,7 +35,7 @@ std::vector<Meeting> meetings_of(Value& document, Bodies const& bodies, Machine 
     for (auto const& [here, there] : {std::pair("from", "to"), std::pair("to", "from")})
       for (auto const& own : texts_of(*joint, here))
         for (auto const& place : texts_of(*joint, there)) {
-          Meeting meeting{body_of(own), {}, body_of(place), {}};
+          Meeting meeting{body_of(own), {}, body_of(place), place, {}};
           for (auto const& contact : site_of(bodies.all().at(meeting.body), own).contacts)
             meeting.nodes.push_back(contact.node);
           int const first = machine.network().range(meeting.other).first;
@@ -66,7 +70,7 @@ class Places {
     if (own.empty()) return;
     auto const& name = sensor.description.name;
     if (body_.nodes() > 1) {
-      SensorPlace along{fmt::format("{} along {}", name, body_.name), name, {}};
+      SensorPlace along{fmt::format("{} along {}", name, body_.name), name, body_.name, "", {}};
       for (auto const& [node, weight] : own)
         for (auto const& [at, slope] : slope_at(body_, node, first_))
           along.change.emplace_back(at, way_along * weight * slope);
@@ -74,7 +78,7 @@ class Places {
     }
     for (auto const& meeting : meetings_) {
       if (meeting.body != body_.name || !is_by(meeting, own)) continue;
-      SensorPlace near{fmt::format("{} near {}", name, meeting.other), name, {}};
+      SensorPlace near{fmt::format("{} near {}", name, meeting.other), name, body_.name, meeting.place, {}};
       for (auto const& [node, weight] : own) {
         near.change.emplace_back(first_ + node, -share_beyond * weight);
         for (auto const& [there, share] : meeting.beyond)
@@ -98,6 +102,72 @@ class Places {
   std::vector<Meeting> const& meetings_;
 };
 
+/// A position along a bar that a place names, `cartridge[10 mm]`: where its number stands in the text.
+std::optional<std::pair<std::size_t, std::size_t>> position_in(std::string const& place) {
+  auto const open = place.find('['), close = place.find(']');
+  if (open == place.npos || close == place.npos || place.find("..", open) < close || place.find(',', open) < close)
+    return {};
+  return std::pair(open + 1, close - open - 1);
+}
+
+/// Moved along the bar by `way` [m], to a hundredth of a millimetre, as far as the bar goes.
+std::string moved(std::string const& place, double way, thermal::Body const& bar) {
+  auto const position = position_in(place);
+  if (!position) return place;
+  auto const& z = bar.stations[0];
+  double const at = thermal::parse_value(place.substr(position->first, position->second), dimension::length);
+  double const there = std::clamp(at + way, std::min(at, z[0]), std::max(at, z[std::size_t(bar.nodes() - 1)]));
+  std::string text = place;
+  return text.replace(position->first, position->second, fmt::format("{:.4g} mm", std::round(1e5 * there) / 100.0));
+}
+
+/// Where one sensor is, place by place.
+class Seat {
+ public:
+  explicit Seat(SensorDescription const& sensor) : name_(sensor.name) {
+    for (std::size_t i = 0; i < sensor.at.size(); ++i) add(sensor.at[i], sensor.share(i));
+  }
+
+  void move(SensorPlace const& place, double way, thermal::Body const& bar) {
+    for (auto& [at, share] : places_)
+      if (body_of(at) == place.body) at = moved(at, way, bar);
+  }
+
+  /// A share of what it has on each body goes elsewhere.
+  void lean(std::vector<std::pair<SensorPlace const*, double>> const& leanings) {
+    auto const before = places_;
+    for (auto const& [place, share] : leanings)
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        if (body_of(before[i].first) != place->body) continue;
+        double const part = std::round(1e4 * share * before[i].second) / 1e4;
+        places_[i].second -= part;
+        add(place->toward, part);
+      }
+  }
+
+  [[nodiscard]] PlacedSensor placed() const {
+    PlacedSensor result{name_, {}, {}};
+    for (auto const& [at, share] : places_) {
+      result.at.push_back(at);
+      result.shares.push_back(share);
+    }
+    if (places_.size() == 1) result.shares.clear();
+    return result;
+  }
+
+ private:
+  void add(std::string const& at, double share) {
+    auto const known = std::find_if(places_.begin(), places_.end(), [&](auto const& p) { return p.first == at; });
+    if (known == places_.end())
+      places_.emplace_back(at, share);
+    else
+      known->second += share;
+  }
+
+  std::string name_;
+  std::vector<std::pair<std::string, double>> places_;
+};
+
 }  // namespace
 
 std::vector<SensorPlace> sensor_places(Value const& document, Machine const& machine) {
@@ -113,6 +183,36 @@ std::vector<SensorPlace> sensor_places(Value const& document, Machine const& mac
     for (auto const& sensor : machine.sensors) on_body.add(sensor, places);
   }
   return places;
+}
+
+std::vector<PlacedSensor> placed_sensors(Value const& document, std::vector<SensorPlace> const& places,
+                                         std::vector<double> const& x) {
+  Tables tables(document);
+  Bodies const bodies(tables);
+  std::vector<PlacedSensor> placed;
+  for (auto const& [sensor, table] : tables.read<SensorDescription>("temperature_sensor")) {
+    Seat seat(sensor);
+    std::vector<std::pair<SensorPlace const*, double>> leanings;
+    bool elsewhere = false;
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      if (places[p].sensor != sensor.name || x[p] == 0.0) continue;
+      elsewhere = true;
+      if (places[p].toward.empty())
+        seat.move(places[p], way_along * x[p], bodies.all().at(places[p].body));
+      else
+        leanings.emplace_back(&places[p], share_beyond * x[p]);
+    }
+    seat.lean(leanings);
+    if (elsewhere) placed.push_back(seat.placed());
+  }
+  return placed;
+}
+
+void put(Value& table, PlacedSensor const& sensor) {
+  set_key(table, "at", list_of(sensor.at));
+  Value::List shares;
+  for (double const share : sensor.shares) shares.push_back({table.where, share});
+  if (!shares.empty()) set_key(table, "shares", shares);
 }
 
 }  // namespace thermotwin::twin

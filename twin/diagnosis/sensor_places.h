@@ -19,9 +19,26 @@ namespace thermotwin::twin {
 struct SensorPlace {
   std::string name;  ///< "T3 along cartridge", "T15 near tank"
   std::string sensor;
+  std::string body;
+  std::string toward;  ///< the joint's place on the other body; empty: along this one
   NodeWeights change;  ///< of its weights where x is 1; Σ = 0
 };
 
 [[nodiscard]] std::vector<SensorPlace> sensor_places(Value const& document, Machine const& machine);
+
+/// How a file says where a sensor was seen to sit: `at = ["bed", "tank"]`, `shares = [0.94, 0.06]`.
+struct PlacedSensor {
+  std::string name;
+  std::vector<std::string> at;
+  std::vector<double> shares;  ///< empty: equal
+};
+
+/// The sensors that are not where the document has them: x of each of `places`, 0 where it is as it was. Along a bar
+/// only a position, `cartridge[10 mm]`, can be another one; it stays on the bar.
+[[nodiscard]] std::vector<PlacedSensor> placed_sensors(Value const& document, std::vector<SensorPlace> const& places,
+                                                       std::vector<double> const& x);
+
+/// In its `[[temperature_sensor]]`.
+void put(Value& table, PlacedSensor const& sensor);
 
 }  // namespace thermotwin::twin

@@ -29,7 +29,7 @@ struct Unknown {
   int run = -1;           ///< −1: all
 };
 
-/// What a machine has and its file cannot say.
+/// What a machine has and its file does not say: of what lumps hide it cannot, of places and loops only what data tell.
 [[nodiscard]] inline bool is_beyond_a_file(Unknown::Kind kind) {
   return kind == Unknown::Kind::interior || kind == Unknown::Kind::place || kind == Unknown::Kind::loop;
 }

@@ -71,7 +71,7 @@ Value calibrated(WorldData const& data, int repetition, Question const& question
     keep(measured.back(), windows);
   }
   auto const rows = binned(measured);
-  Estimation const estimation = expected_estimation(start, rows).with_lumps();
+  Estimation const estimation = expected_estimation(start, rows).with_form_of_file();
   if (estimation.numbers().empty()) throw InputError("the machine has no number that calibration could change");
   auto const first = estimation.fit(estimation.prior_mean(), iterations);
   auto const heard = estimation.with(observed_noise(estimation, first.x, estimation.noise()));

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <map>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "twin/diagnosis/diagnosis.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -30,6 +32,41 @@ TEST(LoopGaps, AreSharesOfFreeGrowth) {
   EXPECT_NEAR(of("E_Y by column_front"), 10.5e-6 * 1.1, 1e-12);
   EXPECT_NEAR(of("A by column_front"), 10.5e-6, 1e-12);
   EXPECT_EQ(std::count_if(gaps.begin(), gaps.end(), [](auto const& g) { return g.name.ends_with("front_ring"); }), 0);
+}
+
+/// What is written for steps beyond the loop moves displacements as the fit supposed: a rotation is not handed on.
+TEST(LoopGaps, AreWrittenAsStepsBeyondTheLoop) {
+  std::map<std::string, double> const amounts = {
+      {"A by column_rear", 0.2}, {"E_Y by bed", -0.1}, {"E_Z by head_front", 0.3}};
+  Value document = tests::v450();
+  Machine const before = Machine::build(document);
+  auto const gaps = loop_gaps(before);
+  std::vector<double> x;
+  for (auto const& gap : gaps) x.push_back(amounts.contains(gap.name) ? amounts.at(gap.name) : 0.0);
+  for (auto const& [channel, text] : loops_beyond(document, steps_beyond(gaps, x))) {
+    auto const [table, key] = find_parameter(document, channel + ".beyond");
+    set_key(*table, key, std::get<Value::List>(parse_toml("a = " + text, "a").find("a")->content));
+  }
+  Machine const after = Machine::build(document);
+  for (std::size_t d = 0; d < before.displacements.size(); ++d) {
+    std::map<int, double> more;
+    for (auto const& [node, weight] : after.displacements[d].weights) more[node] += weight;
+    for (auto const& [node, weight] : before.displacements[d].weights) more[node] -= weight;
+    for (std::size_t g = 0; g < gaps.size(); ++g)
+      for (auto const& [node, weight] : gaps[g].growth[d]) more[node] -= x[g] * weight;
+    for (auto const& [node, weight] : more) EXPECT_NEAR(weight, 0.0, 1e-10) << before.displacements[d].name;
+  }
+}
+
+/// A file that has such steps already keeps them.
+TEST(LoopGaps, AreWrittenBesideThoseOfTheFile) {
+  Value const document = parse_toml(
+      "[[displacement]]\nname = \"E_Z\"\nbeyond = [{ of = \"bed\", length = \"24 mm\", weight = 0.5 }]\n", "mine.toml");
+  auto const loops = loops_beyond(document, {{"E_Z", "head", -0.012}});
+  ASSERT_EQ(loops.size(), 1);
+  EXPECT_EQ(loops[0].channel, "displacement.E_Z");
+  EXPECT_EQ(loops[0].text,
+            "[{ of = \"head\", length = \"12 mm\", weight = -1 }, { of = \"bed\", length = \"24 mm\", weight = 0.5 }]");
 }
 
 /// The head bends as well: its front's warmth tilts the spindle, which the file of the machine does not say. That is no

@@ -1,9 +1,12 @@
 #include "twin/diagnosis/sensor_places.h"
 
 #include <algorithm>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -57,6 +60,69 @@ TEST(SensorPlaces, AreNearToJointsThatAreNear) {
   EXPECT_TRUE(is_there("T5 near head_front"));
   EXPECT_TRUE(is_there("T6 near cartridge"));
   EXPECT_FALSE(is_there("T6 along head_front"));
+}
+
+/// The sensor of a machine whose file says so, node by node.
+std::map<int, double> weights_of(Value const& document, std::string const& sensor) {
+  std::map<int, double> weights;
+  for (auto const& own : Machine::build(document).sensors)
+    if (own.description.name == sensor)
+      for (auto const& [node, weight] : own.weights) weights[node] += weight;
+  return weights;
+}
+
+/// The machine where its sensors sit there, as a file says it.
+Value placed(std::map<std::string, double> const& amounts) {
+  Value document = tests::v450();
+  auto const places = sensor_places(document, machine());
+  std::vector<double> x;
+  for (auto const& p : places) x.push_back(amounts.contains(p.name) ? amounts.at(p.name) : 0.0);
+  for (auto const& sensor : placed_sensors(document, places, x))
+    for (auto* table : tables_of(document, "temperature_sensor"))
+      if (name_in(*table) == sensor.name) put(*table, sensor);
+  return document;
+}
+
+/// What is written for sensors that lean towards two joints is what the fit supposed of them.
+TEST(SensorPlaces, AreWrittenAsSharesOfThePlacesBeyondTheJoints) {
+  std::map<std::string, double> const amounts = {
+      {"T6 near cartridge", 0.5}, {"T6 near head_rear", -0.3}, {"T4 near head_front", 0.4}};
+  Value const document = placed(amounts);
+  for (std::string const sensor : {"T4", "T6", "T7"}) {
+    auto expected = weights_of(tests::v450(), sensor);
+    for (auto const& [name, amount] : amounts)
+      if (name.starts_with(sensor))
+        for (auto const& [node, weight] : place(name).change) expected[node] += amount * weight;
+    auto const written = weights_of(document, sensor);
+    for (auto const& [node, weight] : expected)
+      EXPECT_NEAR(written.contains(node) ? written.at(node) : 0.0, weight, 2e-4) << sensor << " at node " << node;
+  }
+}
+
+TEST(SensorPlaces, CountByTheirShares) {
+  Value document = tests::v450();
+  for (auto* table : tables_of(document, "temperature_sensor"))
+    if (name_in(*table) == "T6") {
+      set_key(*table, "at", list_of({"head_front", "motor"}));
+      set_key(*table, "shares", Value::List{{table->where, 1.25}, {table->where, -0.25}});
+    }
+  auto const& network = machine().network();
+  auto const weights = weights_of(document, "T6");
+  EXPECT_NEAR(weights.at(network.range("head_front").first), 1.25, 1e-12);
+  EXPECT_NEAR(weights.at(network.range("motor").first), -0.25, 1e-12);
+}
+
+/// 6 mm further from the nose is 0.6 K of 0.1 K/mm; beyond the middle of the outermost cell there is no more to see.
+TEST(SensorPlaces, AreWrittenAsPositionsAlongABar) {
+  Value const document =
+      placed({{"T3 along cartridge", 1.0}, {"T4 along cartridge", 1.0}, {"T1 along cartridge", -1.0}});
+  std::map<std::string, std::vector<std::string>> at;
+  Value copy = document;
+  for (auto const* table : tables_of(copy, "temperature_sensor")) at[name_in(*table)] = texts_of(*table, "at");
+  EXPECT_THAT(at.at("T3"), testing::ElementsAre("cartridge[56 mm]"));
+  EXPECT_THAT(at.at("T4"), testing::ElementsAre("front_ring", "cartridge[16 mm]"));
+  EXPECT_THAT(at.at("T1"), testing::ElementsAre("cartridge[10 mm]"));
+  EXPECT_THAT(at.at("T5"), testing::ElementsAre("cartridge[130 mm]"));
 }
 
 }  // namespace
