@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "twin/diagnosis/drifting_sensor.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/excitation.h"
 #include "twin/diagnosis/seen_form.h"
+#include "twin/parallel.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -113,13 +115,19 @@ struct Diagnostician::Written {
 void Diagnostician::write_down() {
   auto& d = diagnosis_;
   auto const& amended = search_.estimation();
-  Written written(amended, d.amended);
-  d.changes = changed_numbers(amended, written.fit);
-  for (auto& lag : changed_lags(amended, written.fit)) d.changes.push_back(std::move(lag));
-  for (auto& change : written.form.changes()) d.changes.push_back(std::move(change));
-  d.written = std::move(written.fit);
-  d.document = std::move(written.document);
-  d.calibrated_document = d.effects.empty() ? d.document : Written(search_.plain(), d.calibrated).document;
+  std::optional<Written> written, calibrated;
+  in_parallel(d.effects.empty() ? 1 : 2, [&](std::size_t i) {
+    if (i == 0)
+      written.emplace(amended, d.amended);
+    else
+      calibrated.emplace(search_.plain(), d.calibrated);
+  });
+  d.changes = changed_numbers(amended, written->fit);
+  for (auto& lag : changed_lags(amended, written->fit)) d.changes.push_back(std::move(lag));
+  for (auto& change : written->form.changes()) d.changes.push_back(std::move(change));
+  d.written = std::move(written->fit);
+  d.document = std::move(written->document);
+  d.calibrated_document = calibrated ? std::move(calibrated->document) : d.document;
   auto const first = d.amended.x.size() - Eigen::Index(d.effects.size());
   for (std::size_t e = 0; e < d.effects.size(); ++e) {
     auto const u = first + Eigen::Index(e);

@@ -66,8 +66,9 @@ std::vector<std::size_t> seen_of_form(Estimation const& estimation, Fit const& f
   for (std::size_t u = 0; u < estimation.unknowns().size(); ++u) {
     auto const kind = estimation.unknowns()[u].kind;
     auto const i = Eigen::Index(u);
-    bool const place = kind == Unknown::Kind::place && std::abs(fit.x[i]) > std::sqrt(fit.covariance(i, i));
-    if (place || (kind == Unknown::Kind::loop && estimation.has_open_loops())) seen.push_back(u);
+    bool const of_form = kind == Unknown::Kind::place || kind == Unknown::Kind::loop;
+    bool const open = kind == Unknown::Kind::loop && estimation.has_open_loops();
+    if (of_form && (open || std::abs(fit.x[i]) > std::sqrt(fit.covariance(i, i)))) seen.push_back(u);
   }
   return seen;
 }

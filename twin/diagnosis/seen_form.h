@@ -21,8 +21,8 @@ class SeenForm {
   std::vector<LoopBeyond> loops_;
 };
 
-/// The unknown places and steps that a fit saw: places that differ from the file's by more than their standard error,
-/// and all steps where loops are open.
+/// The unknown places and steps that a fit saw: they differ from the file's by more than their standard error. Where
+/// loops are open, all steps.
 [[nodiscard]] std::vector<std::size_t> seen_of_form(Estimation const& estimation, Fit const& fit);
 
 }  // namespace thermotwin::twin

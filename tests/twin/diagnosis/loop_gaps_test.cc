@@ -6,6 +6,7 @@
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "twin/diagnosis/diagnosis.h"
+#include "twin/diagnosis/gap.h"
 #include "twin/file/document.h"
 
 namespace thermotwin::twin {
@@ -70,7 +71,7 @@ TEST(LoopGaps, AreWrittenBesideThoseOfTheFile) {
 }
 
 /// The head bends as well: its front's warmth tilts the spindle, which the file of the machine does not say. That is no
-/// compensation, nor anything else that is missing.
+/// compensation, nor anything else that is missing, and the file that is written bends, too.
 TEST(LoopGaps, AreNotMissing) {
   Value truth = tests::v450();
   Value bending = parse_toml(R"(segment = [{ of = "head_front", length = "400 mm", weight = -0.3 }])", "head");
@@ -83,6 +84,11 @@ TEST(LoopGaps, AreNotMissing) {
   auto const diagnosis = diagnose(tests::v450(), {bin(run, 300.0)}, {});
   EXPECT_EQ(name_of(diagnosis.verdict), "nothing");
   for (auto const& [channel, times] : diagnosis.noise_heard) EXPECT_LT(times, 2.0) << channel;
+  auto const left = gaps(Machine::build(tests::v450()), Machine::build(diagnosis.document), {bin(run, 300.0)}, nullptr);
+  for (auto const& gap : left)
+    if (gap.channel == "A" || gap.channel == "E_Y") {
+      EXPECT_LT(gap.after, 0.2 * gap.before) << gap.channel;
+    }
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <map>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/diagnosis/diagnosis.h"
+#include "twin/diagnosis/gap.h"
 #include "twin/file/document.h"
 
 namespace thermotwin::twin {
@@ -123,6 +125,26 @@ TEST(SensorPlaces, AreWrittenAsPositionsAlongABar) {
   EXPECT_THAT(at.at("T4"), testing::ElementsAre("front_ring", "cartridge[16 mm]"));
   EXPECT_THAT(at.at("T1"), testing::ElementsAre("cartridge[10 mm]"));
   EXPECT_THAT(at.at("T5"), testing::ElementsAre("cartridge[130 mm]"));
+}
+
+/// T3 was glued at 35 mm, where its file says 50 mm: nothing is missing, and the file that is written says where it is,
+/// as far as its prior lets it.
+TEST(SensorPlaces, AreFoundAndWritten) {
+  Value truth = tests::v450();
+  set_parameter(truth, "temperature_sensor.T3.at", "cartridge[35 mm]");
+  auto run = tests::measured(truth, tests::two_speeds());
+  tests::add_noise(run, 0.02, 0.05e-6, 7);
+  std::vector<BinnedRun> const data = {bin(run, 300.0)};
+  auto diagnosis = diagnose(tests::v450(), data, {});
+  EXPECT_EQ(name_of(diagnosis.verdict), "nothing");
+  for (auto const* table : tables_of(diagnosis.document, "temperature_sensor"))
+    if (name_in(*table) == "T3") {
+      EXPECT_LT(std::stod(texts_of(*table, "at").at(0).substr(std::string("cartridge[").size())), 47.0);
+    }
+  for (auto const& gap : gaps(Machine::build(tests::v450()), Machine::build(diagnosis.document), data, nullptr))
+    if (gap.channel == "T3") {
+      EXPECT_LT(gap.after, 0.1 * gap.before);
+    }
 }
 
 }  // namespace
