@@ -27,10 +27,12 @@ struct SensorDescription : TemperatureSensor {
   std::string name, title;
   std::vector<std::string> at;
   std::vector<double> shares;
+  std::string component;
+
+  /// Of a place in what it reads.
   [[nodiscard]] double share(std::size_t place) const {
     return shares.empty() ? 1.0 / double(at.size()) : shares[place];
   }
-  std::string component;
 
   template <class Fields>
   static void fields(Fields& f) {

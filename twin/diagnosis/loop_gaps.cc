@@ -21,12 +21,10 @@ NodeWeights free_growth(thermal::GrowingBody const& solid, double length) {
   return weights;
 }
 
-/// `{ of = "bed", length = "24 mm" }`.
-std::string inline_text(Value const& table) {
-  std::vector<std::string> keys;
-  for (auto const& entry : std::get<Value::Table>(table.content))
-    keys.push_back(fmt::format("{} = {}", entry.key, entry.value.text()));
-  return fmt::format("{{ {} }}", fmt::join(keys, ", "));
+/// `{ of = "bed", length = "24 mm" }`: so much of it [m], with its sign.
+std::string step_text(std::string const& body, double length) {
+  return fmt::format(R"({{ of = "{}", length = "{:.4g} mm"{} }})", body, 1e3 * std::abs(length),
+                     length < 0.0 ? ", weight = -1" : "");
 }
 
 }  // namespace
@@ -51,29 +49,20 @@ std::vector<LoopGap> loop_gaps(Machine const& machine) {
   return gaps;
 }
 
-std::vector<StepBeyond> steps_beyond(std::vector<LoopGap> const& gaps, std::vector<double> const& x) {
-  std::vector<StepBeyond> steps;
-  for (std::size_t g = 0; g < gaps.size(); ++g)
-    if (x[g] != 0.0) steps.push_back({gaps[g].displacement, gaps[g].body, x[g] * gaps[g].length});
-  return steps;
-}
-
-std::vector<LoopBeyond> loops_beyond(Value document, std::vector<StepBeyond> const& steps) {
+std::vector<LoopBeyond> loops_beyond(Value document, std::vector<LoopGap> const& gaps, std::vector<double> const& x) {
   std::vector<LoopBeyond> loops;
   for (std::string const kind : {"rotation", "displacement"})
     for (auto const* channel : tables_of(document, kind)) {
-      std::vector<std::string> texts;
-      for (auto const& step : steps)
-        if (step.displacement == name_in(*channel)) {
-          double const base = kind == "rotation" ? number_in(*channel, "base", dimension::length).value_or(1.0) : 1.0;
-          texts.push_back(fmt::format(R"({{ of = "{}", length = "{:.4g} mm"{} }})", step.body,
-                                      1e3 * base * std::abs(step.length), step.length < 0.0 ? ", weight = -1" : ""));
-        }
-      if (texts.empty()) continue;
+      double const base = kind == "rotation" ? number_in(*channel, "base", dimension::length).value_or(1.0) : 1.0;
+      std::vector<std::string> steps;
+      for (std::size_t g = 0; g < gaps.size(); ++g)
+        if (x[g] != 0.0 && gaps[g].displacement == name_in(*channel))
+          steps.push_back(step_text(gaps[g].body, base * x[g] * gaps[g].length));
+      if (steps.empty()) continue;
       Value const* before = channel->find("beyond");
       if (before && before->is_list())
-        for (auto const& step : std::get<Value::List>(before->content)) texts.push_back(inline_text(step));
-      loops.push_back({kind + '.' + name_in(*channel), fmt::format("[{}]", fmt::join(texts, ", "))});
+        for (auto const& step : std::get<Value::List>(before->content)) steps.push_back(step.text());
+      loops.push_back({kind + '.' + name_in(*channel), fmt::format("[{}]", fmt::join(steps, ", "))});
     }
   return loops;
 }

@@ -21,19 +21,14 @@ struct LoopGap {
 
 [[nodiscard]] std::vector<LoopGap> loop_gaps(Machine const& machine);
 
-/// How a file says what a displacement does beyond its loop: `beyond = [{ of = "bed", length = "24 mm" }]`.
-struct StepBeyond {
-  std::string displacement, body;
-  double length = 0.0;  ///< signed [m]; of a rotation over a base of 1 m
-};
-
-/// The steps of a loop that `x` of each of `gaps` makes; none where it is 0.
-[[nodiscard]] std::vector<StepBeyond> steps_beyond(std::vector<LoopGap> const& gaps, std::vector<double> const& x);
-
-/// `displacement.E_Y`, `rotation.A`, and the text of its list `beyond` with these steps before those that it has.
+/// How a file says what a displacement does beyond its loop: `displacement.E_Y` or `rotation.A`, and its list `beyond`,
+/// `[{ of = "bed", length = "24 mm" }]`.
 struct LoopBeyond {
   std::string channel, text;
 };
-[[nodiscard]] std::vector<LoopBeyond> loops_beyond(Value document, std::vector<StepBeyond> const& steps);
+
+/// What `x` of each of `gaps` makes, before the steps that the file has; none where it is 0.
+[[nodiscard]] std::vector<LoopBeyond> loops_beyond(Value document, std::vector<LoopGap> const& gaps,
+                                                   std::vector<double> const& x);
 
 }  // namespace thermotwin::twin

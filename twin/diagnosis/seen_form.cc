@@ -36,7 +36,7 @@ SeenForm::SeenForm(Estimation const& estimation, std::vector<std::size_t> const&
   auto const& places = estimation.places();
   auto const& gaps = estimation.gaps();
   sensors_ = placed_sensors(estimation.document(), places, of(Unknown::Kind::place, places.size()));
-  loops_ = loops_beyond(estimation.document(), steps_beyond(gaps, of(Unknown::Kind::loop, gaps.size())));
+  loops_ = loops_beyond(estimation.document(), gaps, of(Unknown::Kind::loop, gaps.size()));
 }
 
 void SeenForm::put_into(Value& document) const {

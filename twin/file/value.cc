@@ -102,7 +102,12 @@ std::string Value::text() const {
       for (auto const& value : list) text += (text.size() > 1 ? ", " : "") + value.text();
       return text + "]";
     }
-    std::string operator()(Table const&) const { return "a table"; }
+    std::string operator()(Table const& table) const {
+      std::string text = "{";
+      for (auto const& [key, where, value] : table)
+        text += fmt::format("{} {} = {}", text.size() > 1 ? "," : "", key, value.text());
+      return text + " }";
+    }
   };
   return std::visit(Visitor{}, content);
 }

@@ -44,7 +44,7 @@ TEST(LoopGaps, AreWrittenAsStepsBeyondTheLoop) {
   auto const gaps = loop_gaps(before);
   std::vector<double> x;
   for (auto const& gap : gaps) x.push_back(amounts.contains(gap.name) ? amounts.at(gap.name) : 0.0);
-  for (auto const& [channel, text] : loops_beyond(document, steps_beyond(gaps, x))) {
+  for (auto const& [channel, text] : loops_beyond(document, gaps, x)) {
     auto const [table, key] = find_parameter(document, channel + ".beyond");
     set_key(*table, key, std::get<Value::List>(parse_toml("a = " + text, "a").find("a")->content));
   }
@@ -63,7 +63,7 @@ TEST(LoopGaps, AreWrittenAsStepsBeyondTheLoop) {
 TEST(LoopGaps, AreWrittenBesideThoseOfTheFile) {
   Value const document = parse_toml(
       "[[displacement]]\nname = \"E_Z\"\nbeyond = [{ of = \"bed\", length = \"24 mm\", weight = 0.5 }]\n", "mine.toml");
-  auto const loops = loops_beyond(document, {{"E_Z", "head", -0.012}});
+  auto const loops = loops_beyond(document, {{"E_Z by head", "E_Z", "head", 0.012, {}}}, {-1.0});
   ASSERT_EQ(loops.size(), 1);
   EXPECT_EQ(loops[0].channel, "displacement.E_Z");
   EXPECT_EQ(loops[0].text,
