@@ -40,7 +40,8 @@ class Diagnostician {
   using HeatAt = std::map<std::pair<std::string, std::string>, double>;  ///< body and regime, watts
   void tell_where(HeatAt const& heat);
   void propose();
-  [[nodiscard]] bool is_unknown_heat() const;
+  [[nodiscard]] bool is_heat_left() const;
+  [[nodiscard]] std::optional<std::string> twice_warmed() const;
   [[nodiscard]] bool is_unknown_shift() const;
   [[nodiscard]] Diagnosis::Verdict verdict() const;
 
@@ -77,12 +78,15 @@ Diagnosis Diagnostician::operator()() {
   d.noise_heard = search_.noise_heard();
   if (!d.effects.empty()) d.left = scan_for_free_heat(amended, d.amended);
   d.faulty_sensor = faulty_sensor(machine_, runs_);
-  if (!d.faulty_sensor && d.effects.empty() && !is_unknown_heat())
+  if (!d.faulty_sensor && d.effects.empty() && !is_heat_left())
     d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
   d.verdict = verdict();
-  if (d.verdict == Diagnosis::Verdict::none_known && is_unknown_heat()) {
-    d.unknown_heat = unknown_heat();
-    d.unknown_heat_by_speed = heat_by_speed(*d.unknown_heat, runs_);
+  if (d.verdict == Diagnosis::Verdict::none_known) {
+    if (is_heat_left())
+      d.unknown_heat = unknown_heat();
+    else if (auto const body = twice_warmed())
+      d.unknown_heat = heat_of_effects(amended, d.amended, *body);
+    if (d.unknown_heat) d.unknown_heat_by_speed = heat_by_speed(*d.unknown_heat, runs_);
   }
   d.disagreement = disagreements(search_.plain().with(amended.noise()), d.calibrated.x, machine_);
   if (!d.effects.empty()) d.disagreement_left = disagreements(amended, d.amended.x, machine_);
@@ -95,18 +99,13 @@ Diagnosis Diagnostician::operator()() {
 struct Diagnostician::Written {
   Written(Estimation const& estimation, Fit const& whole)
       : seen(seen_of_form(estimation, whole)),
-        fit(fit_of(estimation.with_form_of_file(seen), whole.x)),
+        fit(estimation.with_form_of_file(seen).about(whole.x).fit(whole.x)),
         form(estimation, seen, fit.x),
         document(estimation.document_at(fit.x)) {
     form.put_into(document);
   }
-  /// Places and steps beyond a loop act as the calibrated bodies warm, not as those of the first file.
-  static Fit fit_of(Estimation const& estimation, Eigen::VectorXd const& start) {
-    Fit const fit = estimation.fit(start);
-    return estimation.about(fit.x).fit(fit.x);
-  }
   std::vector<std::size_t> seen;
-  Fit fit;
+  Fit fit;  ///< about the whole one: places and steps beyond a loop act as the calibrated bodies warm
   SeenForm form;
   Value document;
 };
@@ -135,18 +134,21 @@ void Diagnostician::write_down() {
   }
 }
 
-/// Heat of free course is still evident, beside effects or where none was, or it took two effects on one body that are
-/// about heat: the catalogue does not have what acts there.
-bool Diagnostician::is_unknown_heat() const {
-  auto const& found = diagnosis_.explanations;
-  auto const& left = found.empty() ? diagnosis_.scan : diagnosis_.left;
-  if (!left.empty() && left[0].gain > search_.evident_beside()) return true;
+/// Heat of free course is still evident, beside effects or where none was.
+bool Diagnostician::is_heat_left() const {
+  auto const& left = diagnosis_.explanations.empty() ? diagnosis_.scan : diagnosis_.left;
+  return !left.empty() && left[0].gain > search_.evident_beside();
+}
+
+/// The body on which it took two effects that are about heat: the catalogue does not have what acts there.
+std::optional<std::string> Diagnostician::twice_warmed() const {
   std::map<std::string, std::string> acting;  // on each body, the first
-  return std::any_of(found.begin(), found.end(), [&](Explanation const& explanation) {
+  for (auto const& explanation : diagnosis_.explanations) {
     auto const& effect = explanation.alternatives[0].hypothesis;
-    if (!effect.is_about("source") && !effect.is_about("film") && !effect.is_about("boundary")) return false;
-    return acting.emplace(effect.body, effect.label()).first->second != effect.label();
-  });
+    if (!effect.is_about("source") && !effect.is_about("film") && !effect.is_about("boundary")) continue;
+    if (acting.emplace(effect.body, effect.label()).first->second != effect.label()) return effect.body;
+  }
+  return std::nullopt;
 }
 
 /// It took two effects on one displacement: the catalogue does not have what moves it.
@@ -174,17 +176,18 @@ void Diagnostician::find_where() {
     while_moving = std::max(while_moving, std::abs(mean.moving));
     while_standing = std::max(while_standing, std::abs(mean.standing));
   };
-  if (auto const& unknown = diagnosis_.unknown_heat) {
+  if (auto const& unknown = diagnosis_.unknown_heat; unknown && is_heat_left()) {
     for (std::size_t r = 0; r < runs_.size(); ++r) add(unknown->site.body, mean_heat(*unknown, r, runs_[r]));
     return tell_where(heat);
   }
   auto const& amended = search_.estimation();
   Eigen::VectorXd x = diagnosis_.amended.x;
-  x.tail(Eigen::Index(diagnosis_.effects.size())).setConstant(1e-8);  // as good as none
+  x.tail(Eigen::Index(diagnosis_.effects.size())).setConstant(as_good_as_none);
   Machine const machine = amended.machine_at(diagnosis_.amended.x), plain = amended.machine_at(x);
   for (auto const& run : runs_) {
-    auto const more = LinearisedRun(machine, run).more_heat_than(plain);
-    for (auto const& range : machine_.network().ranges()) add(range.name, more.at(range.name));
+    LinearisedRun const twin(machine, run);
+    auto const more = twin.more_heat_than(plain);
+    for (auto const& range : machine_.network().ranges()) add(range.name, twin.mean(more.at(range.name)));
   }
   tell_where(heat);
 }
@@ -215,7 +218,7 @@ void Diagnostician::propose() {
 Diagnosis::Verdict Diagnostician::verdict() const {
   using Verdict = Diagnosis::Verdict;
   if (diagnosis_.faulty_sensor && diagnosis_.explanations.empty()) return Verdict::sensor;
-  if (is_unknown_heat() || is_unknown_shift()) return Verdict::none_known;
+  if (is_heat_left() || twice_warmed() || is_unknown_shift()) return Verdict::none_known;
   if (diagnosis_.explanations.empty()) return Verdict::nothing;
   bool const sensors = std::all_of(
       diagnosis_.explanations.begin(), diagnosis_.explanations.end(),

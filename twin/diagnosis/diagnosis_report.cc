@@ -202,8 +202,9 @@ std::string words_of_proposal(Diagnosis const& diagnosis) {
 std::string words_of_heat(Diagnosis const& diagnosis) {
   if (!diagnosis.unknown_heat) return "";
   auto const& all = *diagnosis.unknown_heat;
-  std::string text =
-      fmt::format("Were it one heat of free course: {:.1f} W on average into {}.\n", mean_of(all), all.site.body);
+  std::string text = fmt::format("{}: {:.1f} W on average into {}.\n",
+                                 all.gain > 0.0 ? "Were it one heat of free course" : "What stands in for it brings",
+                                 mean_of(all), all.site.body);
   auto const& by_speed = diagnosis.unknown_heat_by_speed;
   if (by_speed.mean.size() > 1) {
     std::vector<std::string> parts;

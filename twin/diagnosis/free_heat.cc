@@ -219,6 +219,43 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
   return scan;
 }
 
+FreeHeat heat_of_effects(Estimation const& amended, Fit const& fit, std::string const& body) {
+  auto const effects = Eigen::Index(amended.effects().size());
+  Eigen::VectorXd const amplitudes = fit.x.tail(effects);
+  Machine const machine = amended.machine_at(fit.x);
+  std::vector<Machine> lacking_one;
+  for (Eigen::Index e = 0; e < effects; ++e) {
+    Eigen::VectorXd x = fit.x;
+    x[x.size() - effects + e] = as_good_as_none;
+    lacking_one.push_back(amended.machine_at(x));
+  }
+  FreeHeat all;
+  all.site.body = body;
+  for (auto const& run : amended.data()) {
+    LinearisedRun const twin(machine, run);
+    auto const steps = Eigen::Index(run.steps.size());
+    Eigen::VectorXd knots(steps + 1);
+    for (Eigen::Index s = 0; s < steps; ++s) knots[s] = run.steps[std::size_t(s)].begin;
+    knots[steps] = run.steps.back().end;
+    Eigen::MatrixXd each(steps + 1, effects);
+    for (Eigen::Index e = 0; e < effects; ++e) {
+      each.col(e).head(steps) = twin.more_heat_than(lacking_one[std::size_t(e)]).at(body);
+      each(steps, e) = each(steps - 1, e);
+    }
+    Eigen::MatrixXd const per_unit = each * amplitudes.cwiseInverse().asDiagonal();
+    all.knots.push_back(knots);
+    all.heat.emplace_back(each.rowwise().sum());
+    all.standard_error.emplace_back((per_unit * fit.covariance.bottomRightCorner(effects, effects))
+                                        .cwiseProduct(per_unit)
+                                        .rowwise()
+                                        .sum()
+                                        .cwiseMax(0.0)
+                                        .cwiseSqrt());
+    all.mean.push_back(mean(knots, all.heat.back()));
+  }
+  return all;
+}
+
 HeatBySpeed heat_by_speed(FreeHeat const& heat, std::vector<BinnedRun> const& data) {
   struct Sum {
     double count = 0.0, first = 0.0, second = 0.0;

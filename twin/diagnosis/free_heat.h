@@ -37,6 +37,9 @@ struct FreeHeat {
 /// so many in half a day, or in a run that is longer.
 [[nodiscard]] std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const& fit, int knots = 24);
 
+/// What the effects of a fit bring into one body, at its temperatures; errors are those of their amplitudes.
+[[nodiscard]] FreeHeat heat_of_effects(Estimation const& amended, Fit const& fit, std::string const& body);
+
 /// Such heat at each speed of the spindle, and how far it is from that otherwise.
 struct HeatBySpeed {
   std::vector<std::pair<std::string, double>> mean;  ///< regimes.h, speed_regimes; over all runs [W]

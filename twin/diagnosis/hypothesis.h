@@ -13,6 +13,10 @@ namespace thermotwin::twin {
 /// Beyond this share of the largest plausible amplitude it is not that effect.
 inline constexpr double most_of_largest = 1.25;
 
+/// An amplitude in units of the largest plausible one that changes nothing, and keeps the effect's table in the
+/// machine.
+inline constexpr double as_good_as_none = 1e-8;
+
 /// Prior of an amplitude in units of the largest plausible one: N(0, this²).
 inline constexpr double amplitude_deviation = 0.5;
 

@@ -279,28 +279,32 @@ Eigen::MatrixXd LinearisedRun::response_to_earlier(std::vector<double> const& ju
   return response(unforced, Eigen::MatrixXd::Zero(nodes, count), leap, 0);
 }
 
-std::map<std::string, LinearisedRun::MeanHeat> LinearisedRun::more_heat_than(Machine const& other) const {
+std::map<std::string, Eigen::VectorXd> LinearisedRun::more_heat_than(Machine const& other) const {
   auto const& network = machine_->network();
   thermal::Evaluation with(network), without(other.network());
   std::vector<double> rate(std::size_t(network.nodes())), rate_without(rate.size());
-  std::map<std::string, MeanHeat> heat;
+  std::map<std::string, Eigen::VectorXd> heat;
+  for (auto const& range : network.ranges()) heat[range.name].setZero(Eigen::Index(begins_.size()));
+  for (std::size_t s = 0; s < begins_.size(); ++s) {
+    with.rate(begins_[s].state.data(), begins_[s].input.data(), rate.data());
+    without.rate(begins_[s].state.data(), begins_[s].input.data(), rate_without.data());
+    for (auto const& range : network.ranges())
+      for (auto i = std::size_t(range.first); i < std::size_t(range.first + range.count); ++i)
+        heat[range.name][Eigen::Index(s)] += network.capacity()[i] * (rate[i] - rate_without[i]);
+  }
+  return heat;
+}
+
+LinearisedRun::MeanHeat LinearisedRun::mean(Eigen::VectorXd const& heat) const {
+  MeanHeat mean;
   double moving = 0.0, standing = 0.0;
   for (std::size_t s = 0; s < begins_.size(); ++s) {
     double const length = data_->steps[s].length();
     bool const moves = is_moving(*data_->run->course, begins_[s].time);
     (moves ? moving : standing) += length;
-    with.rate(begins_[s].state.data(), begins_[s].input.data(), rate.data());
-    without.rate(begins_[s].state.data(), begins_[s].input.data(), rate_without.data());
-    for (auto const& range : network.ranges())
-      for (auto i = std::size_t(range.first); i < std::size_t(range.first + range.count); ++i)
-        (moves ? heat[range.name].moving : heat[range.name].standing) +=
-            length * network.capacity()[i] * (rate[i] - rate_without[i]);
+    (moves ? mean.moving : mean.standing) += length * heat[Eigen::Index(s)];
   }
-  for (auto& [body, mean] : heat) {
-    mean.moving /= std::max(moving, 1.0);
-    mean.standing /= std::max(standing, 1.0);
-  }
-  return heat;
+  return {mean.moving / std::max(moving, 1.0), mean.standing / std::max(standing, 1.0)};
 }
 
 bool is_moving(thermal::Course const& course, double time) {

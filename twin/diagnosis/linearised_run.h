@@ -55,13 +55,15 @@ class LinearisedRun {
   [[nodiscard]] Eigen::MatrixXd growth(std::vector<NodeWeights> const& displacements) const;
   [[nodiscard]] BinnedRun const& data() const { return *data_; }
   [[nodiscard]] Machine const& machine() const { return *machine_; }
+  /// What every body receives more of in this machine than in another of the same nodes, at this machine's
+  /// temperatures where each step begins: Σ C (dT/dt − dT/dt of the other) over the body's nodes [W].
+  [[nodiscard]] std::map<std::string, Eigen::VectorXd> more_heat_than(Machine const& other) const;
   /// Mean heat [W], while the spindle or an axis moves and while all stands.
   struct MeanHeat {
     double moving = 0.0, standing = 0.0;
   };
-  /// What every body receives more of in this machine than in another of the same nodes, at this machine's
-  /// temperatures: Σ C (dT/dt − dT/dt of the other) over the body's nodes.
-  [[nodiscard]] std::map<std::string, MeanHeat> more_heat_than(Machine const& other) const;
+  /// Of what is given where each step begins.
+  [[nodiscard]] MeanHeat mean(Eigen::VectorXd const& heat) const;
 
  private:
   /// One end of a step: the state there and the operating point on this side of a jump.

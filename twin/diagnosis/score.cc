@@ -13,7 +13,6 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double nothing = 1e-8;  // amplitude of a hypothesis that changes nothing, of its largest
 constexpr double step = 1e-3;
 constexpr std::size_t shapes_at_once = 128;  // whose responses are found together
 
@@ -59,7 +58,7 @@ Machine SharedNetwork::with_all(Value document, std::vector<Hypothesis> const& h
 
 SharedNetwork::SharedNetwork(Value const& document, std::vector<Hypothesis> const& hypotheses,
                              std::vector<std::size_t> shared, Machine const& fitted)
-    : shared_(std::move(shared)), machine_(with_all(document, hypotheses, shared_, nothing)) {
+    : shared_(std::move(shared)), machine_(with_all(document, hypotheses, shared_, as_good_as_none)) {
   machine_.sensors = fitted.sensors;
   Machine const larger = with_all(document, hypotheses, shared_, step);
   auto const& network = machine_.network();
@@ -78,7 +77,7 @@ SharedNetwork::SharedNetwork(Value const& document, std::vector<Hypothesis> cons
       rates.resize(from.coefficients.size());
       for (int i = e * count; i < (e + 1) * count; ++i)
         rates[std::size_t(i)] =
-            (to.coefficients[std::size_t(i)] - from.coefficients[std::size_t(i)]) / (step - nothing);
+            (to.coefficients[std::size_t(i)] - from.coefficients[std::size_t(i)]) / (step - as_good_as_none);
     }
   }
 }
@@ -104,7 +103,7 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
           ((twins[r]->prediction_of(with) - plain[r]) / (2.0 * step)).reshaped();
     return;
   }
-  Machine const without = at(nothing);
+  Machine const without = at(as_good_as_none);
   auto const derivative = difference(with, without, step);
   for (std::size_t r = 0; r < twins.size(); ++r) {
     auto const& run = estimation.data()[r];

@@ -40,6 +40,7 @@ TEST(DiagnosisReport, TellsNoGainOfADeadDisplacement) {
 TEST(DiagnosisReport, WeighsHeatByTheTimeOfAllRuns) {
   FreeHeat heat;
   heat.site.body = "motor";
+  heat.gain = 50.0;
   heat.mean = {100.0, 20.0};
   for (double const hours : {1.0, 3.0}) heat.knots.push_back(Eigen::VectorXd::LinSpaced(2, 0.0, 3600.0 * hours));
   for (double const watts : heat.mean) heat.heat.push_back(Eigen::VectorXd::Constant(2, watts));
@@ -52,6 +53,8 @@ TEST(DiagnosisReport, WeighsHeatByTheTimeOfAllRuns) {
   EXPECT_THAT(text, HasSubstr("Were it one heat of free course: 40.0 W on average into motor."));
   EXPECT_THAT(text, HasSubstr("still: 40.0 W on average into motor."));
   EXPECT_DOUBLE_EQ(nlohmann::json::parse(report_json(report))["heat"]["watts"], 40.0);
+  report.diagnosis.unknown_heat->gain = 0.0;  // of effects
+  EXPECT_THAT(report_text(report), HasSubstr("What stands in for it brings: 40.0 W on average into motor."));
 }
 
 }  // namespace

@@ -144,6 +144,41 @@ TEST(FreeHeat, IsFoundAboutTheNumbersOfTheFile) {
   EXPECT_NEAR(best.mean[0], 150.0, 30.0);
 }
 
+/// 60 W while the machine is on and 40 W more while the spindle turns: what both bring, as surely as both are known.
+TEST(FreeHeat, OfTwoEffectsIsWhatTheyBringTogether) {
+  auto run = tests::measured(tests::with_table(v450(), R"(
+    [[heat]]
+    name = "pump"
+    at = "motor"
+    power = "60 W"
+    [[heat]]
+    name = "drive"
+    at = "motor"
+    power = "40 W"
+    while_on = "spindle.running")"),
+                             tests::two_speeds());
+  tests::add_noise(run, kelvin, metres, 5);
+  std::vector<BinnedRun> const data = {bin(run, 300.0)};
+  Estimation const plain(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+  std::vector<Hypothesis> both;
+  for (auto const& hypothesis : hypotheses(v450(), Machine::build(v450())))
+    if (hypothesis.label() == "heat at motor" && hypothesis.keys.back().second != "coolant.on")
+      both.push_back(hypothesis);
+  ASSERT_EQ(both.size(), 2);
+  auto const estimation = plain.with(both);
+  auto const fit = estimation.fit(estimation.prior_mean());
+  auto const heat = heat_of_effects(estimation, fit, "motor");
+  auto const [moving, standing] = mean_heat(heat, 0, data[0]);
+  double const error = heat.standard_error[0].maxCoeff();
+  EXPECT_NEAR(moving, 100.0, 3.0 * error);
+  EXPECT_NEAR(standing, 60.0, 3.0 * error);
+  EXPECT_NEAR(heat.mean[0], moving - (moving - standing) * 50.0 / 240.0, 2.0);  // 50 min of 4 h it stands
+  Eigen::Vector2d const each = fit.covariance.bottomRightCorner(2, 2).diagonal().cwiseSqrt() * both[0].largest;
+  EXPECT_GT(error, 0.3 * each.maxCoeff());
+  EXPECT_LT(error, each.sum());
+  EXPECT_EQ(heat_of_effects(estimation, fit, "bed").heat[0].cwiseAbs().maxCoeff(), 0.0);
+}
+
 /// A watt more every hour: its means in the hours of each speed, and D/√12 about each of these, D its hours.
 TEST(FreeHeat, IsToldBySpeed) {
   auto const run = tests::measured(v450(), tests::two_speeds());
