@@ -171,7 +171,7 @@ std::vector<output::Channel> displacement_channels(Machine const& machine) {
   for (auto const& d : machine.displacements) channels.push_back({d.name, d.rotation ? "urad" : "um", d.title, {}});
   for (auto const& s : machine.screws)
     for (double x : s.description.positions)
-      channels.push_back({fmt::format("{}_{:g}mm", s.description.name, x * 1e3),
+      channels.push_back({s.channel_at(x),
                           "um",
                           fmt::format("position error of axis {} at {:g} mm of the {} screw", s.description.axis,
                                       x * 1e3, s.description.support),

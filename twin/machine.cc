@@ -296,6 +296,11 @@ void MachineBuilder::read_screws() {
       add(built.reference_strain, d.reference, 1.0);
       machine_.screws.push_back(std::move(built));
     });
+  machine_.linear_channels = machine_.displacements;
+  for (auto const& screw : machine_.screws)
+    for (double const x : screw.description.positions)
+      if (screw.is_linear())
+        machine_.linear_channels.push_back({screw.channel_at(x), "", false, screw.weights_at(x), {}});
 }
 
 void MachineBuilder::read_displacement_instruments() {

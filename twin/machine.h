@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scenarios/machine_limits.h"
-#include "thermal/ball_screw.h"
 #include "thermal/geometry.h"
 #include "thermal/growth_field.h"
 #include "thermal/network.h"
@@ -18,6 +17,7 @@
 #include "twin/instruments/five_probe_nest.h"
 #include "twin/instruments/laser_interferometer.h"
 #include "twin/instruments/temperature_sensor.h"
+#include "twin/screw.h"
 #include "twin/structural_loop.h"
 
 namespace thermotwin::twin {
@@ -65,15 +65,6 @@ struct Sensor {
   Eigen::Vector3d position{0.0, 0.0, 0.0};  ///< [m]
 };
 
-/// A ball screw as built: positions at which its error is a channel.
-struct Screw {
-  BallScrewDescription description;
-  thermal::BallScrew screw;
-  NodeWeights seat_growth;       ///< by how much the bearings' seats part [m/K]
-  NodeWeights reference_strain;  ///< of what the position is measured against [1/K]
-  int first_node = 0;
-};
-
 /// A machine: what its file describes, ready to run. Built whole and never changed; threads share it.
 class Machine {
  public:
@@ -90,6 +81,8 @@ class Machine {
   std::vector<Sensor> sensors;
   std::vector<Displacement> displacements;
   std::vector<Screw> screws;
+  /// The displacements, and the errors of position at the screws' positions, where they are linear.
+  std::vector<Displacement> linear_channels;
   std::vector<ProbeDescription> probes;
   std::vector<ReadingTerm> reading_terms;
   std::optional<FiveProbeNest> nest;

@@ -58,8 +58,9 @@ MachineDerivative difference(Machine const& plus, Machine const& minus, double s
   derivative.network = thermal::difference(plus.network(), minus.network(), step);
   for (std::size_t s = 0; s < plus.sensors.size(); ++s)
     derivative.sensors.push_back(difference(plus.sensors[s].weights, minus.sensors[s].weights, step));
-  for (std::size_t d = 0; d < plus.displacements.size(); ++d)
-    derivative.displacements.push_back(difference(plus.displacements[d].weights, minus.displacements[d].weights, step));
+  for (std::size_t d = 0; d < plus.linear_channels.size(); ++d)
+    derivative.displacements.push_back(
+        difference(plus.linear_channels[d].weights, minus.linear_channels[d].weights, step));
   return derivative;
 }
 

@@ -33,7 +33,7 @@ struct MachineDerivative {
   Parameter parameter;
   thermal::NetworkDerivative network;
   std::vector<NodeWeights> sensors;        ///< d(weights)/dθ, per sensor
-  std::vector<NodeWeights> displacements;  ///< d(weights)/dθ, per channel
+  std::vector<NodeWeights> displacements;  ///< d(weights)/dθ, per linear channel
 };
 
 /// (plus − minus)/(2 step) of two machines of the same structure.

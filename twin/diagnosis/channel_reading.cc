@@ -12,7 +12,7 @@ ChannelReading reading_of(Machine const& machine, MeasuredChannel const& channel
   ChannelReading reading;
   for (auto const& sensor : machine.sensors)
     if (!channel.displacement && sensor.description.name == channel.name) reading.sensor = &sensor;
-  for (auto const& displacement : machine.displacements)
+  for (auto const& displacement : machine.linear_channels)
     if (channel.displacement && displacement.name == channel.name) reading.displacement = &displacement;
   if (reading.sensor) {
     auto const& given = reading.sensor->description;

@@ -172,7 +172,7 @@ Eigen::MatrixXd LinearisedRun::growth(std::vector<NodeWeights> const& displaceme
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(data_->time.size(), Eigen::Index(readings.size()));
   for (std::size_t c = 0; c < readings.size(); ++c) {
     if (!readings[c].displacement) continue;
-    auto const& weights = displacements[std::size_t(readings[c].displacement - machine_->displacements.data())];
+    auto const& weights = displacements[std::size_t(readings[c].displacement - machine_->linear_channels.data())];
     rows.col(Eigen::Index(c)) = rows_of([&](std::size_t step) { return since_start(weights, step); }, 0.0);
   }
   return rows;

@@ -50,7 +50,7 @@ class LinearisedRun {
   /// What the channels show more for every second that the inputs jumped earlier, at each of these times: f there with
   /// the inputs after the jump, less f with those before it, stored at once. (channel · rows + row) × jump.
   [[nodiscard]] Eigen::MatrixXd response_to_earlier(std::vector<double> const& jumps) const;
-  /// Σ wᵢ (Tᵢ(t) − Tᵢ(0)) with other weights for the machine's displacements, row × channel: ∂z/∂θ of what moves the
+  /// Σ wᵢ (Tᵢ(t) − Tᵢ(0)) with other weights for the machine's linear channels, row × channel: ∂z/∂θ of what moves the
   /// tool and no temperature.
   [[nodiscard]] Eigen::MatrixXd growth(std::vector<NodeWeights> const& displacements) const;
   [[nodiscard]] BinnedRun const& data() const { return *data_; }

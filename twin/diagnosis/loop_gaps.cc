@@ -41,7 +41,7 @@ std::vector<LoopGap> loop_gaps(Machine const& machine) {
       auto const& channel = machine.displacements[d];
       double const length = channel.rotation ? 1.0 : thermal::bounding_box(drawn->cells).sizes().maxCoeff();
       LoopGap gap{fmt::format("{} by {}", channel.name, drawn->name), channel.name, drawn->name, length, {}};
-      gap.growth.resize(machine.displacements.size());
+      gap.growth.resize(machine.linear_channels.size());
       gap.growth[d] = free_growth(solid, length);
       gaps.push_back(std::move(gap));
     }

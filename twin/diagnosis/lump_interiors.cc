@@ -81,7 +81,7 @@ void LumpInteriors::add_unknowns(std::size_t interior) {
   auto const has_weight = [at = interiors_[interior].node](auto const& entry) {
     return std::any_of(entry.weights.begin(), entry.weights.end(), [&](auto const& w) { return w.first == at; });
   };
-  if (std::any_of(machine_.displacements.begin(), machine_.displacements.end(), has_weight))
+  if (std::any_of(machine_.linear_channels.begin(), machine_.linear_channels.end(), has_weight))
     unknowns_.push_back({Unknown::Kind::growth, "growth of " + lump, interior, ""});
   for (auto const& sensor : machine_.sensors) {
     auto const& name = sensor.description.name;
@@ -103,7 +103,7 @@ Machine LumpInteriors::seeing_means(Unknown const& unknown) const {
   };
   Machine machine = machine_;
   if (unknown.kind == Unknown::Kind::growth)
-    for (auto& displacement : machine.displacements) move(displacement.weights);
+    for (auto& displacement : machine.linear_channels) move(displacement.weights);
   for (auto& sensor : machine.sensors)
     if (sensor.description.name == unknown.sensor) move(sensor.weights);
   return machine;

@@ -39,7 +39,7 @@ std::vector<Expected> expected_channels(Machine const& machine) {
   std::vector<Expected> expected;
   for (auto const& sensor : machine.sensors)
     expected.push_back({sensor.description.name, false, dimension::temperature_difference});
-  for (auto const& channel : machine.displacements)
+  for (auto const& channel : machine.linear_channels)
     expected.push_back({channel.name, true, channel.rotation ? dimension::angle : dimension::length});
   return expected;
 }

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "thermal/ball_screw.h"
+#include "twin/description.h"
+#include "twin/structural_loop.h"
+
+namespace thermotwin::twin {
+
+/// A ball screw as built: positions at which its error is a channel.
+struct Screw {
+  BallScrewDescription description;
+  thermal::BallScrew screw;
+  NodeWeights seat_growth;       ///< by how much the bearings' seats part [m/K]
+  NodeWeights reference_strain;  ///< of what the position is measured against [1/K]
+  int first_node = 0;
+
+  /// "E_P_120mm": of the error with the nut at x [m].
+  [[nodiscard]] std::string channel_at(double x) const;
+  /// Whether that error is Σ wᵢ (Tᵢ − Tᵢ(0)) at all temperatures: its far bearing holds both ways, or does not hold.
+  [[nodiscard]] bool is_linear() const;
+  /// These weights, where it is.
+  [[nodiscard]] NodeWeights weights_at(double x) const;
+};
+
+}  // namespace thermotwin::twin
