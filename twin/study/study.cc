@@ -255,7 +255,7 @@ SelectionFigures StudyRunner::selection_figures(std::size_t world, std::size_t s
       values["regret"].push_back(quality->regret);
       values["informative"].push_back(quality->score.informative);
       values["found"].push_back(quality->score.found);
-      values["rank_correlation"].push_back(quality->score.rank_correlation);
+      if (selections_[selection].sensors.empty()) values["rank_correlation"].push_back(quality->score.rank_correlation);
     }
     for (auto const& [name, of_questions] : values) result.figures[name].push_back(interval(of_questions).mean);
     if (auto const share = switch_share(choices)) result.figures["switches"].push_back(*share);

@@ -9,13 +9,15 @@
 
 namespace thermotwin::twin {
 
-/// "grey_relational 2": a method of selection, and how many sensors it shall choose.
+/// "grey_relational 2": a method of selection, and how many sensors it shall choose; "sensors T1, T4": these.
 struct NamedSelection {
-  std::string name;          ///< of models::selection_methods(), or "all"
-  std::optional<int> count;  ///< none: the method's own rule
+  std::string name;                    ///< of models::selection_methods(), "all", or "sensors"
+  std::optional<int> count;            ///< none: the method's own rule
+  std::vector<std::string> sensors{};  ///< for "sensors"
 };
 
-/// InputError for an unknown method, with the nearest; for a count that is no number from 1 on; for "all" with one.
+/// InputError for an unknown method, with the nearest; for a count that is no number from 1 on; for "all" with one; for
+/// a list of sensors with a gap or a name given twice.
 [[nodiscard]] NamedSelection named_selection(std::string const& text);
 
 /// What the calibrated twin is called that no model helps.
