@@ -57,6 +57,19 @@ void measure_with_faults(SmallStudy const& study) {
   });
 }
 
+/// A measured run's inputs give the state at which the machine is linearised: the modes of a run are those of the
+/// experiment that made it.
+TEST(StudyModes, OfAMeasuredRunAreThoseOfItsExperiment) {
+  SmallStudy const simulated(head + world + "sampling = \"3 min\"\n"), recorded(measured_world("3 min"));
+  measure(recorded, [](output::Dataset&) {});
+  auto const modes = [](SmallStudy const& study) {
+    return study_data(read_study(study.file()), {}, nullptr).front().mode_shapes;
+  };
+  auto const known = modes(simulated), found = modes(recorded);
+  ASSERT_EQ(found.rows(), 3);
+  EXPECT_LT((found - known).cwiseAbs().maxCoeff(), 1e-3 * known.cwiseAbs().maxCoeff());
+}
+
 TEST(Study, SaysWhatMeasuredRunsLack) {
   SmallStudy const study(measured_world("9 min"));
   measure_with_faults(study);
