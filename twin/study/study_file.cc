@@ -172,7 +172,7 @@ void check_study(Value const& document, StudyDescription const& study) {
 NamedModel named_model(std::string const& text) {
   bool const twin = text == twin_alone || text.starts_with(std::string(twin_alone) + " ");
   NamedModel model{twin, twin ? text.substr(std::min(twin_alone.size() + 1, text.size())) : text};
-  if (!twin || !model.method.empty()) (void)models::model_method(model.method);
+  if (!model.observes() && (!twin || !model.method.empty())) (void)models::model_method(model.method);
   return model;
 }
 

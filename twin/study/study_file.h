@@ -23,11 +23,17 @@ struct NamedSelection {
 /// What the calibrated twin is called that no model helps.
 inline constexpr std::string_view twin_alone = "twin";
 
-/// "ridge", "twin", or "twin ridge": a method on the readings; the calibrated twin (study_twin.h), driven by the
-/// inputs; a method that learns from the readings what the twin does not know.
+/// What a twin is called that its sensors correct while it runs.
+inline constexpr std::string_view observer_method = "observer";
+
+/// "ridge", "twin", "twin ridge" or "twin observer": a method on the readings; the calibrated twin (study_twin.h),
+/// driven by the inputs; a method that learns from the readings what the twin does not know; the twin, its state
+/// corrected by the readings.
 struct NamedModel {
   bool twin = false;
-  std::string method;  ///< of models::model_methods(); empty: the twin alone
+  std::string method;  ///< of models::model_methods(), or observer_method; empty: the twin alone
+
+  [[nodiscard]] bool observes() const { return twin && method == observer_method; }
 
   bool operator==(NamedModel const&) const = default;
 };

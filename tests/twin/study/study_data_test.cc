@@ -114,6 +114,15 @@ TEST(Study, LeavesOutRowsWhereFewReadingsAreMissing) {
   EXPECT_LT(row(report, "all + twin").figures.at("self.rmse").front(), 1.0);
 }
 
+/// An error that stands still is no error to learn: the refusal says that it is dead, not only that it is missing.
+TEST(Study, RefusesAnErrorThatNeverMoves) {
+  SmallStudy const study(measured_world("3 min"));
+  measure(study, [](output::Dataset& data) { channel(data.displacements, "E_Z").values.setConstant(1.0); });
+  EXPECT_THAT(study.complaint(),
+              HasSubstr("world 'v450': fast.h5: none of its 31 rows is complete: no value of E_Z in 31; "
+                        "'E_Z' is dead: it never moves"));
+}
+
 /// In a gap of the record every channel lacks what the others lack: no sensor is the worse for it.
 TEST(Study, LeavesOutTheRowsOfAGap) {
   SmallStudy const study(measured_world("6 min"));
