@@ -76,6 +76,9 @@ void remark_repeated(std::vector<ErrorModelRun> const& runs, std::vector<Recorde
 /// What a study would call the models whose mean is fitted. Beside a twin stands what names none, too.
 std::vector<NamedModel> models_of(ErrorModelFit const& fit) {
   auto models = named_models(fit.method);
+  if (std::any_of(models.begin(), models.end(), [](auto const& model) { return model.observes(); }))
+    throw thermal::InputError(
+        fmt::format("'{}': an observer has nothing to fit; compensate --observer runs one", fit.method));
   bool const named = std::any_of(models.begin(), models.end(), [](auto const& model) { return model.twin; });
   if (named && !fit.twin)
     throw thermal::InputError(fmt::format("'{}': the twin's machine file is missing; give --twin FILE", fit.method));

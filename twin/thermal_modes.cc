@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::vector<double> mean_of(scenarios::ExperimentCourse const& course, std::vector<double> const& times) {
+std::vector<double> mean_of(thermal::Course const& course, std::span<double const> times) {
   std::vector<double> values(course.channels().size()), mean(values.size());
   for (double t : times) {
     course.evaluate(t, values);
@@ -130,10 +130,14 @@ void check(thermal::Network const& network, int count) {
 }  // namespace
 
 OperatingState mean_state(Machine const& machine, scenarios::Experiment const& experiment) {
-  scenarios::ExperimentCourse const course(experiment, machine.limits);
-  auto const mean = mean_of(course, scenarios::sample_times(experiment));
-  OperatingState at{{}, inputs_of(machine.network(), course.channels(), mean)};
-  std::vector<double> const guess(std::size_t(machine.network().nodes()), experiment.ambient.mean);
+  return mean_state(machine, scenarios::ExperimentCourse(experiment, machine.limits),
+                    scenarios::sample_times(experiment), experiment.ambient.mean);
+}
+
+OperatingState mean_state(Machine const& machine, thermal::Course const& course, std::span<double const> times,
+                          double near) {
+  OperatingState at{{}, inputs_of(machine.network(), course.channels(), mean_of(course, times))};
+  std::vector<double> const guess(std::size_t(machine.network().nodes()), near);
   at.temperatures = thermal::steady_state(machine.network(), at.input, guess);
   return at;
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "scenarios/experiment.h"
+#include "thermal/operating_point.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -18,6 +20,9 @@ struct OperatingState {
 /// The mean of every input over the experiment (at its sample times; relays half on), and the steady state of the
 /// machine there. thermal::InputError when the experiment lacks an input that the machine needs.
 [[nodiscard]] OperatingState mean_state(Machine const& machine, scenarios::Experiment const& experiment);
+/// The same of a course, measured or not, over these times [s]; the search for the steady state begins `near` [K].
+[[nodiscard]] OperatingState mean_state(Machine const& machine, thermal::Course const& course,
+                                        std::span<double const> times, double near = 293.15);
 
 /// How a machine forgets a disturbance: K φ = λ C φ, with K the conductances of the network linearised at a state and C
 /// the heat capacities there, so that without further heat (Yang, Yuan & Ni, IJMTM 39 (1999) 1367; methods.md §6.1)

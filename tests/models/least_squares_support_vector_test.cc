@@ -1,5 +1,6 @@
 #include "models/least_squares_support_vector.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -68,23 +69,31 @@ TEST(LeastSquaresSupportVector, CountsItsParametersAsTheTraceOfItsInfluence) {
   EXPECT_NEAR(solve_least_squares(kernel, batch.error, 10.0).parameters, trace, 1e-8);
 }
 
-/// Paper 002's motive: interpolation copies the noise of a measurement, LS-SVM averages it.
-TEST(LeastSquaresSupportVector, IsNearerToANoisyFieldThanItsOwnPoints) {
+/// Paper 002's motive: interpolation copies the noise of a measurement, LS-SVM averages it. Errors of an axis of 200
+/// mm, smooth over its length, 0.5 um of noise, judged on a grid ten times as fine as the measurement's.
+TEST(LeastSquaresSupportVector, IsNearerToANoisyFieldThanALineFromPointToPoint) {
+  constexpr Eigen::Index points = 41, fine = 401;
   int better = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  constexpr int fields = 100;
+  for (std::uint64_t seed = 1; seed <= fields; ++seed) {
     std::mt19937_64 generator(seed);
-    VectorXd const place = VectorXd::LinSpaced(41, 0.0, 0.2);
-    VectorXd const truth = 8.0 * (VectorXd((20.0 * place).array().sin())) + 30.0 * place;
-    VectorXd measured = truth;
+    double const slope = 60.0 * (uniform(generator) - 0.5), height = 2.0 + 8.0 * uniform(generator),
+                 wave = 10.0 + 20.0 * uniform(generator), phase = 6.0 * uniform(generator);
+    auto const field = [&](VectorXd const& place) {
+      return VectorXd(slope * place.array() + height * (wave * place.array() + phase).sin());
+    };
+    VectorXd const place = VectorXd::LinSpaced(points, 0.0, 0.2), between = VectorXd::LinSpaced(fine, 0.0, 0.2);
+    VectorXd measured = field(place), line(fine);
     for (auto& value : measured) value += 0.5 * normal(generator);
+    for (Eigen::Index i = 0; i < fine; ++i) {
+      Eigen::Index const left = std::min<Eigen::Index>(i / 10, points - 2);
+      line(i) = measured(left) + (measured(left + 1) - measured(left)) * (double(i) / 10.0 - double(left));
+    }
     auto const model = fit_least_squares_support_vector(std::vector{batch_of(place, measured)}, {});
-    // Between the points the line through both neighbours carries √½ of the noise.
-    VectorXd const middle = 0.5 * (place.head(40) + place.tail(40));
-    VectorXd const field = 8.0 * (VectorXd((20.0 * middle).array().sin())) + 30.0 * middle;
-    VectorXd const line = 0.5 * (measured.head(40) + measured.tail(40));
-    better += metrics(field, model.predict(batch_of(middle, field))).rmse < metrics(field, line).rmse;
+    better += metrics(field(between), model.predict(batch_of(between, field(between)))).rmse <
+              metrics(field(between), line).rmse;
   }
-  EXPECT_EQ(better, 20);
+  EXPECT_GE(better, fields * 95 / 100);
 }
 
 }  // namespace

@@ -267,6 +267,10 @@ TEST_F(FitErrorModel, BesideATwinAddsToWhatThatSays) {
                 fitted({{train}, "E_Z", {"T1"}, "twin & ridge"});
               }),
               HasSubstr("'twin & ridge': the twin's machine file is missing; give --twin FILE"));
+  EXPECT_THAT(refusal([&] {
+                fitted({{train}, "E_Z", {"T1"}, "twin observer", 1, folder_ / "mine.toml"});
+              }),
+              HasSubstr("'twin observer': an observer has nothing to fit; compensate --observer runs one"));
 }
 
 TEST_F(FitErrorModel, IsJudgedOnOtherRuns) {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <numeric>
 
+#include "thermal/nearest_name.h"
+
 namespace thermotwin::twin {
 namespace {
 
@@ -15,10 +17,27 @@ models::Selection every_sensor(Index count) {
   return all;
 }
 
+/// Those of that name, all as good as each other. std::invalid_argument for one that models do not get to see.
+models::Selection given_sensors(std::vector<std::string> const& names, Question const& question,
+                                WorldData const& data) {
+  std::vector<std::string> known;
+  for (auto const column : question.columns) known.push_back(data.sensors[std::size_t(column)]);
+  models::Selection given{{}, Eigen::VectorXd::Zero(Index(known.size())), ""};
+  for (auto const& name : names) {
+    auto const place = std::find(known.begin(), known.end(), name);
+    if (place == known.end())
+      throw std::invalid_argument(
+          fmt::format("there is no sensor '{}' here; {}", name, thermal::did_you_mean(name, known)));
+    given.sensors.push_back(place - known.begin());
+  }
+  return given;
+}
+
 models::Selection selected(NamedSelection const& method, Question const& question, WorldData const& data,
                            std::uint64_t seed, std::shared_ptr<models::SharedScreen> shared) {
   auto const moving = Index(question.columns.size());
   if (method.name == "all") return every_sensor(moving);
+  if (!method.sensors.empty()) return given_sensors(method.sensors, question, data);
   models::SelectionOptions options{.count = method.count, .seed = seed, .shared = std::move(shared)};
   if (method.name == "thermal_modes") {
     if (data.mode_shapes.size() == 0) throw std::invalid_argument(data.no_modes);

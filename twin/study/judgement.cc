@@ -120,10 +120,11 @@ FittedModel fit_model(NamedModel const& named, Question const& question, std::ve
 
 VectorXd Answer::predict(std::size_t k) const {
   VectorXd sum = VectorXd::Zero(asked()[k].batch.time.size());
-  for (auto const& [question, model] : parts) {
+  for (auto const& [question, model, observed] : parts) {
     auto const& own = question->asked[k];
+    auto const& said = observed ? (*observed)[k] : own.said_by_twin;
     VectorXd const answer = model->predict(own.batch);
-    sum += own.said_by_twin.size() > 0 ? VectorXd(own.said_by_twin + answer) : answer;
+    sum += said.size() > 0 ? VectorXd(said + answer) : answer;
   }
   return sum / double(parts.size());
 }

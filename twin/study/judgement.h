@@ -12,7 +12,8 @@ namespace thermotwin::twin {
 /// A model fitted for a question, or why it was not.
 struct FittedModel {
   models::ErrorModel model;
-  std::string refused;  ///< empty if it was fitted
+  std::string refused;                      ///< empty if it was fitted
+  std::vector<Eigen::VectorXd> observed{};  ///< by an observer, of each run that is asked about: the model adds nothing
 };
 
 /// The model that adds nothing to what the twin says, called twin_alone: every reading counts nothing.
@@ -27,6 +28,7 @@ struct Answer {
   struct Part {
     Question const* question;
     models::ErrorModel const* model;
+    std::vector<Eigen::VectorXd> const* observed = nullptr;  ///< in place of what the question's twin says
   };
   std::vector<Part> parts;  ///< at least one
 

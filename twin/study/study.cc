@@ -29,6 +29,7 @@ struct Repetition {
   std::vector<std::vector<std::map<Columns, FittedModel>>> fits;  ///< per question, per single model
   std::vector<Question> less_twin;                                ///< what a model beside a twin is asked, if any is
   std::vector<std::string> twin_refused;                          ///< per question; empty: it was calibrated
+  std::vector<std::shared_ptr<Machine const>> twins;              ///< per question: the calibrated machine
 
   [[nodiscard]] Question const& asked(std::size_t question, NamedModel const& model) const {
     return model.twin ? less_twin[question] : *all[question];
@@ -90,7 +91,7 @@ void StudyRunner::ask() {
     for (int r = 0; r < worlds_[w].repetitions(); ++r) {
       try {
         repetitions_.push_back(
-            {w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}, {}, {}, {}});
+            {w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}, {}, {}, {}, {}});
       } catch (thermal::InputError const& error) {
         throw about(study_.worlds[w], error.what());
       }
@@ -131,6 +132,7 @@ void StudyRunner::calibrate_twins() {
   for (auto& repetition : repetitions_) {
     repetition.less_twin.resize(repetition.all.size());
     repetition.twin_refused.resize(repetition.all.size());
+    repetition.twins.resize(repetition.all.size());
     for (std::size_t q = 0; q < repetition.all.size(); ++q)
       sharing[twin_key(study_.worlds[repetition.world], worlds_[repetition.world], repetition.number,
                        *repetition.all[q])]
@@ -144,6 +146,7 @@ void StudyRunner::calibrate_twins() {
         twin_runs(study_.worlds[first->world], worlds_[first->world], first->number, *first->all[question]);
     for (auto const& [repetition, q] : *tasks[i]) {
       repetition->twin_refused[q] = twin.refused;
+      repetition->twins[q] = twin.machine;
       if (twin.refused.empty())
         repetition->less_twin[q] = less_twin(*repetition->all[q], study_.worlds[repetition->world],
                                              worlds_[repetition->world], repetition->number, twin);
@@ -174,6 +177,9 @@ void StudyRunner::fit_all() {
     auto const& model = models_[task.model];
     if (model.twin && !repetition.twin_refused[task.question].empty())
       *task.fit = {{}, repetition.twin_refused[task.question]};
+    else if (model.observes())
+      *task.fit = observed(study_.worlds[repetition.world], worlds_[repetition.world], repetition.number,
+                           *repetition.all[task.question], *repetition.twins[task.question], *task.columns);
     else
       *task.fit = fit_model(model, repetition.asked(task.question, model), *task.columns, seed_of(repetition));
   });
@@ -190,7 +196,8 @@ std::string StudyRunner::answers_of(Repetition const& repetition, std::size_t se
     for (auto const m : members_[model]) {
       auto const& fit = repetition.fits[q][m].at(choice.columns);
       if (!fit.refused.empty()) return prefix + fit.refused;
-      answer.parts.push_back({&repetition.asked(q, models_[m]), &fit.model});
+      answer.parts.push_back(
+          {&repetition.asked(q, models_[m]), &fit.model, fit.observed.empty() ? nullptr : &fit.observed});
     }
     (q < repetition.questions.fits.size() ? fits : validations).push_back(std::move(answer));
   }
@@ -255,7 +262,7 @@ SelectionFigures StudyRunner::selection_figures(std::size_t world, std::size_t s
       values["regret"].push_back(quality->regret);
       values["informative"].push_back(quality->score.informative);
       values["found"].push_back(quality->score.found);
-      values["rank_correlation"].push_back(quality->score.rank_correlation);
+      if (selections_[selection].sensors.empty()) values["rank_correlation"].push_back(quality->score.rank_correlation);
     }
     for (auto const& [name, of_questions] : values) result.figures[name].push_back(interval(of_questions).mean);
     if (auto const share = switch_share(choices)) result.figures["switches"].push_back(*share);

@@ -66,6 +66,7 @@ class WorldReader {
   void remark_measured();
   [[nodiscard]] std::string missing_readings(MeasuredRun const& run) const;
   [[nodiscard]] std::vector<std::string> run_names() const;
+  [[nodiscard]] std::vector<std::string> reader_remarks(std::string const& run) const;
 
   StudyWorld const& world_;
   WorldRuns const& runs_;
@@ -130,7 +131,19 @@ WorldReader::Rows WorldReader::complete(output::Dataset const& data, std::string
   std::vector<output::Channel const*> channels;
   for (auto const& sensor : data_.sensors) channels.push_back(channel_of(data.readings, sensor));
   if (auto const* error = channel_of(data.displacements, world_.error)) channels.push_back(error);
-  return complete_rows(channels, name, remarks);
+  auto known = reader_remarks(name);
+  auto const before = Index(known.size());
+  auto const rows = complete_rows(channels, name, known);
+  remarks.insert(remarks.end(), known.begin() + before, known.end());
+  return rows;
+}
+
+/// What the reader of a measured run had to say of it.
+std::vector<std::string> WorldReader::reader_remarks(std::string const& run) const {
+  auto const names = run_names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == run && runs_.measured[i]) return runs_.measured[i]->remarks;
+  return {};
 }
 
 /// "T1 3, E_Z 12", of what models get to see.

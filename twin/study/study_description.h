@@ -114,10 +114,13 @@ struct StudyDescription {
     f("title", &StudyDescription::title, "one line for people");
     f("world", &StudyDescription::worlds, "machines, runs and errors");
     f("selections", &StudyDescription::selections,
-      "\"all\", or methods of selection, with a number of sensors or without: \"grey_relational 2\"");
+      "\"all\"; methods of selection, with a number of sensors or without: \"grey_relational 2\"; a set of your own: "
+      "\"sensors T1, T4\"");
     f("models", &StudyDescription::models,
       "methods of modelling; \"twin\": calibrated physics, driven by the inputs; \"twin METHOD\": what it errs by, "
-      "from what its readings err by; \"twin & ridge\": the mean of what both predict");
+      "from what its readings err by; \"twin observer\": corrected by its sensors; \"twin & ridge\": the mean of what "
+      "both "
+      "predict");
     f("seeds", &StudyDescription::seeds, "how many times instruments and starts are drawn anew", Range{5, 1000});
     f("folds", &StudyDescription::folds, "of the blocked cross-validation within 'train'; 0: none", Range{0, 20});
     f.choice("metric", &StudyDescription::metric, {"rmse", "mae", "max"}, "that improvements are of");

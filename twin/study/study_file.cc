@@ -123,6 +123,23 @@ void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::s
                     fmt::format("no world '{}'; {}", claim.world, thermal::did_you_mean(claim.world, worlds)));
 }
 
+/// "T1, T4": what stands between commas, without blanks around it.
+std::vector<std::string> listed_sensors(std::string const& text, std::string const& list) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+    end = list.find(',', begin);
+    auto name = list.substr(begin, end - begin);
+    auto const first = name.find_first_not_of(' ');
+    if (first == std::string::npos)
+      throw thermal::InputError(fmt::format("'{}': after 'sensors', names with commas between them are due", text));
+    name = name.substr(first, name.find_last_not_of(' ') + 1 - first);
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      throw thermal::InputError(fmt::format("'{}': '{}' is given twice", text, name));
+    names.push_back(name);
+  }
+  return names;
+}
+
 Value::List const& tables(Value const& document, std::string const& key) {
   static Value::List const none;
   Value const* value = document.find(key);
@@ -155,13 +172,17 @@ void check_study(Value const& document, StudyDescription const& study) {
 NamedModel named_model(std::string const& text) {
   bool const twin = text == twin_alone || text.starts_with(std::string(twin_alone) + " ");
   NamedModel model{twin, twin ? text.substr(std::min(twin_alone.size() + 1, text.size())) : text};
-  if (!twin || !model.method.empty()) (void)models::model_method(model.method);
+  if (!model.observes() && (!twin || !model.method.empty())) (void)models::model_method(model.method);
   return model;
 }
 
 NamedSelection named_selection(std::string const& text) {
   auto const space = text.find(' ');
   NamedSelection selection{text.substr(0, space), {}};
+  if (selection.name == "sensors") {
+    selection.sensors = listed_sensors(text, text.substr(std::min(space, text.size())));
+    return selection;
+  }
   if (selection.name != "all") (void)models::selection_method(selection.name);
   if (space == std::string::npos) return selection;
   int count = 0;

@@ -9,23 +9,31 @@
 
 namespace thermotwin::twin {
 
-/// "grey_relational 2": a method of selection, and how many sensors it shall choose.
+/// "grey_relational 2": a method of selection, and how many sensors it shall choose; "sensors T1, T4": these.
 struct NamedSelection {
-  std::string name;          ///< of models::selection_methods(), or "all"
-  std::optional<int> count;  ///< none: the method's own rule
+  std::string name;                    ///< of models::selection_methods(), "all", or "sensors"
+  std::optional<int> count;            ///< none: the method's own rule
+  std::vector<std::string> sensors{};  ///< for "sensors"
 };
 
-/// InputError for an unknown method, with the nearest; for a count that is no number from 1 on; for "all" with one.
+/// InputError for an unknown method, with the nearest; for a count that is no number from 1 on; for "all" with one; for
+/// a list of sensors with a gap or a name given twice.
 [[nodiscard]] NamedSelection named_selection(std::string const& text);
 
 /// What the calibrated twin is called that no model helps.
 inline constexpr std::string_view twin_alone = "twin";
 
-/// "ridge", "twin", or "twin ridge": a method on the readings; the calibrated twin (study_twin.h), driven by the
-/// inputs; a method that learns from the readings what the twin does not know.
+/// What a twin is called that its sensors correct while it runs.
+inline constexpr std::string_view observer_method = "observer";
+
+/// "ridge", "twin", "twin ridge" or "twin observer": a method on the readings; the calibrated twin (study_twin.h),
+/// driven by the inputs; a method that learns from the readings what the twin does not know; the twin, its state
+/// corrected by the readings.
 struct NamedModel {
   bool twin = false;
-  std::string method;  ///< of models::model_methods(); empty: the twin alone
+  std::string method;  ///< of models::model_methods(), or observer_method; empty: the twin alone
+
+  [[nodiscard]] bool observes() const { return twin && method == observer_method; }
 
   bool operator==(NamedModel const&) const = default;
 };

@@ -175,19 +175,25 @@ output::Dataset simulated(Job const& job, std::atomic<bool> const* stop) {
   return run(job.order->machine, experiment, options).dataset;
 }
 
-/// Rows of the machine's sensors; empty, and why, without a simulated run to linearise at.
-void find_modes(Order const& order, WorldRuns& runs) {
-  runs.no_modes = "no simulated run to linearise the machine at";
-  for (auto const& source : order.sources) {
-    if (source.measured) continue;
-    try {
-      auto const state = mean_state(order.machine, experiment_of(order, source));
-      int const count = std::min(order.machine.network().nodes(), int(order.machine.sensors.size()));
-      runs.mode_shapes = thermal_modes(order.machine, state, count).sensors;
-    } catch (thermal::InputError const& error) {
-      runs.no_modes = error.what();
-    }
-    return;
+/// Of a measured run, the times of the rows that models are trained on.
+std::vector<double> trained_times(MeasuredRun const& run, std::optional<double> split) {
+  auto const first = first_reading(run);
+  std::vector<double> times;
+  for (Eigen::Index i = first; i < run.time.size(); ++i)
+    if (run.time[i] - run.time[first] < split.value_or(INFINITY)) times.push_back(run.time[i]);
+  return times;
+}
+
+/// Of the machine, linearised at the mean of the first run in 'train'; empty, and why, where that cannot be.
+void find_modes(Order const& order, MeasuredRun const* measured, WorldRuns& runs) {
+  auto const& machine = order.machine;
+  try {
+    auto const state = measured ? mean_state(machine, *measured->course, trained_times(*measured, order.world->split))
+                                : mean_state(machine, experiment_of(order, order.sources.front()));
+    int const count = std::min(machine.network().nodes(), int(machine.sensors.size()));
+    runs.mode_shapes = thermal_modes(machine, state, count).sensors;
+  } catch (thermal::InputError const& error) {
+    runs.no_modes = error.what();
   }
 }
 
@@ -234,7 +240,7 @@ std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)
   std::vector<WorldRuns> worlds;
   for (std::size_t w = 0; w < orders.size(); ++w) {
     WorldRuns runs{orders[w].machine, {}, {}, {}, orders[w].nominal, {}, {}};
-    find_modes(orders[w], runs);
+    find_modes(orders[w], jobs[used[w].front().front()].run.get(), runs);
     for (auto const& source : orders[w].sources)
       runs.experiments.push_back(source.measured ? std::nullopt : std::optional(experiment_of(orders[w], source)));
     for (auto const& repetition : used[w]) {

@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
+#include <set>
 
+#include "scenarios/course.h"
 #include "thermal/error.h"
+#include "thermal/units.h"
 #include "twin/challenge/hidden_world.h"
+#include "twin/compensation/twin_observer.h"
 #include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/observed_noise.h"
 #include "twin/diagnosis/prediction.h"
@@ -17,11 +22,14 @@ namespace thermotwin::twin {
 namespace {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 using thermal::InputError;
 
 constexpr std::uint64_t first_seed = 77'000;  // of the files that twins start from
 constexpr int iterations = 12;
 constexpr double run_tolerance = 1e-6;
+constexpr double reading_noise = 0.1;  // [K], for the observer: noise, steps, and what a place differs from its node
+constexpr double longest_step = 30.0;  // [s], of the observer
 
 struct Window {
   double from, to;  ///< [s]
@@ -98,13 +106,61 @@ double zero_of(Question const& question, Asked const& asked, models::Batch const
   return rows > 0.0 ? sum / rows : asked.batch.error[0] - said.error[0];
 }
 
+/// What the observer says at every row of a run's data set [µm]. Between rows it is told the inputs every 30 s.
+VectorXd followed(WorldData const& data, int repetition, std::size_t run, TwinObserver observer,
+                  std::set<std::string> const& chosen) {
+  auto const& runs = *data.runs;
+  auto const& seen = runs.runs[std::size_t(repetition)][run];
+  auto const* measured = runs.measured[run].get();
+  std::unique_ptr<thermal::Course const> programmed;
+  if (!measured)
+    programmed = std::make_unique<scenarios::ExperimentCourse>(*runs.experiments[run], runs.machine.limits);
+  auto const& course = measured ? *measured->course : *programmed;
+  double const zero = measured ? measured->time[first_reading(*measured)] : 0.0;
+  auto const& inputs = observer.inputs();
+  std::vector<double> given(course.channels().size()), told(inputs.size());
+  auto const tell = [&](double time, Index row) {  // row < 0: between two of them
+    course.evaluate(zero + time, given);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      told[i] = std::nan("");
+      for (std::size_t c = 0; !inputs[i].sensor && c < given.size(); ++c)
+        if (inputs[i].name == course.channels()[c].name)
+          told[i] = inputs[i].unit == "1" ? given[c] : thermal::to_unit(given[c], inputs[i].unit);
+      for (auto const& reading : seen.readings)
+        if (inputs[i].sensor && row >= 0 && inputs[i].name == reading.name && chosen.contains(reading.name))
+          told[i] = reading.values[row];
+      if (!inputs[i].sensor && std::isnan(told[i]))
+        throw InputError(fmt::format("it needs the input '{}', which a run does not give", inputs[i].name));
+    }
+    return observer.error(time, told);
+  };
+  VectorXd error(seen.time_s.size());
+  for (Index row = 0; row < error.size(); ++row) {
+    if (row > 0)
+      for (double time = seen.time_s[row - 1] + longest_step; time < seen.time_s[row] - 1e-6; time += longest_step)
+        (void)tell(time, -1);
+    error[row] = tell(seen.time_s[row], row);
+  }
+  return error;
+}
+
+/// Σ (measured − said)² over the rows trained on.
+double missed(Question const& question, std::map<std::size_t, models::Batch> const& said) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < question.parts.size(); ++k)
+    if (auto const own = said.find(question.parts[k].run); own != said.end())
+      sum += (question.training[k].error - rows_of(own->second, question.parts[k]).error).squaredNorm();
+  return sum;
+}
+
 }  // namespace
 
 TwinRuns twin_runs(StudyWorld const& world, WorldData const& data, int repetition, Question const& question) {
   auto const& runs = *data.runs;
   try {
-    Machine const twin = Machine::build(calibrated(data, repetition, question));
     TwinRuns result;
+    result.machine = std::make_shared<Machine const>(Machine::build(calibrated(data, repetition, question)));
+    auto const& twin = *result.machine;
     RunOptions options;
     options.integration.relative_tolerance = options.integration.absolute_tolerance = run_tolerance;
     for (std::size_t r = 0; r < runs.measured.size(); ++r)
@@ -112,7 +168,7 @@ TwinRuns twin_runs(StudyWorld const& world, WorldData const& data, int repetitio
                                              : run(twin, *runs.experiments[r], options).dataset);
     return result;
   } catch (InputError const& error) {
-    return {{}, std::string("the twin: ") + error.what()};
+    return {{}, std::string("the twin: ") + error.what(), {}};
   }
 }
 
@@ -145,6 +201,43 @@ Question less_twin(Question question, StudyWorld const& world, WorldData const& 
     asked.said_by_twin = own.error;
   }
   return question;
+}
+
+FittedModel observed(StudyWorld const& world, WorldData const& data, int repetition, Question const& question,
+                     Machine const& twin, std::vector<Index> const& columns) {
+  std::set<std::string> chosen;
+  for (auto const column : columns) chosen.insert(data.sensors[std::size_t(column)]);
+  FittedModel result{nothing_more({chosen.begin(), chosen.end()}), "", {}};
+  try {
+    double least = std::numeric_limits<double>::infinity();
+    for (double const heat_noise : {1e-4, 5e-4, 2.5e-3}) {
+      auto const& time = question.training.front().time;
+      ObserverOptions const options{
+          .heat_noise = heat_noise,
+          .sensor_noise = reading_noise * std::sqrt(std::min(longest_step, time[1] - time[0])),
+          .longest_step = longest_step};
+      TwinObserver const observer(twin, world.error, options);
+      std::map<std::size_t, models::Batch> said;
+      for (auto const& asked : question.asked) {
+        if (said.contains(asked.run)) continue;
+        auto own = asked.batch;
+        auto const& runs = asked.run < data.train[std::size_t(repetition)].size() ? data.train : data.test;
+        auto const place = asked.run - (&runs == &data.test ? data.train[std::size_t(repetition)].size() : 0);
+        own.error = followed(data, repetition, asked.run, observer, chosen)(runs[std::size_t(repetition)][place].rows);
+        if (data.runs->measured[asked.run]) own.error.array() += zero_of(question, asked, own);
+        said.emplace(asked.run, std::move(own));
+      }
+      double const sum = missed(question, said);
+      if (!(sum < least)) continue;
+      least = sum;
+      result.observed.clear();
+      for (auto const& asked : question.asked) result.observed.push_back(said.at(asked.run).error);
+      result.model.remark = fmt::format("extended Kalman filter, nodes err by {:g} K in a second", heat_noise);
+    }
+  } catch (InputError const& error) {
+    result.refused = std::string("the observer: ") + error.what();
+  }
+  return result;
 }
 
 }  // namespace thermotwin::twin

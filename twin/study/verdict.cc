@@ -15,7 +15,7 @@ using Rows = std::vector<Combination const*>;
 /// Selection and model both stand in one of the five papers.
 bool of_papers(Combination const& row) {
   auto const selection = named_selection(row.selection).name;
-  if (selection == "all") return false;
+  if (selection == "all" || selection == "sensors") return false;
   auto const models = named_models(row.model);
   return models.size() == 1 && !models.front().twin &&
          models::selection_method(selection).source.find("methods.md") != std::string_view::npos &&

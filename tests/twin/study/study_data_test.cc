@@ -57,6 +57,19 @@ void measure_with_faults(SmallStudy const& study) {
   });
 }
 
+/// A measured run's inputs give the state at which the machine is linearised: the modes of a run are those of the
+/// experiment that made it.
+TEST(StudyModes, OfAMeasuredRunAreThoseOfItsExperiment) {
+  SmallStudy const simulated(head + world + "sampling = \"3 min\"\n"), recorded(measured_world("3 min"));
+  measure(recorded, [](output::Dataset&) {});
+  auto const modes = [](SmallStudy const& study) {
+    return study_data(read_study(study.file()), {}, nullptr).front().mode_shapes;
+  };
+  auto const known = modes(simulated), found = modes(recorded);
+  ASSERT_EQ(found.rows(), 3);
+  EXPECT_LT((found - known).cwiseAbs().maxCoeff(), 1e-3 * known.cwiseAbs().maxCoeff());
+}
+
 TEST(Study, SaysWhatMeasuredRunsLack) {
   SmallStudy const study(measured_world("9 min"));
   measure_with_faults(study);
@@ -99,6 +112,15 @@ TEST(Study, LeavesOutRowsWhereFewReadingsAreMissing) {
   EXPECT_NEAR(linear.figures.at("self.rmse").front(), std::sqrt(residual.squaredNorm() / 28.0), 1e-6);
   EXPECT_THAT(row(report, "all + distributed_lag").refused, HasSubstr("lags need even steps"));
   EXPECT_LT(row(report, "all + twin").figures.at("self.rmse").front(), 1.0);
+}
+
+/// An error that stands still is no error to learn: the refusal says that it is dead, not only that it is missing.
+TEST(Study, RefusesAnErrorThatNeverMoves) {
+  SmallStudy const study(measured_world("3 min"));
+  measure(study, [](output::Dataset& data) { channel(data.displacements, "E_Z").values.setConstant(1.0); });
+  EXPECT_THAT(study.complaint(),
+              HasSubstr("world 'v450': fast.h5: none of its 31 rows is complete: no value of E_Z in 31; "
+                        "'E_Z' is dead: it never moves"));
 }
 
 /// In a gap of the record every channel lacks what the others lack: no sensor is the worse for it.

@@ -19,6 +19,9 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
   EXPECT_THAT(with(all, "forward 2", "foward 2"), HasSubstr("small.toml:4:22: no selection method 'foward'; did you"));
   EXPECT_THAT(with(all, "forward 2", "forward two"), HasSubstr("a number of sensors from 1 on is due"));
   EXPECT_THAT(with(all, "forward 2", "all 2"), HasSubstr("all sensors have no number"));
+  EXPECT_THAT(with(all, "forward 2", "sensors T1, T1"), HasSubstr("small.toml:4:22: 'sensors T1, T1': 'T1' is given"));
+  for (auto const* gap : {"sensors", "sensors T1,, T8", "sensors T1,"})
+    EXPECT_THAT(with(all, "forward 2", gap), HasSubstr("after 'sensors', names with commas between them are due"));
   EXPECT_THAT(with(all, "\"ridge\"", "\"rigde\""), HasSubstr("small.toml:5:21: no model 'rigde'; known: linear, "));
   EXPECT_THAT(with(all, "\"ridge\"", "\"twin rigde\""),
               HasSubstr("small.toml:5:21: no model 'rigde'; known: linear, "));

@@ -2,11 +2,14 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <set>
 
 #include "models/error_model.h"
+#include "models/feed_axis.h"
 #include "models/selection.h"
 #include "twin/study/study.h"
+#include "twin/study/study_data.h"
 #include "twin/study/study_page.h"
 #include "twin/study/study_runs.h"
 
@@ -48,23 +51,90 @@ TEST(ShippedStudies, OfAllMethodsNameEveryOne) {
   }
 }
 
-/// E2: the three rules on the same data, within and beyond the runs that they were fitted to, in ten draws of the
-/// instruments; what does not hold is told.
-TEST(StudyOfPaper000, ComparesTheRulesAndKeepsWhatDoesNotHold) {
+/// E2: the three rules on the same data, within and beyond the runs that they were fitted to, in thirty draws of the
+/// instruments; what does not hold is told, and where it does.
+TEST(StudyOfPaper000, ComparesTheRulesAndShowsWhereTheGainsAreThere) {
   auto const report = run_study(read_study(study_file("paper_000")));
   for (auto const& row : report.rows)
-    for (auto const* figure : {"self.rmse", "cross.rmse", "feed_12000 at 150 min.rmse"})
-      EXPECT_EQ(row.figures.at(figure).size(), 10U) << row.name() << " " << figure;
-  int gains = 0;
+    for (auto const* figure : {"self.rmse", "cross.rmse"})
+      EXPECT_EQ(row.figures.at(figure).size(), 30U) << row.name() << " " << figure;
+  std::map<std::string, std::map<double, ClaimVerdict::Answer>> gains;
   for (auto const& claim : report.claims)
-    if (claim.claim.world == "as in the paper" && claim.claim.improvement) {
-      EXPECT_EQ(claim.answer, ClaimVerdict::Answer::fails) << text_of(claim);
-      ++gains;
-    }
-  EXPECT_EQ(gains, 2);
+    if (claim.claim.improvement && claim.claim.figure != "cross.rmse")
+      gains[claim.claim.world][*claim.claim.improvement] = claim.answer;
+  EXPECT_EQ(gains.at("as in the paper").at(65.7), ClaimVerdict::Answer::fails);
+  EXPECT_EQ(gains.at("as in the paper").at(39.8), ClaimVerdict::Answer::fails);
+  EXPECT_EQ(gains.at("coolant on and off").at(65.7), ClaimVerdict::Answer::holds);
+  EXPECT_EQ(gains.at("8000 only").at(39.8), ClaimVerdict::Answer::holds);
   EXPECT_THAT(study_text(report),
-              testing::HasSubstr("better than traditional ordered clustering, in equilibrium\" does "
-                                 "not hold: feed_12000 at 150 min.rmse"));
+              testing::HasSubstr("65.7 % better than traditional ordered clustering, in equilibrium\" "
+                                 "does not hold: feed_12000 at 150 min.rmse"));
+}
+
+/// C1: the position that does not move, from what the laser showed, is the noise-free world's within 2 mm.
+TEST(StudyOfPaper000, FindsTheAxisZeroWithinTwoMillimetresOfTheWorlds) {
+  auto study = read_study(study_file("paper_000"));
+  study.description.worlds.resize(1);
+  study.description.claims.clear();
+  study.description.seeds = 10;
+  auto const data = study_data(study, {}, nullptr);
+  for (auto const& train : data.front().train) {
+    std::vector<models::AxisRecord> seen, truth;
+    for (auto const& run : train) {
+      seen.push_back(*run.axis);
+      truth.push_back(*run.judged_axis);
+    }
+    EXPECT_NE(models::zero_position(seen), models::zero_position(truth));
+    EXPECT_NEAR(models::zero_position(seen), models::zero_position(truth), 0.002);
+  }
+}
+
+/// The claims of paper 003 hold where docs/study.md says so.
+TEST(StudyOfPaper003, FiveSensorsSufficeForTheNetworkAndItExtrapolatesBetterThanALine) {
+  auto study = read_study(study_file("paper_003"));
+  std::erase_if(study.description.claims, [](auto const& claim) {
+    return claim.than != "all + genetic_back_propagation" &&
+           !(claim.world == "without coolant" && claim.than == "thermal_modes 5 + linear");
+  });
+  study.description.selections = {"thermal_modes 5", "all"};
+  study.description.models = {"genetic_back_propagation", "linear"};
+  study.description.seeds = 10;
+  auto const report = run_study(study);
+  ASSERT_EQ(report.claims.size(), 3U);
+  for (auto const& claim : report.claims) EXPECT_EQ(claim.answer, ClaimVerdict::Answer::holds) << text_of(claim);
+}
+
+/// B8: the five mode sensors of paper 003 explain 95 % of the variance of a new duty, in every draw of the instruments,
+/// and without any of them the error is larger. (The five that `thermal_modes` chooses explain it too; of these, T5 is
+/// idle: docs/study.md.)
+TEST(StudyOfPaper003, FiveModeSensorsExplainANewDutyAndNoneIsIdle) {
+  auto study = read_study(study_file("paper_003"));
+  study.description.worlds.resize(1);
+  study.description.claims.clear();
+  study.description.models = {"linear"};
+  study.description.selections = {"sensors T2, T4, T10, T12, T15",
+                                  "sensors T4, T10, T12, T15",
+                                  "sensors T2, T10, T12, T15",
+                                  "sensors T2, T4, T12, T15",
+                                  "sensors T2, T4, T10, T15",
+                                  "sensors T2, T4, T10, T12",
+                                  "thermal_modes 5"};
+  study.description.reference = "thermal_modes 5 + linear";
+  auto const report = run_study(study);
+  auto const rmse = [&](std::string const& selection) {
+    return row_of(report, "another duty", selection + " + linear").figures.at("cross.rmse");
+  };
+  auto const five = rmse(study.description.selections.front());
+  for (auto const& selection : {study.description.selections.front(), study.description.selections.back()})
+    for (double const explained : row_of(report, "another duty", selection + " + linear").figures.at("cross.r_squared"))
+      EXPECT_GE(explained, 0.95) << selection;
+  for (std::size_t s = 1; s <= 5; ++s) {
+    auto const four = rmse(study.description.selections[s]);
+    std::vector<double> more;
+    for (std::size_t r = 0; r < five.size(); ++r) more.push_back(four[r] - five[r]);
+    auto const worse = interval(more);
+    EXPECT_GT(worse.mean - worse.half, 0.0) << study.description.selections[s];
+  }
 }
 
 /// Its claim holds where docs/study.md says so.
@@ -116,13 +186,14 @@ TEST(StudyOfPaper004, ComponentsFitWorseAndPredictOtherBatchesBetter) {
   study.description.models = {"linear", "principal_component", "distributed_lag",
                               "principal_component_distributed_lag"};
   study.description.claims.clear();
-  study.description.seeds = 1;
   auto const report = run_study(study);
   auto const& lags = row_of(report, "v450", "grey_fuzzy 2 + distributed_lag");
   auto const& components = row_of(report, "v450", "grey_relational 2 + principal_component_distributed_lag");
-  EXPECT_GE(mean_of(components, "S"), mean_of(lags, "S"));
-  EXPECT_LT(mean_of(components, "Mn"), mean_of(lags, "Mn"));
-  EXPECT_LT(mean_of(components, "Sd"), mean_of(lags, "Sd"));
+  for (std::size_t r = 0; r < 5; ++r) {  // the means over the twelve models, in each draw of the instruments
+    EXPECT_GE(components.figures.at("S")[r], lags.figures.at("S")[r]);
+    EXPECT_LT(components.figures.at("Mn")[r], lags.figures.at("Mn")[r]);
+    EXPECT_LT(components.figures.at("Sd")[r], lags.figures.at("Sd")[r]);
+  }
   for (auto const& row : report.rows) EXPECT_EQ(row.refused, "") << row.name();
 }
 

@@ -84,6 +84,20 @@ TEST(Study, MeasuresSelectionsAgainstTheBestSet) {
   EXPECT_EQ(row(report, "all + ridge").figures.at("validation.rmse").size(), 5U);
 }
 
+/// A set of the user's own is judged as a method's choice is; a sensor that the world does not have is refused by name.
+TEST(Study, JudgesTheSensorsThatItIsGiven) {
+  auto text = head + world;
+  text.replace(text.find("\"forward 2\""), 11, "\"sensors T9, T1\", \"sensors T1, T18\"");
+  auto const report = SmallStudy(text).report();
+  auto const& given = row(report, "sensors T9, T1 + linear");
+  EXPECT_EQ(given.sensors, (std::vector<std::string>{"T1", "T9"}));
+  EXPECT_EQ(given.figures.at("cross.rmse").size(), 5U);
+  auto const& quality = report.selections.at(1).figures;
+  EXPECT_GE(quality.at("regret")[0], 0.0);
+  EXPECT_FALSE(quality.contains("rank_correlation"));  // it has no score
+  EXPECT_EQ(row(report, "sensors T1, T18 + linear").refused, "there is no sensor 'T18' here; did you mean 'T1'?");
+}
+
 TEST(Study, MayCutOneRunInTwo) {
   auto text = head + world;
   text.replace(text.find("test = [\"slow.toml\"]"), 20, "split = \"60 min\"");

@@ -1,6 +1,7 @@
 #include "twin/study/study_twin.h"
 
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "output/dataset_file.h"
@@ -45,6 +46,17 @@ TEST(Study, TwinLacksWhatTheStudyAdds) {
     return interval(row(study.report(), "all + twin").figures.at("cross.rmse")).mean;
   };
   EXPECT_GT(error(heated), 3.0 * error(SmallStudy(twin_only)));
+}
+
+/// An observer sees in the sensors what the file lacks.
+TEST(Study, ObserverSeesInTheSensorsWhatTheTwinLacks) {
+  auto text = "title = \"x\"\nseeds = 5\nselections = [\"all\"]\nmodels = [\"twin\", \"twin observer\"]\n" + world +
+              "add = '''\n[[heat]]\nname = \"heater\"\nat = \"head_front\"\npower = \"150 W\"\n'''\n";
+  text.replace(text.find("\"T9\""), 4, "\"T9\", \"T6\"");
+  auto const report = SmallStudy(text).report();
+  auto const mean = [&](std::string const& name) { return interval(row(report, name).figures.at("cross.rmse")).mean; };
+  EXPECT_LT(mean("all + twin observer"), 0.7 * mean("all + twin"));
+  EXPECT_THAT(row(report, "all + twin observer").remark, testing::HasSubstr("extended Kalman filter"));
 }
 
 /// Somebody's machine, whose bearings rub less than the file says, measured by a probe whose zero is anywhere.
