@@ -376,6 +376,44 @@ TEST(Displacement, ScrewAtTheTemperatureOfItsSurroundingsHasNoError) {
     EXPECT_NEAR(built.screw.position_error(x, rise, seat) - strain * x, 0.0, 1e-18) << x;
 }
 
+/// At random temperatures, for every end; beyond the pretension, a screw that is only pulled is none.
+TEST(Displacement, ErrorOfAScrewIsALinearChannelWhereItsEndsHold) {
+  for (auto const* ends : {"fixed-free", "fixed-supported", "fixed-fixed"}) {
+    auto const built = machine(fmt::format(R"(
+[[ball_screw]]
+name = "E_P"
+body = "shaft"
+support = "{}"
+unilateral = false
+seats = "column"
+reference = "bed"
+positions = ["130 mm", "400 mm"]
+)",
+                                           ends));
+    ASSERT_EQ(built.linear_channels.size(), built.displacements.size() + 2) << ends;
+    auto const& screw = built.screws[0];
+    Eigen::VectorXd const warmer = 5.0 * Eigen::VectorXd::Random(built.network().nodes());
+    auto const along = [&](NodeWeights const& weights) {
+      double sum = 0.0;
+      for (auto const& [node, weight] : weights) sum += weight * warmer[node];
+      return sum;
+    };
+    std::vector<double> const rise(warmer.data() + screw.first_node,
+                                   warmer.data() + screw.first_node + screw.screw.edges.size() - 1);
+    for (int p = 0; p < 2; ++p) {
+      auto const& channel = built.linear_channels[built.displacements.size() + std::size_t(p)];
+      double const x = screw.description.positions[std::size_t(p)];
+      EXPECT_EQ(channel.name, p == 0 ? "E_P_130mm" : "E_P_400mm");
+      double const error =
+          screw.screw.position_error(x, rise, along(screw.seat_growth)) - x * along(screw.reference_strain);
+      EXPECT_GT(std::abs(error), 1e-8) << ends;
+      EXPECT_NEAR(along(channel.weights), error, 1e-15) << ends;
+    }
+  }
+  auto const pulled = machine(std::string(screw) + "positions = [\"130 mm\"]\n");
+  EXPECT_EQ(pulled.linear_channels.size(), pulled.displacements.size());
+}
+
 TEST(Displacement, PartThatMovesAnUnknownChannelIsAnErrorWithItsLine) {
   auto const message = message_of(std::string(axial) + R"(
 [[compensation]]

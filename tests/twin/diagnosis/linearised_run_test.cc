@@ -187,6 +187,34 @@ TEST(LinearisedRun, PredictsTheRun) {
   EXPECT_LT(metres, 2e-8);
 }
 
+/// Three positions of the nut, of a screw that is supported and of one that is held: up to 60 um.
+TEST(LinearisedRun, PredictsErrorsOfPositionAlongAScrew) {
+  Machine const vmc850 = Machine::read(std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "twin/machines/vmc850.toml");
+  auto truth = run(vmc850, tests::experiment(R"(
+    duration = "2 h"
+    ambient.mean = "22 degC"
+    [[axes]]
+    axis = "z"
+    blocks = [{duration = "80 min", feed = "8000 mm/min"}, {duration = "40 min", feed = "0 mm/min"}])"),
+                   {})
+                   .dataset;
+  truth.readings = truth.truth_readings;
+  truth.displacements = truth.truth_displacements;
+  auto measured = measured_run(truth, vmc850, "feed");
+  measured.changes.clear();
+  auto const binned = bin(measured, 60.0);
+  MatrixXd const predicted = LinearisedRun(vmc850, binned).prediction();
+  double largest = 0.0;
+  for (std::size_t c = 0, found = 0; c < measured.channels.size(); ++c) {
+    if (!measured.channels[c].name.starts_with("E_P")) continue;
+    VectorXd const missed = predicted.col(Index(c)) - binned.values.col(Index(c));
+    EXPECT_LT(missed.cwiseAbs().maxCoeff(), 5e-8) << measured.channels[c].name;
+    largest = std::max(largest, binned.values.col(Index(c)).maxCoeff());
+    EXPECT_LT(++found, 7u);
+  }
+  EXPECT_GT(largest, 2e-5);
+}
+
 /// Rows of minutes: the mean over their samples, from the ends of few steps, of rises by more than ten kelvin.
 TEST(LinearisedRun, PredictsTheMeanOfMinutes) {
   auto const [kelvin, metres] = missed(300.0, 0.0);
