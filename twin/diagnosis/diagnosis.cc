@@ -19,10 +19,12 @@ constexpr int fine = 48;  // knots of a scan: half an hour tells from another bo
 
 class Diagnostician {
  public:
-  Diagnostician(Value const& machine, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options)
+  Diagnostician(Value const& machine, std::vector<BinnedRun> const& runs, std::vector<BinnedRun> const& held_out,
+                DiagnosisOptions const& options)
       : options_(options),
         document_(machine),
         runs_(runs),
+        held_out_(held_out),
         machine_(Machine::build(machine)),
         hypotheses_(excited_hypotheses()),
         search_(machine, runs, hypotheses_, options) {}
@@ -34,6 +36,7 @@ class Diagnostician {
   }
   [[nodiscard]] std::vector<Hypothesis> excited_hypotheses() const;
   [[nodiscard]] FreeHeat unknown_heat() const;
+  [[nodiscard]] double vote() const;
   struct Written;
   void write_down();
   void find_where();
@@ -42,12 +45,14 @@ class Diagnostician {
   void propose();
   [[nodiscard]] bool is_heat_left() const;
   [[nodiscard]] std::optional<std::string> twice_warmed() const;
+  [[nodiscard]] std::optional<std::string> first_warmed() const;
   [[nodiscard]] bool is_unknown_shift() const;
   [[nodiscard]] Diagnosis::Verdict verdict() const;
 
   DiagnosisOptions const& options_;
   Value const& document_;
   std::vector<BinnedRun> const& runs_;
+  std::vector<BinnedRun> const& held_out_;
   Machine machine_;
   std::vector<Hypothesis> hypotheses_;
   EffectSearch search_;
@@ -74,6 +79,7 @@ Diagnosis Diagnostician::operator()() {
   d.effects = amended.effects();
   d.unknowns = amended.unknowns();
   write_down();
+  if (!held_out_.empty() && !d.effects.empty()) d.vote = vote();
   d.visible = search_.visible();
   d.noise_heard = search_.noise_heard();
   if (!d.effects.empty()) d.left = scan_for_free_heat(amended, d.amended);
@@ -84,7 +90,7 @@ Diagnosis Diagnostician::operator()() {
   if (d.verdict == Diagnosis::Verdict::none_known) {
     if (is_heat_left())
       d.unknown_heat = unknown_heat();
-    else if (auto const body = twice_warmed())
+    else if (auto const body = d.is_refuted() ? first_warmed() : twice_warmed())
       d.unknown_heat = heat_of_effects(amended, d.amended, *body);
     if (d.unknown_heat) d.unknown_heat_by_speed = heat_by_speed(*d.unknown_heat, runs_);
   }
@@ -134,10 +140,34 @@ void Diagnostician::write_down() {
   }
 }
 
+/// Of runs that had no say so far: what is linear is at its best for either machine, all else as it was fitted.
+double Diagnostician::vote() const {
+  auto const& amended = search_.estimation();
+  auto const cost = [&](Value const& document) {
+    Estimation const unseen(document, held_out_, amended.channels(), amended.noise());
+    return unseen.fit(unseen.prior_mean(), 0).cost;
+  };
+  double costs[2];
+  in_parallel(2,
+              [&](std::size_t i) { costs[i] = cost(i == 0 ? diagnosis_.calibrated_document : diagnosis_.document); });
+  return costs[0] - costs[1];
+}
+
 /// Heat of free course is still evident, beside effects or where none was.
 bool Diagnostician::is_heat_left() const {
   auto const& left = diagnosis_.explanations.empty() ? diagnosis_.scan : diagnosis_.left;
   return !left.empty() && left[0].gain > search_.evident_beside();
+}
+
+bool is_about_heat(Hypothesis const& effect) {
+  return effect.is_about("source") || effect.is_about("film") || effect.is_about("boundary");
+}
+
+/// On which an effect acts that is about heat.
+std::optional<std::string> Diagnostician::first_warmed() const {
+  for (auto const& effect : diagnosis_.effects)
+    if (is_about_heat(effect)) return effect.body;
+  return std::nullopt;
 }
 
 /// The body on which it took two effects that are about heat: the catalogue does not have what acts there.
@@ -145,7 +175,7 @@ std::optional<std::string> Diagnostician::twice_warmed() const {
   std::map<std::string, std::string> acting;  // on each body, the first
   for (auto const& explanation : diagnosis_.explanations) {
     auto const& effect = explanation.alternatives[0].hypothesis;
-    if (!effect.is_about("source") && !effect.is_about("film") && !effect.is_about("boundary")) continue;
+    if (!is_about_heat(effect)) continue;
     if (acting.emplace(effect.body, effect.label()).first->second != effect.label()) return effect.body;
   }
   return std::nullopt;
@@ -224,6 +254,7 @@ Diagnosis::Verdict Diagnostician::verdict() const {
       diagnosis_.explanations.begin(), diagnosis_.explanations.end(),
       [](Explanation const& explanation) { return explanation.alternatives[0].hypothesis.is_about("sensor"); });
   if (sensors) return Verdict::sensor;
+  if (diagnosis_.is_refuted()) return Verdict::none_known;
   bool const single = std::all_of(diagnosis_.explanations.begin(), diagnosis_.explanations.end(),
                                   [](Explanation const& explanation) { return explanation.alternatives.size() == 1; });
   return single ? Verdict::effect : Verdict::either;
@@ -247,8 +278,9 @@ std::string name_of(Diagnosis::Verdict verdict) {
   return "";
 }
 
-Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options) {
-  return Diagnostician(machine, runs, options)();
+Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options,
+                   std::vector<BinnedRun> const& held_out) {
+  return Diagnostician(machine, runs, held_out, options)();
 }
 
 }  // namespace thermotwin::twin

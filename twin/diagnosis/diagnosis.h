@@ -20,7 +20,7 @@ struct Diagnosis {
     effect,      ///< each missing thing has one name
     either,      ///< at least one has two or three
     sensor,      ///< an instrument is at fault, not the machine
-    none_known,  ///< heat, or a displacement, that none of the effects tried explains
+    none_known,  ///< heat, or a displacement, that none of the effects tried explains, or not in runs held out
   };
   Verdict verdict = Verdict::nothing;
   /// Of the calibrated machine, before any effect was added, beside the noise that the amended one leaves.
@@ -44,14 +44,19 @@ struct Diagnosis {
   Value document;                     ///< the machine as amended: calibrated values and the effects
   std::vector<ChangedValue> changes;  ///< of the user's numbers, of sensors and loops, to what that has
   Value calibrated_document;          ///< with calibrated values alone
+  /// 2 ln of how much likelier the runs held out are by the amended machine than by the calibrated one.
+  std::optional<double> vote;
   std::vector<std::pair<std::string, double>> noise_heard;  ///< of every channel, over what was expected
+  /// Runs held out speak against the effects.
+  [[nodiscard]] bool is_refuted() const { return vote && *vote < 0.0; }
   std::size_t visible = 0;  ///< hypotheses that would have been seen at half of their largest amplitude
 };
 
 [[nodiscard]] std::string name_of(Diagnosis::Verdict verdict);
 
-/// Calibrates, scans, names. `machine`: its document.
+/// Calibrates, scans, names. `machine`: its document. `held_out`: runs that take no part in any fit, and have a vote on
+/// what was found.
 [[nodiscard]] Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs,
-                                 DiagnosisOptions const& options);
+                                 DiagnosisOptions const& options, std::vector<BinnedRun> const& held_out = {});
 
 }  // namespace thermotwin::twin

@@ -199,6 +199,14 @@ std::string words_of_proposal(Diagnosis const& diagnosis) {
   return text + "\n\n";
 }
 
+/// Where they speak against what was found.
+std::string words_of_vote(Diagnosis const& diagnosis) {
+  if (!diagnosis.is_refuted()) return "";
+  return fmt::format(
+      "The runs held out speak against it: they are likelier by calibration alone, by {:.0f} of 2 ln.\n\n",
+      -*diagnosis.vote);
+}
+
 std::string words_of_heat(Diagnosis const& diagnosis) {
   if (!diagnosis.unknown_heat) return "";
   auto const& all = *diagnosis.unknown_heat;
@@ -304,6 +312,7 @@ std::string report_json(DiagnosisReport const& report) {
                                    : diagnosis.explanations[0].alternatives[0].hypothesis.body}};
   if (auto const& sensor = diagnosis.faulty_sensor)
     json["faulty_sensor"] = {{"name", sensor->name}, {"what", sensor->what}};
+  if (diagnosis.vote) json["held_out_vote"] = *diagnosis.vote;
   json["tried"] = diagnosis.hypotheses.size();
   json["visible"] = diagnosis.visible;
   for (auto const& [channel, times] : diagnosis.noise_heard) json["noise_heard"][channel] = times;
@@ -358,7 +367,7 @@ std::string report_text(DiagnosisReport const& report) {
   text += words_of_numbers(diagnosis) + words_of_loop(diagnosis);
   text += words_of_proposal(diagnosis);
   if (auto const& sensor = diagnosis.faulty_sensor) text += fmt::format("{} {}.\n\n", sensor->name, sensor->what);
-  text += words_of_heat(diagnosis);
+  text += words_of_vote(diagnosis) + words_of_heat(diagnosis);
   auto const& shown = report.held_out.empty() ? report.fitted : report.held_out;
   std::string const data = report.held_out.empty() ? "the fitted" : "unseen";
   text += words_of_gain(diagnosis, shown, data);

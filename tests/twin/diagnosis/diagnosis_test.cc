@@ -61,6 +61,40 @@ TEST(Diagnosis, TakesNoiseInTheRecordOfTheRoomForNoLagOfItsSensor) {
   EXPECT_EQ(name_of(diagnosis.verdict), "nothing");
 }
 
+/// 80 W in the motor on both days: one effect. Gone on the day that was held out, they were something else.
+TEST(Diagnosis, LetsARunHeldOutSpeakAgainstWhatItFound) {
+  auto const on_a_day = [](Value const& truth, unsigned seed, scenarios::Experiment const& experiment) {
+    auto run = tests::measured(truth, experiment);
+    tests::add_noise(run, 0.02, 0.05e-6, seed);
+    return run;
+  };
+  Value const hot = tests::with_table(tests::v450(), R"(
+    [[heat]]
+    name = "hidden"
+    at = "motor"
+    power = "80 W")");
+  auto const fitted = on_a_day(hot, 7, tests::two_speeds());
+  auto const other = tests::two_speeds("50 min", "80 min", "1 h", "50 min");
+  auto const same = on_a_day(hot, 8, other), cold = on_a_day(tests::v450(), 9, other);
+  auto const with = [&](MeasuredRun const& unseen) {
+    return diagnose(tests::v450(), {bin(fitted, 300.0)}, {}, {bin(unseen, 300.0)});
+  };
+  auto const confirmed = with(same);
+  EXPECT_NE(name_of(confirmed.verdict), "none_known");
+  EXPECT_EQ(confirmed.effects.size(), 1);
+  ASSERT_TRUE(confirmed.vote);
+  EXPECT_GT(*confirmed.vote, 0.0);
+  DiagnosisReport report;
+  report.diagnosis = with(cold);
+  EXPECT_EQ(name_of(report.diagnosis.verdict), "none_known");
+  ASSERT_TRUE(report.diagnosis.vote);
+  EXPECT_LT(*report.diagnosis.vote, 0.0);
+  ASSERT_TRUE(report.diagnosis.unknown_heat);
+  EXPECT_EQ(report.diagnosis.unknown_heat->site.body, "motor");
+  EXPECT_NEAR(report.diagnosis.unknown_heat->mean[0], 80.0, 20.0);
+  EXPECT_THAT(report_text(report), testing::HasSubstr("The runs held out speak against it"));
+}
+
 /// Two at once on one displacement are likelier one thing that the catalogue does not have. It is no heat.
 TEST(Diagnosis, KnowsNoneWhereItTakesTwoToMoveADisplacement) {
   auto const diagnosis = diagnosed(growth + left_on);
