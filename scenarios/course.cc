@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "thermal/error.h"
+#include "thermal/machine_temperature.h"
 #include "thermal/nearest_name.h"
 
 namespace thermotwin::scenarios {
@@ -23,11 +24,14 @@ void check_temperature(DrivenChannel const& driven) {
   std::string const place = "channel '" + driven.channel.name + "': " + driven.channel.description + " ";
   if (driven.absolute_temperature && driven.channel.name == "chiller.offset")
     throw InputError(place + "is in degC; a difference is due, for example \"2 K\"");
-  if (driven.channel.name != "ambient.temperature") return;
+  bool const air = driven.channel.name == "ambient.temperature";
+  if (!air && !driven.absolute_temperature && !driven.channel.name.ends_with("temperature")) return;
+  double const coldest = air ? coldest_air : thermal::coldest_machine;
+  double const hottest = air ? hottest_air : thermal::hottest_machine;
   for (double const value : driven.signal.values())
-    if (!(value >= coldest_air && value <= hottest_air))
+    if (!(value >= coldest && value <= hottest))
       throw InputError(place + "reaches " + thermal::format_temperature(value) + "; allowed is " +
-                       thermal::format_temperature(coldest_air) + " to " + thermal::format_temperature(hottest_air) +
+                       thermal::format_temperature(coldest) + " to " + thermal::format_temperature(hottest) +
                        "; is its unit right?");
 }
 
@@ -55,12 +59,33 @@ DrivenChannel checked(DrivenChannel driven, MachineLimits const& machine, double
   return driven;
 }
 
+/// The fields of an experiment that drive channels, "inputs[0]" and "recorded[0].columns[1]", in the order in which
+/// they do.
+std::vector<std::string> driving_fields(Experiment const& experiment) {
+  std::vector<std::string> fields;
+  for (std::size_t i = 0; i < experiment.inputs.size(); ++i) fields.push_back("inputs[" + std::to_string(i) + "].");
+  for (std::size_t r = 0; r < experiment.recorded.size(); ++r)
+    for (std::size_t c = 0; c < experiment.recorded[r].columns.size(); ++c)
+      fields.push_back("recorded[" + std::to_string(r) + "].columns[" + std::to_string(c) + "].");
+  return fields;
+}
+
 std::vector<DrivenChannel> driven_channels(Experiment const& experiment, MachineLimits const& machine) {
   std::vector<DrivenChannel> driven = experiment.driven;
+  std::vector<std::string> const fields = driving_fields(experiment);
+  std::size_t next = 0;
+  auto const add = [&](DrivenChannel channel, std::string const& key, double most) {
+    std::string const field = fields[next++] + key + ": ";
+    try {
+      driven.push_back(checked(std::move(channel), machine, most));
+    } catch (InputError const& error) {
+      throw InputError(field + error.what());
+    }
+  };
   for (InputProgram const& program : experiment.inputs)
-    driven.push_back(checked(driven_channel(program, experiment.duration), machine, 1.0));
+    add(driven_channel(program, experiment.duration), "blocks", 1.0);
   for (DrivenChannel& channel : read_recordings(experiment.recorded, experiment.directory, experiment.duration))
-    driven.push_back(checked(std::move(channel), machine, overshoot));
+    add(std::move(channel), "unit", overshoot);
   for (auto first = driven.begin(); first != driven.end(); ++first) {
     bool const twice = std::any_of(
         first + 1, driven.end(), [&](DrivenChannel const& other) { return other.channel.name == first->channel.name; });
