@@ -423,8 +423,16 @@ test('a placement shows its map in colours, and another beside the recommended s
   await page.getByRole('button', {name: 'Beside the recommended'}).click();
   await settled(page);
   assert.match((await page.locator('.stage .caption').textContent())!, /one more sensor/);
-  const beside = await colours(page, '.stage');
-  assert.ok([...beside.keys()].filter((c) => !alone.has(c)).length > 50, 'the map looks the same');
+  assert.notDeepEqual(await colours(page, '.stage'), alone, 'the map looks the same');
+  const scale = (): Promise<string[]> => page.locator('.colour-bar .marks span').allTextContents();
+  const beside = await scale();
+  await page.getByRole('button', {name: 'One sensor alone'}).click();
+  await settled(page);
+  assert.notDeepEqual(await scale(), beside, 'one scale for both maps');
+  const bars = await page.locator('[data-panel="sensors"] .bar').evaluateAll((all) => all.map((b) => parseFloat((b as HTMLElement).style.width)));
+  const errors = (await page.locator('[data-panel="sensors"] td:last-child').allTextContents()).map(parseFloat);
+  const most = Math.max(...errors);
+  bars.forEach((width, i) => assert.ok(Math.abs(width - (100 * errors[i]!) / most) < 1, 'a bar begins at zero'));
   assert.deepEqual(complaints, []);
   await page.close();
 });
