@@ -19,19 +19,26 @@ constexpr double seconds_per_day = 86400.0;
 constexpr double overshoot = 1.2;   // of a record over what the machine can do
 constexpr double round_off = 1e-9;  // of a limit that is written in another unit
 
+void check_range(DrivenChannel const& driven, std::string const& place) {
+  for (double const value : driven.signal.values())
+    if (!thermal::is_machine_temperature(value))
+      throw InputError(place + "reaches " + thermal::format_temperature(value) + "; " +
+                       std::string(thermal::machine_temperatures));
+}
+
 /// As the programmes of an experiment are: air that a machine may stand in, no offset that is a point on the scale.
 void check_temperature(DrivenChannel const& driven) {
   std::string const place = "channel '" + driven.channel.name + "': " + driven.channel.description + " ";
   if (driven.absolute_temperature && driven.channel.name == "chiller.offset")
     throw InputError(place + "is in degC; a difference is due, for example \"2 K\"");
-  bool const air = driven.channel.name == "ambient.temperature";
-  if (!air && !driven.absolute_temperature && !driven.channel.name.ends_with("temperature")) return;
-  double const coldest = air ? coldest_air : thermal::coldest_machine;
-  double const hottest = air ? hottest_air : thermal::hottest_machine;
+  if (driven.channel.name != "ambient.temperature") {
+    if (driven.channel.name.ends_with("temperature")) check_range(driven, place);
+    return;
+  }
   for (double const value : driven.signal.values())
-    if (!(value >= coldest && value <= hottest))
+    if (!(value >= coldest_air && value <= hottest_air))
       throw InputError(place + "reaches " + thermal::format_temperature(value) + "; allowed is " +
-                       thermal::format_temperature(coldest) + " to " + thermal::format_temperature(hottest) +
+                       thermal::format_temperature(coldest_air) + " to " + thermal::format_temperature(hottest_air) +
                        "; is its unit right?");
 }
 
