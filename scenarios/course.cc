@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "thermal/error.h"
+#include "thermal/machine_temperature.h"
 #include "thermal/nearest_name.h"
 
 namespace thermotwin::scenarios {
@@ -18,12 +19,22 @@ constexpr double seconds_per_day = 86400.0;
 constexpr double overshoot = 1.2;   // of a record over what the machine can do
 constexpr double round_off = 1e-9;  // of a limit that is written in another unit
 
+void check_range(DrivenChannel const& driven, std::string const& place) {
+  for (double const value : driven.signal.values())
+    if (!thermal::is_machine_temperature(value))
+      throw InputError(place + "reaches " + thermal::format_temperature(value) + "; " +
+                       std::string(thermal::machine_temperatures));
+}
+
 /// As the programmes of an experiment are: air that a machine may stand in, no offset that is a point on the scale.
 void check_temperature(DrivenChannel const& driven) {
   std::string const place = "channel '" + driven.channel.name + "': " + driven.channel.description + " ";
   if (driven.absolute_temperature && driven.channel.name == "chiller.offset")
     throw InputError(place + "is in degC; a difference is due, for example \"2 K\"");
-  if (driven.channel.name != "ambient.temperature") return;
+  if (driven.channel.name != "ambient.temperature") {
+    if (driven.channel.name.ends_with("temperature")) check_range(driven, place);
+    return;
+  }
   for (double const value : driven.signal.values())
     if (!(value >= coldest_air && value <= hottest_air))
       throw InputError(place + "reaches " + thermal::format_temperature(value) + "; allowed is " +
@@ -55,12 +66,33 @@ DrivenChannel checked(DrivenChannel driven, MachineLimits const& machine, double
   return driven;
 }
 
+/// The fields of an experiment that drive channels, "inputs[0]" and "recorded[0].columns[1]", in the order in which
+/// they do.
+std::vector<std::string> driving_fields(Experiment const& experiment) {
+  std::vector<std::string> fields;
+  for (std::size_t i = 0; i < experiment.inputs.size(); ++i) fields.push_back("inputs[" + std::to_string(i) + "].");
+  for (std::size_t r = 0; r < experiment.recorded.size(); ++r)
+    for (std::size_t c = 0; c < experiment.recorded[r].columns.size(); ++c)
+      fields.push_back("recorded[" + std::to_string(r) + "].columns[" + std::to_string(c) + "].");
+  return fields;
+}
+
 std::vector<DrivenChannel> driven_channels(Experiment const& experiment, MachineLimits const& machine) {
   std::vector<DrivenChannel> driven = experiment.driven;
+  std::vector<std::string> const fields = driving_fields(experiment);
+  std::size_t next = 0;
+  auto const add = [&](DrivenChannel channel, std::string const& key, double most) {
+    std::string const field = fields[next++] + key + ": ";
+    try {
+      driven.push_back(checked(std::move(channel), machine, most));
+    } catch (InputError const& error) {
+      throw InputError(field + error.what());
+    }
+  };
   for (InputProgram const& program : experiment.inputs)
-    driven.push_back(checked(driven_channel(program, experiment.duration), machine, 1.0));
+    add(driven_channel(program, experiment.duration), "blocks", 1.0);
   for (DrivenChannel& channel : read_recordings(experiment.recorded, experiment.directory, experiment.duration))
-    driven.push_back(checked(std::move(channel), machine, overshoot));
+    add(std::move(channel), "unit", overshoot);
   for (auto first = driven.begin(); first != driven.end(); ++first) {
     bool const twice = std::any_of(
         first + 1, driven.end(), [&](DrivenChannel const& other) { return other.channel.name == first->channel.name; });

@@ -117,6 +117,10 @@ Course means(Course const& samples, double width) {
 
 }  // namespace
 
+bool is_temperature(SampledInput const& input) {
+  return input.absolute_temperature || (input.unit == "K" && input.name.ends_with("temperature"));
+}
+
 std::vector<double> recorded_times(SampledInput const& input) {
   std::vector<double> times;
   for (std::size_t i = 0; i < input.times.size(); ++i)

@@ -18,6 +18,9 @@ struct SampledInput {
   double average = 0.0;  ///< linear channels: one breakpoint per this time, the mean of its samples [s]
 };
 
+/// Whether it is a point on the temperature scale: its unit or its name says so.
+[[nodiscard]] bool is_temperature(SampledInput const& input);
+
 /// Times of the samples that are not missing.
 [[nodiscard]] std::vector<double> recorded_times(SampledInput const& input);
 

@@ -17,8 +17,9 @@ namespace {
 
 namespace dim = dimension;
 
-constexpr double zero_degC = 273.15;
 constexpr double turn = 2 * std::numbers::pi;  ///< [rad]
+constexpr Unit celsius = {dim::temperature_difference, 1, 1, true, 273.15};
+constexpr Unit fahrenheit = {dim::temperature_difference, 5, 9, true, 459.67};
 
 struct NamedUnit {
   std::string_view symbol;
@@ -70,8 +71,8 @@ constexpr std::array named_units = {
 constexpr std::array prefixes = {Prefix{"n", 1, 1e9}, Prefix{"u", 1, 1e6}, Prefix{"m", 1, 1e3},
                                  Prefix{"k", 1e3, 1}, Prefix{"M", 1e6, 1}, Prefix{"G", 1e9, 1}};
 
-constexpr std::array usual_prefixed = {"mm",  "um",  "kg",  "ms",  "mK", "mA",   "kW",   "mW",   "kJ",  "kN",
-                                       "kPa", "MPa", "GPa", "kHz", "mV", "mbar", "mrad", "urad", "degC"};
+constexpr std::array usual_prefixed = {"mm",  "um",  "kg",  "ms",  "mK", "mA",   "kW",   "mW",   "kJ",   "kN",
+                                       "kPa", "MPa", "GPa", "kHz", "mV", "mbar", "mrad", "urad", "degC", "degF"};
 
 Unit times(Unit const& a, Unit const& b, int power) {
   auto const raised = [power](double x) { return std::pow(x, std::abs(power)); };
@@ -108,7 +109,8 @@ class UnitReader {
   Unit read() {
     skip_spaces();
     whole_ = rest_;
-    if (rest_ == "degC") return {dim::temperature_difference, 1, 1, true};
+    if (rest_ == "degC") return celsius;
+    if (rest_ == "degF") return fahrenheit;
     Unit const unit = product();
     if (!rest_.empty()) fail("unexpected '" + std::string(rest_) + "'");
     bool const counts_turns = unit.dimension == dim::angular_speed && !of_angle_;
@@ -154,7 +156,8 @@ class UnitReader {
   }
 
   Unit look_up(std::string_view name) {
-    if (name == "degC") fail("degC is a point on the scale; in a compound unit write K");
+    if (name == "degC" || name == "degF")
+      fail(std::string(name) + " is a point on the scale; in a compound unit write K");
     if (NamedUnit const* named = find_symbol(name)) return taken(*named);
     for (Prefix const& prefix : prefixes) {
       if (!name.starts_with(prefix.symbol)) continue;
@@ -173,8 +176,9 @@ class UnitReader {
   std::string offer(std::string_view name) const {
     bool const alone = name == whole_ && !usual_.empty();
     auto const known = alone ? std::vector<std::string>(usual_.begin(), usual_.end()) : known_symbols();
-    bool const on_scale = std::find(known.begin(), known.end(), "degC") != known.end();
-    return name == "C" && on_scale ? "did you mean 'degC'?" : did_you_mean(name, known);
+    std::string const scale = "deg" + std::string(name);
+    bool const on_scale = std::find(known.begin(), known.end(), scale) != known.end();
+    return on_scale ? "did you mean '" + scale + "'?" : did_you_mean(name, known);
   }
 
   int exponent() {
@@ -215,9 +219,9 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-double Unit::si(double number) const { return absolute ? number + zero_degC : number * numerator / denominator; }
+double Unit::si(double number) const { return (number + zero) * numerator / denominator; }
 
-double Unit::number(double si) const { return absolute ? si - zero_degC : si * denominator / numerator; }
+double Unit::number(double si) const { return si * denominator / numerator - zero; }
 
 Unit read_unit(std::string_view unit, std::string_view text, std::span<std::string_view const> usual) {
   return UnitReader(text, unit, usual).read();

@@ -13,7 +13,8 @@ struct Unit {
   Dimension dimension;
   double numerator = 1.0;
   double denominator = 1.0;
-  bool absolute = false;  ///< degC: a point on the scale
+  bool absolute = false;  ///< degC, degF: a point on the scale
+  double zero = 0.0;      ///< of the scale, above absolute zero in its own degrees: SI value = (number + zero) · …
 
   [[nodiscard]] double si(double number) const;
   [[nodiscard]] double number(double si) const;

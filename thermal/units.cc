@@ -82,7 +82,8 @@ std::string due_text(Dimension dimension) {
          example_of(dimension) + "\"";
 }
 
-constexpr std::array<std::string_view, 2> scales = {"degC", "K"};
+constexpr std::array<std::string_view, 2> scales = {"degC", "K"};  ///< in which temperatures are written
+constexpr std::array<std::string_view, 3> read_scales = {"degC", "K", "degF"};
 
 }  // namespace
 
@@ -102,7 +103,7 @@ double parse_value(std::string_view text, Dimension expected) {
 }
 
 double parse_temperature(std::string_view text) {
-  Quantity const quantity = parse(text, "a temperature is due, for example \"22 degC\"", scales);
+  Quantity const quantity = parse(text, "a temperature is due, for example \"22 degC\"", read_scales);
   if (quantity.dimension == dimension::dimensionless) {
     throw InputError(std::string(text) + " has no unit; write for example \"22 degC\"");
   }

@@ -78,7 +78,8 @@ Site axial_site(Body const& body, PlaceText const& place) {
   double const length = body.edges[0].back();
   auto const within = [&](double s) {
     if (s < -1e-9 || s > length + 1e-9)
-      throw InputError(fmt::format("{} mm is outside '{}', which is {} mm long", s * 1e3, body.name, length * 1e3));
+      throw InputError(
+          fmt::format("{:.6g} mm is outside '{}', which is {:.6g} mm long", s * 1e3, body.name, length * 1e3));
   };
   if (place.extents.size() > 1)
     throw InputError(fmt::format("'{}' has one direction; the place names {}", body.name, place.extents.size()));
@@ -90,7 +91,7 @@ Site axial_site(Body const& body, PlaceText const& place) {
   }
   within(*extent.high);
   if (!(*extent.high > extent.low))
-    throw InputError(fmt::format("the stretch ends at {} mm, before it begins", *extent.high * 1e3));
+    throw InputError(fmt::format("the stretch ends at {:.6g} mm, before it begins", *extent.high * 1e3));
   if (place.face.empty()) return clip(thermal::whole(body), extent.low, *extent.high);
   return thermal::face(body, place.face, extent.low, *extent.high);
 }
@@ -114,8 +115,8 @@ Site block_site(Body const& body, PlaceText const& place) {
     double const end = extent.high.value_or(extent.low);
     for (double s : {extent.low, end})
       if (s < -1e-9 || s > size + 1e-9)
-        throw InputError(fmt::format("{} mm is outside '{}', which is {} mm long in {}", s * 1e3, body.name, size * 1e3,
-                                     char('x' + d)));
+        throw InputError(fmt::format("{:.6g} mm is outside '{}', which is {:.6g} mm long in {}", s * 1e3, body.name,
+                                     size * 1e3, char('x' + d)));
     if (extent.high) is_point = false;
     low[d] = body.origin[d] + extent.low;
     high[d] = body.origin[d] + end;

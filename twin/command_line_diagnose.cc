@@ -50,7 +50,7 @@ void add_calibrate_command(CLI::App& app) {
   command->add_flag("--json", *json, "print everything as JSON");
   command->callback([files, json, machine] {
     files->machine = machine_file(*machine);
-    check_suffix(files->output, "a machine", {".toml"});
+    check_machine_suffix(files->output);
     auto const calibration = calibrate_files(*files);
     fmt::print("{}", *json ? calibration_json(calibration) : calibration_table(calibration));
   });
@@ -82,7 +82,7 @@ void add_diagnose_command(CLI::App& app) {
   for (auto* other : {data, unseen, amended, page}) plans->excludes(other);
   command->callback([files, json, machine, planned, data, folder] {
     files->machine = machine_file(*machine);
-    check_suffix(files->output, "a machine", {".toml"});
+    check_machine_suffix(files->output);
     for (auto const& name : files->without) static_cast<void>(effect(name));
     if (!*json) files->progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
     if (!planned->empty()) return print_plan(*files, *planned, *json);

@@ -5,6 +5,7 @@
 
 #include "thermal/nearest_name.h"
 #include "twin/file/shipped_file.h"
+#include "twin/file/temperature_limits.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -47,6 +48,7 @@ thermal::InputError located_in(Value const& document, thermal::InputError const&
 scenarios::Experiment read_experiment(Value const& document, std::filesystem::path const& file) {
   scenarios::Experiment experiment;
   read_fields(document, experiment);
+  check_temperatures(document, list_fields<scenarios::Experiment>());
   experiment.directory = file.has_parent_path() ? file.parent_path() : ".";
   try {
     scenarios::check(experiment);

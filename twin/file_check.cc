@@ -218,6 +218,7 @@ void FileChecker::read_record(std::filesystem::path const& file, std::size_t i) 
   auto remarks = data.remarks;
   static_cast<void>(channels_of(data, remarks));
   checks_[i].warnings = remarks_on(file, remarks);
+  for (auto& remark : misspelt_inputs(data)) checks_[i].warnings.push_back(std::move(remark));
   checks_[i].text =
       fmt::format("a record of {:.2f} h: {}, {}, {}, {}", data.time[data.time.size() - 1] / 3600.0,
                   counted(std::size_t(data.time.size()), "row"), counted(data.inputs.size(), "input"),

@@ -105,9 +105,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "must not be negative"},
         Mistake{"SensorOutside", "at = \"cartridge[130 mm]\"", "at = \"cartridge[330 mm]\"", "",
                 "330 mm is outside 'cartridge', which is 320 mm long"},
+        Mistake{"LengthIsRounded", "at = \"cartridge[130 mm]\"", "at = \"shaft[500 mm]\"", "",
+                "500 mm is outside 'shaft', which is 420 mm long"},
         Mistake{"LoopNotClosed", "closure = \"-10 mm\"", "closure = \"0 mm\"", "[[displacement]]\nname = \"E_Z\"",
                 "does not close"},
-        Mistake{"Syntax", "name = \"v450\"", "name = \"v450", "", "string"}),
+        Mistake{"Syntax", "name = \"v450\"", "name = \"v450", "", "is a quote missing at the end of the line?"}),
     [](auto const& info) { return info.param.name; });
 
 class WrongExperiment : public testing::TestWithParam<Mistake> {};
@@ -177,20 +179,33 @@ TEST_P(WrongExperiment, IsToldWithPlace) {
   EXPECT_EQ(std::distance(fs::directory_iterator(directory.path()), {}), 2) << "something was left behind";
 }
 
-INSTANTIATE_TEST_SUITE_P(BadInput, WrongExperiment,
-                         testing::Values(Mistake{"CoolRoom", "duration = \"10 min\"\n[spindle]\n",
-                                                 "duration = \"10 min\"\nambient.mean = \"22 K\"\n[spindle]\n",
-                                                 "ambient.mean", "22 K; allowed is -50 degC to 80 degC"},
-                                         Mistake{"EmptySpectrum",
-                                                 "blocks = [{duration = \"10 min\", speed = \"2000 rpm\"}]",
-                                                 "blocks = []", "[spindle]", "the spectrum is empty"},
-                                         Mistake{"TooFast", "2000 rpm", "20000 rpm", "", "20000 rpm"},
-                                         Mistake{"TooFastPerMinute", "2000 rpm", "20000 1/min", "",
-                                                 "20000 rpm is above the machine's maximum, 6000 rpm"},
-                                         Mistake{"NoDuration", "duration = \"10 min\"\n", "", "machine", "duration"},
-                                         Mistake{"UnknownKey", "duration = \"10 min\"\n", "duraton = \"10 min\"\n", "",
-                                                 "did you mean 'duration'?"}),
-                         [](auto const& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    BadInput, WrongExperiment,
+    testing::Values(
+        Mistake{"CoolRoom", "duration = \"10 min\"\n[spindle]\n",
+                "duration = \"10 min\"\nambient.mean = \"22 K\"\n[spindle]\n", "ambient.mean",
+                "'22 K' is -251.15 degC; allowed is -60 degC to 150 degC"},
+        Mistake{"FrozenRoom", "duration = \"10 min\"\n[spindle]\n",
+                "duration = \"10 min\"\nambient.mean = \"-55 degC\"\n[spindle]\n", "ambient.mean",
+                "-55 degC; allowed is -50 degC to 80 degC"},
+        Mistake{"ColdStart", "duration = \"10 min\"\n", "duration = \"10 min\"\ninitial_temperature = \"22 K\"\n",
+                "initial_temperature", "'22 K' is -251.15 degC; allowed is -60 degC"},
+        Mistake{"ColdCoolant", "duration = \"10 min\"\n", "duration = \"10 min\"\ncoolant.temperature = \"22 K\"\n",
+                "coolant.temperature", "'22 K' is -251.15 degC; allowed is -60 degC"},
+        Mistake{"ColdProgramme", "[[recorded]]",
+                "[[inputs]]\nchannel = \"coolant.temperature\"\n"
+                "blocks = [{duration = \"1 h\", value = \"22 K\"}]\n[[recorded]]",
+                "blocks = [{duration = \"1 h\"", "allowed is -60 degC to 150 degC"},
+        Mistake{"ColdRecord", "unit = \"degC\"", "unit = \"K\"", "",
+                "allowed is -50 degC to 80 degC; is its unit right?"},
+        Mistake{"EmptySpectrum", "blocks = [{duration = \"10 min\", speed = \"2000 rpm\"}]", "blocks = []", "[spindle]",
+                "the spectrum is empty"},
+        Mistake{"TooFast", "2000 rpm", "20000 rpm", "", "20000 rpm"},
+        Mistake{"TooFastPerMinute", "2000 rpm", "20000 1/min", "",
+                "20000 rpm is above the machine's maximum, 6000 rpm"},
+        Mistake{"NoDuration", "duration = \"10 min\"\n", "", "machine", "duration"},
+        Mistake{"UnknownKey", "duration = \"10 min\"\n", "duraton = \"10 min\"\n", "", "did you mean 'duration'?"}),
+    [](auto const& info) { return info.param.name; });
 
 struct WrongRecording {
   std::string name, csv, place, message;
@@ -357,11 +372,26 @@ TEST(BadInput, SuffixesOfOtherFormats) {
                                           {"run golden_b_2000 --picture a.jpg", "a.jpg: a picture is written as .png"},
                                           {"export a.h5 -o a.xlsx", "a.xlsx: a table is written as .csv"},
                                           {"calibrate v450 a.h5 -o b.h5", "b.h5: a machine is written as .toml"},
+                                          {"calibrate v450 a.h5 -o v450", "v450: a machine is written as .toml"},
+                                          {"diagnose v450 a.h5 -o mine", "mine: a machine is written as .toml"},
                                           {"report a.h5 -o a.pdf", "a.pdf: a page is written as .html"}}) {
     auto const answer = program(arguments);
     EXPECT_EQ(answer.code, 2) << arguments;
     EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
   }
+}
+
+/// A file or a folder of the same name does not stand in for a machine that is shipped.
+TEST(BadInput, ANameIsTheShippedMachine) {
+  tests::TemporaryDirectory const directory;
+  write_text(directory.path() / "v450", "no machine");
+  fs::create_directory(directory.path() / "golden_b_2000");
+  auto const run = [&](std::string const& machine) {
+    return tests::run_command("cd " + directory.path().string() + " && " + std::string(THERMOTWIN_PROGRAM) +
+                              " run -q golden_b_2000 -m " + machine + " 2>&1");
+  };
+  EXPECT_EQ(run("v450").code, 0) << run("v450").text;
+  EXPECT_EQ(run("./v450").code, 2);
 }
 
 TEST(BadInput, CheckGoesOnWithTheNextFile) {

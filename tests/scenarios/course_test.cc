@@ -276,13 +276,19 @@ TEST_F(RecordedCourse, RefusesAnotherDimension) {
 TEST_F(RecordedCourse, RefusesAirThatNoMachineStandsIn) {
   Experiment const cold = recorded("time_s,air\n0,22\n60,23\n", {{"air", "ambient.temperature", "K", "linear"}}, 60.0);
   EXPECT_EQ(tests::refusal([&] { ExperimentCourse(cold, machine()); }),
-            "channel 'ambient.temperature': recorded: air reaches 22 K; allowed is -50 degC to 80 degC; is its "
+            "recorded[0].columns[0].unit: channel 'ambient.temperature': recorded: air reaches 22 K; allowed is -50 "
+            "degC to 80 degC; is its "
             "unit right?");
   Experiment e = experiment(60.0);
   e.inputs = {{"ambient.temperature", {{60.0, "22 K"}}}};
   EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }),
-            "channel 'ambient.temperature': programme reaches 22 K; allowed is -50 degC to 80 degC; is its unit "
+            "inputs[0].blocks: channel 'ambient.temperature': programme reaches 22 K; allowed is -50 degC to 80 degC; "
+            "is its unit "
             "right?");
+  e.inputs = {{"coolant.temperature", {{60.0, "22 K"}}}};
+  EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }),
+            "inputs[0].blocks: channel 'coolant.temperature': programme reaches 22 K; allowed is -60 degC to 150 degC; "
+            "is its unit right?");
   e.inputs = {{"ambient.temperature", {{60.0, "22 degC"}}}};
   EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }), "accepted");
 }
@@ -293,27 +299,28 @@ TEST_F(RecordedCourse, RefusesMotionThatTheMachineCannotMake) {
     return tests::refusal([&] { ExperimentCourse(e, machine()); });
   };
   EXPECT_EQ(speed("7100"), "accepted");
-  EXPECT_EQ(
-      speed("60000"),
-      "channel 'spindle.speed': recorded: n reaches 60000 rpm, and the machine's maximum is 6000 rpm; is its unit "
-      "right?");
+  EXPECT_EQ(speed("60000"),
+            "recorded[0].columns[0].unit: channel 'spindle.speed': recorded: n reaches 60000 rpm, and the machine's "
+            "maximum is 6000 rpm; is its unit "
+            "right?");
   Experiment e = experiment(60.0);
   auto const programme = [&](std::string const& channel, std::string const& value) {
     e.inputs = {{channel, {{60.0, value}}}};
     return tests::refusal([&] { ExperimentCourse(e, machine()); });
   };
   EXPECT_EQ(programme("spindle.speed", "6000 rpm"), "accepted");
-  EXPECT_TRUE(
-      programme("spindle.speed", "6100 rpm").starts_with("channel 'spindle.speed': programme reaches 6100 rpm"));
+  EXPECT_TRUE(programme("spindle.speed", "6100 rpm")
+                  .starts_with("inputs[0].blocks: channel 'spindle.speed': programme reaches 6100 rpm"));
   EXPECT_EQ(programme("z.feed", "24 m/min"), "accepted");
-  EXPECT_TRUE(programme("z.feed", "25 m/min").starts_with("channel 'z.feed': programme reaches "));
+  EXPECT_TRUE(programme("z.feed", "25 m/min").starts_with("inputs[0].blocks: channel 'z.feed': programme reaches "));
 }
 
 TEST(ExperimentCourse, TakesNoPointOnTheScaleForADifference) {
   Experiment e = experiment(60.0);
   e.inputs = {{"chiller.offset", {{60.0, "2 degC"}}}};
-  EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }),
-            "channel 'chiller.offset': programme is in degC; a difference is due, for example \"2 K\"");
+  EXPECT_EQ(
+      tests::refusal([&] { ExperimentCourse(e, machine()); }),
+      "inputs[0].blocks: channel 'chiller.offset': programme is in degC; a difference is due, for example \"2 K\"");
   e.inputs = {{"chiller.offset", {{60.0, "2 K"}}}};
   EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }), "accepted");
 }

@@ -79,6 +79,15 @@ TEST(ParseQuantity, MarksDegreesCelsiusAsAPointOnTheScale) {
   }
 }
 
+TEST(ParseQuantity, ReadsDegreesFahrenheit) {
+  for (char const* text : {"72 degF", "72 °F"}) {
+    EXPECT_DOUBLE_EQ(parse_quantity(text).value, (72.0 + 459.67) * 5.0 / 9.0);
+    EXPECT_TRUE(parse_quantity(text).absolute_temperature);
+  }
+  EXPECT_DOUBLE_EQ(parse_temperature("32 degF"), 273.15);
+  EXPECT_NEAR(to_unit(373.15, "degF"), 212.0, 1e-9);
+}
+
 struct Refusal {
   char const* text;
   char const* message;

@@ -308,10 +308,12 @@ TEST(FileCheck, LooksAtRecordAndMachineTogether) {
   EXPECT_THAT(right[0].warnings, Contains(HasSubstr("run.toml: of the machine, but not in the data: T2")));
   auto const wrong = checks("spindel.speed");
   EXPECT_THAT(wrong[0].mistake,
-              HasSubstr("run.toml: the machine 'v450' needs inputs that the data lack: spindle.speed; "
-                        "the data have spindel.speed, ambient.temperature"));
+              HasSubstr("run.toml:3:36: nothing on 'v450' reads 'spindel.speed'; did you mean 'spindle.speed'?"));
   EXPECT_EQ(wrong[1].mistake, "");
-  EXPECT_EQ(check_files({folder / "run.toml"})[0].mistake, "");
+  auto const alone = check_files({folder / "run.toml"});
+  EXPECT_EQ(alone[0].mistake, "");
+  EXPECT_THAT(alone[0].warnings,
+              Contains(HasSubstr("run.toml:3:36: input 'spindel.speed': did you mean 'spindle.speed'?")));
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 namespace thermotwin::twin {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using thermotwin::tests::contents;
@@ -334,6 +335,18 @@ TEST(MeasuredRun, MissingInputsAreNamed) {
                         "data have z.feed"));
 }
 
+/// A name that the machine's file gives, or that the data give.
+TEST(MeasuredRun, MisspeltInputsAreOfferedTheNearest) {
+  auto document = read_toml(machine_file("v450"));
+  set_parameter(document, "motor_loss.stator.while_on", "machin.on");
+  EXPECT_THAT(refusal([&] { (void)measured_run(simulated(), Machine::build(document), "x"); }),
+              HasSubstr("'machin.on': did you mean 'machine.on'?"));
+  auto dataset = simulated();
+  channel(dataset.inputs, "spindle.speed").name = "spindel.speed";
+  EXPECT_THAT(refusal([&] { (void)measured_run(dataset, machine(), "x"); }),
+              HasSubstr("'spindle.speed': is it 'spindel.speed'?"));
+}
+
 TEST(MeasuredRun, RefusesDataOfAnotherMachine) {
   auto dataset = simulated();
   for (auto* group : {&dataset.readings, &dataset.displacements})
@@ -428,6 +441,11 @@ factor = -1
 )";
 };
 
+/// Replaces the first of a text's pieces.
+std::string with(std::string text, std::string const& from, std::string const& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
 TEST_F(MeasurementFileTest, LaysTablesOverOneAnother) {
   write_tables();
   auto const run = read(whole);
@@ -449,18 +467,93 @@ TEST_F(MeasurementFileTest, TellsWhatIsWrongAndWhere) {
   };
   EXPECT_THAT(changed("column = \"a\"", "column = \"c\""), HasSubstr("no column 'c'"));
   EXPECT_THAT(changed("sensor = \"T1\"", "sensr = \"T1\""), HasSubstr("run.toml:30:1: unknown key 'sensr'"));
-  EXPECT_THAT(changed("unit = \"K\"", "unit = \"W\""), HasSubstr("'W' is no unit of a temperature"));
+  EXPECT_THAT(changed("column = \"a\"", "column = \"c\""), HasSubstr("run.toml:29:10: "));
+  EXPECT_THAT(changed("unit = \"K\"", "unit = \"W\""),
+              HasSubstr("run.toml:36:8: 'W' is no unit of a temperature, a length or an angle; reading 'T2' is due"));
+  EXPECT_THAT(changed("unit = \"K\"", "unit = \"KK\""), HasSubstr("run.toml:36:8: 'KK': unknown unit"));
+  EXPECT_THAT(changed("unit = \"K\"", "unit = \"um\""),
+              HasSubstr("run.toml:36:8: 'um': channel 'T2' of the data is a displacement"));
+  EXPECT_THAT(changed("offset = \"0.5 K\"", "offset = \"0.5 mm\""), HasSubstr("run.toml:32:10: '0.5 mm'"));
   EXPECT_THAT(changed("time_unit = \"min\"", "time_unit = \"K\""), HasSubstr("'K' is no unit of time"));
   EXPECT_THAT(changed("to = \"9 min\"", "to = \"20 s\""), HasSubstr("holds nothing of the tables"));
   EXPECT_THAT(changed("channel = \"heater2.duty\"", "channel = \"heater1.duty\""),
               HasSubstr("input 'heater1.duty' is given twice"));
   EXPECT_THAT(changed("channel = \"heater2.duty\"", "channel = \"heater3.duty\""),
-              HasSubstr("needs inputs that the data lack: heater2.duty"));
+              HasSubstr("run.toml:20:11: nothing on 'tclab' reads 'heater3.duty'; did you mean 'heater2.duty'?"));
+  EXPECT_THAT(changed("channel = \"heater2.duty\"", "channel = \"lamp\""),
+              HasSubstr("needs inputs that the data lack: heater2.duty; the data have heater1.duty, lamp, ambient"));
 }
 
-/// Replaces the first of a text's pieces.
-std::string with(std::string text, std::string const& from, std::string const& to) {
-  return text.replace(text.find(from), from.size(), to);
+/// In kelvin a number of degrees Celsius is colder than any machine.
+TEST_F(MeasurementFileTest, RefusesTemperaturesThatNoMachineHas) {
+  write_tables();
+  std::string cold = "t,room\n";
+  for (int i = 0; i <= 60; ++i) cold += fmt::format("{},{}\n", 10 * i, 22.0 + 0.01 * i);
+  put(folder / "room.csv", cold);
+  std::string const constant = "[[constant]]\nchannel = \"ambient.temperature\"\nvalue = \"20 degC\"\n";
+  std::string const recorded =
+      "\n[[table]]\nfile = \"room.csv\"\ntime_column = \"t\"\n[[table.input]]\ncolumn = \"room\"\n"
+      "channel = \"ambient.temperature\"\nunit = \"K\"\n";
+  auto const changed = [&](std::string const& from, std::string const& to, std::string const& more) {
+    std::string text = whole + more;
+    text.replace(text.find(from), from.size(), to);
+    return refusal([&] { (void)read(text); });
+  };
+  std::string const allowed = "allowed is -60 degC to 150 degC; is its unit right?";
+  EXPECT_THAT(changed("\"20 degC\"", "\"20 K\"", ""), HasSubstr("run.toml:9:9: '20 K' is -253.15 degC; " + allowed));
+  EXPECT_THAT(changed("title", "initial_temperature = \"22 K\"\ntitle", ""),
+              HasSubstr("run.toml:2:23: 'initial_temperature': '22 K' is -251.15 degC; " + allowed));
+  EXPECT_THAT(changed(constant, "", recorded), HasSubstr("input 'ambient.temperature' is at -250.8"));
+  EXPECT_THAT(changed(constant, "", recorded), HasSubstr("run.toml:"));
+  EXPECT_EQ(changed(constant, "", with(recorded, "\"K\"", "\"degC\"")), "accepted");
+}
+
+TEST_F(MeasurementFileTest, SaysWhereAUnitContradictsTheChannel) {
+  write_tables();
+  std::string const more = "\n[[constant]]\nchannel = \"coolant.on\"\nvalue = \"3 K\"\n";
+  EXPECT_THAT(refusal([&] { (void)read(whole + more); }), HasSubstr("'3 K' is a temperature"));
+  std::string const speed =
+      "\n[[table]]\nfile = \"duty.csv\"\ntime_column = \"t\"\n[[table.input]]\n"
+      "column = \"h1\"\nchannel = \"spindle.speed\"\nunit = \"degC\"\n";
+  EXPECT_THAT(refusal([&] { (void)read(whole + speed); }), HasSubstr("'degC' is no unit of"));
+  EXPECT_THAT(refusal([&] { (void)read(whole + speed); }), HasSubstr("the channel is 'spindle.speed'"));
+}
+
+TEST_F(MeasurementFileTest, ReadsDegreesFahrenheit) {
+  write_tables();
+  auto const celsius = read(whole);
+  std::string table = "minute,a,b\n";
+  for (int i = 0; i < 40; ++i)
+    table +=
+        fmt::format("{},{},{}\n", 0.1 + 0.25 * i, i == 7 ? "" : fmt::format("{}", 68.0 + 0.18 * i), -293.0 - 0.2 * i);
+  put(folder / "readings.csv", table);
+  auto const run = read(with(whole, "unit = \"degC\"", "unit = \"degF\""));
+  for (Eigen::Index r = 0; r < run.time.size(); ++r)
+    if (std::isfinite(celsius.channels[0].values[r])) {
+      EXPECT_NEAR(run.channels[0].values[r], celsius.channels[0].values[r], 1e-9);
+    }
+}
+
+/// -127 degC is what a DS18B20 says that nobody hears.
+TEST_F(MeasurementFileTest, LeavesOutWhatABrokenSensorShows) {
+  write_tables();
+  auto const table = [&](int broken_from) {
+    std::string text = "minute,a,b\n";
+    for (int i = 0; i < 40; ++i)
+      text += fmt::format("{},{},{}\n", 0.1 + 0.25 * i, i < broken_from ? 20.0 + 0.1 * i : -127.0, -293.0 - 0.2 * i);
+    put(folder / "readings.csv", text);
+  };
+  auto const plain = with(whole, "offset = \"0.5 K\"\n", "");
+  for (int const from : {0, 10}) {
+    table(from);
+    auto const run = read(plain);
+    EXPECT_EQ(run.channels[0].values.array().isFinite().any(), from > 0);
+    EXPECT_THAT(run.remarks, Contains(AllOf(HasSubstr("'T1' reads -127.0 degC in "), HasSubstr("left out"))));
+    EXPECT_TRUE(run.channels[1].values.array().isFinite().any());
+  }
+  write_tables();
+  EXPECT_THAT(refusal([&] { (void)read(with(plain, "unit = \"degC\"", "unit = \"K\"")); }),
+              HasSubstr("sensor 'T1' reads"));
 }
 
 TEST_F(MeasurementFileTest, ReadsWhatLoggersWrite) {

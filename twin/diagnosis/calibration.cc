@@ -91,6 +91,27 @@ double misfit_of(Estimation const& estimation, Fit const& fit) {
   return fit.residual.head(estimation.rows()).squaredNorm() / std::max(samples, 1.0);
 }
 
+/// Of a machine that is right, as `whole` counts.
+double gap_of_noise(Machine const& machine, std::vector<BinnedRun> const& runs) {
+  std::vector<ChannelGap> noises;
+  for (auto const& run : runs)
+    for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
+      auto const& channel = run.run->channels[c];
+      auto const noise = expected_noise(machine, channel.name, runs);
+      auto const finite = [](double v, double otherwise) { return std::isnan(v) ? otherwise : v; };
+      double lowest = INFINITY, highest = -INFINITY;
+      for (double const v : run.values.col(Eigen::Index(c))) {
+        lowest = std::min(lowest, finite(v, INFINITY));
+        highest = std::max(highest, finite(v, -INFINITY));
+      }
+      if (!(lowest <= highest)) continue;
+      double const deviation =
+          std::hypot(noise.fast, std::hypot(noise.white, noise.rounding), noise.slow_share * (highest - lowest));
+      noises.push_back({run.run->name, channel.name, channel.displacement, "", deviation, deviation});
+    }
+  return whole(noises).after;
+}
+
 /// The fit of the identified numbers where the others are nominal.
 void add_written(Calibration& calibration, Estimation const& estimation) {
   std::vector<std::size_t> others;
@@ -129,7 +150,7 @@ std::vector<std::string> Calibration::shortcomings() const {
   if (!far.empty())
     reasons.push_back(
         fmt::format("from the file by more than {:g} prior deviations: {}", far_from_file, fmt::join(far, ", ")));
-  if (auto const sum = whole(gaps); sum.after > sum.before)
+  if (auto const sum = whole(gaps); sum.after > std::max(sum.before, expected_gap))
     reasons.push_back("the calibrated file is further from the data than yours");
   return reasons;
 }
@@ -152,6 +173,7 @@ Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) 
   Machine const after = Machine::build(calibration.document);
   calibration.machine = before.name;
   calibration.gaps = gaps(before, after, runs);
+  calibration.expected_gap = gap_of_noise(before, runs);
   return calibration;
 }
 
@@ -163,8 +185,9 @@ Calibration calibrate_files(CalibrateFiles const& files) {
   Machine const machine = Machine::build(document);
   auto const measured = read_runs(files.data, machine, remarks);
   auto const runs = binned(measured);
-  auto calibration = calibrate(document, runs);
-  calibration.doubts = doubts(machine, runs);
+  auto const found = doubts(machine, runs);
+  auto calibration = with_doubts(found, [&] { return calibrate(document, runs); });
+  calibration.doubts = found;
   calibration.remarks = remarks;
   if (!files.output.empty())
     write_amended(files.machine, files.output,

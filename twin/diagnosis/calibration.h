@@ -49,6 +49,7 @@ struct Calibration {
   std::vector<std::string> weakest;  ///< numbers that make up most of that λ_min's direction
   double misfit = 0.0;  ///< mean square of the whitened residuals; 1: as expected, though an effect may be missing
   bool converged = false;
+  double expected_gap = 0.0;       ///< of a machine that is right: what `whole` makes of its expected noise
   std::vector<ChannelGap> gaps;    ///< of the nominal machine and of `document`
   Value document;                  ///< the machine with the numbers as written
   std::vector<ChangedValue> lags;  ///< of the sensors, in that
@@ -56,8 +57,8 @@ struct Calibration {
   std::vector<std::string> remarks;
 
   /// Why something is missing, for people: residuals are larger than noise, numbers had to leave the file by more than
-  /// three prior standard deviations, or what would be written leaves more than the machine did. Empty: numbers alone
-  /// may explain the data.
+  /// three prior standard deviations, or what would be written leaves more than the machine did, and than noise would.
+  /// Empty: numbers alone may explain the data.
   [[nodiscard]] std::vector<std::string> shortcomings() const;
   [[nodiscard]] bool falls_short() const { return !shortcomings().empty(); }
 };

@@ -98,7 +98,7 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   options.without = files.without;
   options.start = files.start;
   options.progress = files.progress;
-  report.diagnosis = diagnose(document, fitted, options, held_out);
+  report.diagnosis = with_doubts(report.doubts, [&] { return diagnose(document, fitted, options, held_out); });
   if (identify_nothing(report.diagnosis))
     report.remarks.emplace_back(
         "the data identify no number of the machine and no effect: the runs are too short, or too little happens in "

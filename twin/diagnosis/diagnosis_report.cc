@@ -114,14 +114,18 @@ std::size_t widest(Rows const& rows, std::size_t least, Name const& name) {
 std::string in_column(double number) { return std::isnan(number) ? "-" : fmt::format("{:.3f}", number); }
 
 /// Where and when: of each channel that disagrees significantly, the speed at which it does so most.
-std::string words_of(std::vector<Disagreement> const& cells) {
+std::string words_of(std::vector<Disagreement> const& cells, bool something_is_missing) {
   std::map<std::string, Disagreement const*> worst;
   for (auto const& cell : cells) {
     if (!cell.significant || cell.cut == "time") continue;
     auto& most = worst[cell.channel];
     if (!most || cell.power > most->power) most = &cell;
   }
-  if (worst.empty()) return "The calibrated twin disagrees significantly with no channel at any time.\n\n";
+  if (worst.empty())
+    return something_is_missing
+               ? "No channel at any speed alone contradicts the calibrated twin: what was found is evident only in all "
+                 "channels and times together.\n\n"
+               : "The calibrated twin disagrees significantly with no channel at any time.\n\n";
   std::vector<Disagreement const*> order;
   for (auto const& [channel, cell] : worst) order.push_back(cell);
   std::stable_sort(order.begin(), order.end(), [](auto const* a, auto const* b) { return a->power > b->power; });
@@ -371,7 +375,7 @@ std::string report_text(DiagnosisReport const& report) {
   auto const& shown = report.held_out.empty() ? report.fitted : report.held_out;
   std::string const data = report.held_out.empty() ? "the fitted" : "unseen";
   text += words_of_gain(diagnosis, shown, data);
-  text += words_of(diagnosis.disagreement);
+  text += words_of(diagnosis.disagreement, diagnosis.verdict != Diagnosis::Verdict::nothing);
   text += fmt::format("Error of the twin on {} data, RMS:\n{}", data, table_of(shown));
   for (auto const& remark : report.remarks) text += "note: " + remark + "\n";
   return text;

@@ -9,6 +9,7 @@
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
 #include "twin/diagnosis/measured_data.h"
+#include "twin/file/tables.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -57,18 +58,41 @@ output::Channel const* find(std::vector<output::Channel> const& channels, std::s
   return found == channels.end() ? nullptr : &*found;
 }
 
-MeasuredChannel in_si(output::Channel const& channel, Expected const& expected) {
+bool is_impossible(double temperature) { return temperature < coldest || temperature > hottest; }
+
+/// What a broken sensor shows: one value throughout, which none shows that works. Missing, and told.
+void leave_out_failure(MeasuredChannel& channel, output::Channel const& shown, Eigen::VectorXd const& time,
+                       std::vector<std::string>& remarks) {
+  Eigen::Index first = -1, count = 0;
+  for (Eigen::Index r = 0; r < channel.values.size(); ++r) {
+    if (!is_impossible(channel.values[r])) continue;
+    if (first >= 0 && channel.values[r] != channel.values[first]) return;
+    if (first < 0) first = r;
+    ++count;
+  }
+  if (first < 0) return;
+  remarks.push_back(
+      fmt::format("'{}' reads {:.1f} {} in {} row{} from {:.2f} h on, which no sensor of a machine shows: "
+                  "left out",
+                  channel.name, shown.values[first], shown.unit, count, count == 1 ? "" : "s", time[first] / 3600.0));
+  for (double& value : channel.values)
+    if (is_impossible(value)) value = missing;
+}
+
+MeasuredChannel in_si(output::Channel const& channel, Expected const& expected, MeasuredData const& data,
+                      std::vector<std::string>& remarks) {
   if (thermal::dimension_of(channel.unit) != expected.dimension)
-    throw InputError(fmt::format("channel '{}' is in {}, the machine's is a {}", channel.name, channel.unit,
+    throw InputError(fmt::format("channel '{}' is in '{}', the machine's is a {}", channel.name, channel.unit,
                                  expected.displacement ? thermal::name_of(expected.dimension) : "temperature"));
   MeasuredChannel result{channel.name, expected.displacement, channel.values};
   thermal::from_unit({result.values.data(), std::size_t(result.values.size())}, channel.unit);
   if (expected.displacement) return result;
-  if (double const median = median_of_finite(result.values); median < coldest || median > hottest)
+  leave_out_failure(result, channel, data.time, remarks);
+  if (is_impossible(median_of_finite(result.values)))
     throw InputError(fmt::format("sensor '{}' reads {:.1f} {} most of the time; is its unit right?", channel.name,
                                  median_of_finite(channel.values), channel.unit));
   for (double& value : result.values)
-    if (value < coldest || value > hottest) value = missing;
+    if (is_impossible(value)) value = missing;
   return result;
 }
 
@@ -194,6 +218,20 @@ std::vector<MeasuredChannel> living_channels(MeasuredData const& data, std::vect
   return channels;
 }
 
+/// Puts the place in a measurement file in front of a complaint about a reading.
+template <class Action>
+void at_reading(MeasuredData const& data, std::string const& name, Action action) {
+  auto const table = data.reading_tables.find(name);
+  if (table == data.reading_tables.end()) return action();
+  located(table->second, action);
+}
+
+[[noreturn]] void contradicts(Expected const& expected, output::Channel const& channel) {
+  auto const kind = [](bool displacement) { return displacement ? "displacement" : "temperature"; };
+  throw InputError(fmt::format("'{}': channel '{}' of the data is a {}, the machine's is a {}", channel.unit,
+                               expected.name, kind(!expected.displacement), kind(expected.displacement)));
+}
+
 }  // namespace
 
 std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const& machine,
@@ -201,12 +239,12 @@ std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const
   auto const expected = expected_channels(machine);
   std::vector<MeasuredChannel> channels;
   for (auto const& e : expected)
-    if (auto const* channel = find(e.displacement ? data.displacements : data.readings, e.name))
-      channels.push_back(in_si(*channel, e));
-    else if (find(e.displacement ? data.readings : data.displacements, e.name))
-      throw InputError(fmt::format("channel '{}' of the data is a {}, the machine's is a {}", e.name,
-                                   e.displacement ? "temperature" : "displacement",
-                                   e.displacement ? "displacement" : "temperature"));
+    at_reading(data, e.name, [&] {
+      if (auto const* channel = find(e.displacement ? data.displacements : data.readings, e.name))
+        channels.push_back(in_si(*channel, e, data, remarks));
+      else if (auto const* other = find(e.displacement ? data.readings : data.displacements, e.name))
+        contradicts(e, *other);
+    });
   if (channels.empty()) no_channel(data, expected, machine);
   channels = living_channels(data, std::move(channels), remarks);
   remark_strangers(data, expected, remarks);
@@ -215,9 +253,10 @@ std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const
 
 std::vector<MeasuredChannel> channels_of(MeasuredData const& data, std::vector<std::string>& remarks) {
   std::vector<MeasuredChannel> channels;
-  for (auto const& expected : all_channels(data))
-    channels.push_back(
-        in_si(*find(expected.displacement ? data.displacements : data.readings, expected.name), expected));
+  for (auto const& e : all_channels(data))
+    at_reading(data, e.name, [&] {
+      channels.push_back(in_si(*find(e.displacement ? data.displacements : data.readings, e.name), e, data, remarks));
+    });
   return living_channels(data, std::move(channels), remarks);
 }
 

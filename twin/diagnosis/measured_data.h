@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "output/dataset.h"
 #include "scenarios/sampled.h"
 #include "twin/diagnosis/measured_run.h"
+#include "twin/file/value.h"
 
 namespace thermotwin::twin {
 
@@ -24,6 +26,8 @@ struct MeasuredData {
   std::optional<double> start_time_of_day;    ///< of time stamps [s]; a recorded clock goes before
   double max_gap = 600.0;                     ///< longer gaps become remarks, and those of inputs are estimated [s]
   std::vector<std::string> remarks;           ///< of the reader
+  /// Tables of a measurement file that name them, for complaints with a place; a data set has none.
+  std::map<std::string, Value> input_tables, reading_tables;
 };
 
 /// A data set (`.h5` as `run -o` writes it, `.csv` as `export` does) or a measurement file (`.toml`), which maps the
@@ -32,6 +36,16 @@ struct MeasuredData {
 
 /// The inputs, readings and displacements of a data set, counted from its first row.
 [[nodiscard]] MeasuredData measured_data(output::Dataset const& dataset);
+
+/// Of an input that is a temperature: values that no machine meets are missing, and told. InputError when it has such
+/// values most of the time; its unit is wrong then.
+void leave_out_impossible(scenarios::SampledInput& input, std::vector<std::string>& remarks);
+
+/// InputError when the unit in a measurement file's table contradicts a channel that every experiment has.
+void check_unit_of_channel(Value const& table, scenarios::SampledInput const& input);
+
+/// Inputs whose names are nearly those that every experiment has: "input 'colant.on': did you mean 'coolant.on'?"
+[[nodiscard]] std::vector<std::string> misspelt_inputs(MeasuredData const& data);
 
 /// A time in which something was not recorded [s].
 struct RecordGap {
@@ -45,13 +59,14 @@ struct RecordGap {
 ///
 /// InputError that lists the inputs that the machine needs and that cannot be supposed: the spindle's speed, the air's
 /// temperature, and whatever has a name of the machine's own; for a speed beyond the machine's; for a unit that
-/// contradicts the channel.
+/// contradicts the channel. Of a measurement file with its place; and there for a channel whose name is nearly one that
+/// is read and not given. Others that nothing reads are told.
 void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine);
 
 /// The machine's channels that the data have, in SI and in the machine's order. A value that no sensor shows (below
-/// −60 °C, above 250 °C) is missing. A sensor that never moves while others do is dead: all its values are missing; one
-/// that stops moving for the last tenth of the run or more is dead from there on. Remarks tell of these, of gaps, and
-/// of channels that only one side has.
+/// −60 °C, above 250 °C) is missing; where it is always the same one, as a DS18B20's −127 °C, remarks tell. A sensor
+/// that never moves while others do is dead: all its values are missing; one that stops moving for the last tenth of
+/// the run or more is dead from there on. Remarks tell of these, of gaps, and of channels that only one side has.
 ///
 /// InputError when no channel is the machine's, when all are dead, when a unit contradicts the channel.
 [[nodiscard]] std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const& machine,

@@ -6,11 +6,15 @@
 #include <numbers>
 #include <optional>
 
+#include "models/quantile.h"
 #include "scenarios/course.h"
 #include "thermal/error.h"
+#include "thermal/machine_temperature.h"
 #include "thermal/nearest_name.h"
+#include "thermal/units.h"
 #include "twin/diagnosis/input_gap.h"
 #include "twin/diagnosis/measured_data.h"
+#include "twin/file/tables.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -104,6 +108,81 @@ std::string due_for(std::string const& channel, Machine const& machine) {
   return channel == "time_of_day" || channel.starts_with("clock.") ? "" : channel;
 }
 
+/// "did you mean 'coolant.on'?" where a name is nearly one of these; else empty.
+std::string near_name(std::string const& name, std::vector<std::string> const& known) {
+  std::string const text = known.empty() ? "" : thermal::did_you_mean(name, known);
+  return text.starts_with("did you mean") ? text : "";
+}
+
+/// Channels that every experiment on a machine with these axes has.
+std::vector<thermal::InputChannel> own_channels(scenarios::MachineLimits const& limits) {
+  scenarios::Experiment experiment;
+  experiment.duration = 3600.0;
+  return scenarios::ExperimentCourse(experiment, limits).channels();
+}
+
+std::vector<std::string> names_of(std::vector<thermal::InputChannel> const& channels) {
+  std::vector<std::string> names;
+  for (auto const& channel : channels) names.push_back(channel.name);
+  return names;
+}
+
+/// Puts the place in a measurement file in front of a complaint about an input.
+template <class Action>
+void at_input(MeasuredData const& data, std::string const& name, Action action) {
+  auto const table = data.input_tables.find(name);
+  if (table == data.input_tables.end()) return action();
+  located(table->second, action);
+}
+
+/// In words of the measurement file, where the channel is of another dimension than its unit there.
+void check_unit(Value const& table, std::string const& name, thermal::Dimension due) {
+  if (Value const* value = table.find("value"); value && value->is_text())
+    return static_cast<void>(thermal::parse_value(std::get<std::string>(value->content), due));
+  Value const* unit = table.find("unit");
+  std::string const text = unit && unit->is_text() ? std::get<std::string>(unit->content) : "1";
+  try {
+    thermal::require_unit(text, due);
+  } catch (InputError const& error) {
+    throw InputError(fmt::format("{}; the channel is '{}'", error.what(), name));
+  }
+}
+
+void check_unit_among(std::vector<thermal::InputChannel> const& own, Value const& table, SampledInput const& input) {
+  auto const channel = std::find_if(own.begin(), own.end(), [&](auto const& c) { return c.name == input.name; });
+  if (channel == own.end()) return;
+  auto const due = thermal::dimension_of(channel->unit);
+  if (due != thermal::dimension_of(input.unit)) check_unit(table, input.name, due);
+}
+
+void check_units(MeasuredData const& data, Machine const& machine) {
+  auto const own = own_channels(machine.limits);
+  for (auto const& input : data.inputs)
+    if (auto const table = data.input_tables.find(input.name); table != data.input_tables.end())
+      at_input(data, input.name, [&] { check_unit_among(own, table->second, input); });
+}
+
+/// Of a measurement file, whose names somebody wrote: a name that is nearly one that is read, and not given, is a
+/// mistake. Others may belong to what the machine's file does not have yet.
+void check_names_of_inputs(MeasuredData const& data, Machine const& machine, std::vector<std::string>& remarks) {
+  auto read = names_of(own_channels(machine.limits));
+  for (auto const& name : needed_channels(machine)) read.push_back(name);
+  auto const is_read = [&](std::string const& name) { return std::find(read.begin(), read.end(), name) != read.end(); };
+  std::vector<std::string> not_given, unread;
+  for (auto const& name : read)
+    if (!find(data.inputs, name)) not_given.push_back(name);
+  for (auto const& [name, table] : data.input_tables) {
+    if (is_read(name)) continue;
+    if (auto const near = near_name(name, not_given); !near.empty())
+      at_input(data, name,
+               [&] { throw InputError(fmt::format("nothing on '{}' reads '{}'; {}", machine.name, name, near)); });
+    unread.push_back(name);
+  }
+  if (!unread.empty())
+    remarks.push_back(
+        fmt::format("in the data, but nothing on '{}' reads it: {}", machine.name, fmt::join(unread, ", ")));
+}
+
 void check_needs(MeasuredData const& data, Machine const& machine) {
   std::vector<std::string> missing, given;
   for (auto const& input : data.inputs) given.push_back(input.name);
@@ -113,9 +192,17 @@ void check_needs(MeasuredData const& data, Machine const& machine) {
     if (std::find(missing.begin(), missing.end(), due) == missing.end()) missing.push_back(due);
   }
   if (missing.empty()) return;
-  throw InputError(fmt::format("the machine '{}' needs inputs that the data lack: {}; the data have {}", machine.name,
+  auto const known = names_of(own_channels(machine.limits));
+  std::string hints;  // a name of the machine's file, or of the data, may be misspelt
+  for (auto const& name : missing) {
+    bool const own = std::find(known.begin(), known.end(), name) != known.end();
+    auto const hint = near_name(name, own ? given : known);
+    if (!hint.empty())
+      hints += own ? fmt::format("; '{}': is it {}", name, hint.substr(13)) : fmt::format("; '{}': {}", name, hint);
+  }
+  throw InputError(fmt::format("the machine '{}' needs inputs that the data lack: {}; the data have {}{}", machine.name,
                                fmt::join(missing, ", "),
-                               given.empty() ? "none" : fmt::format("{}", fmt::join(given, ", "))));
+                               given.empty() ? "none" : fmt::format("{}", fmt::join(given, ", ")), hints));
 }
 
 void check_speed(MeasuredData const& data, Machine const& machine) {
@@ -126,9 +213,11 @@ void check_speed(MeasuredData const& data, Machine const& machine) {
   for (double const value : speed->values)
     if (std::isfinite(value)) fastest = std::max(fastest, std::abs(value));
   if (fastest > 1.2 * limit)
-    throw InputError(fmt::format(
-        "input 'spindle.speed' reaches {:.0f} rpm, and the machine's maximum is {:.0f} rpm; is its unit right?",
-        thermal::to_unit(fastest, "rpm"), thermal::to_unit(limit, "rpm")));
+    at_input(data, "spindle.speed", [&] {
+      throw InputError(fmt::format(
+          "input 'spindle.speed' reaches {:.0f} rpm, and the machine's maximum is {:.0f} rpm; is its unit right?",
+          thermal::to_unit(fastest, "rpm"), thermal::to_unit(limit, "rpm")));
+    });
 }
 
 void remark_suppositions(MeasuredData const& data, Machine const& machine, std::vector<std::string>& remarks) {
@@ -168,6 +257,39 @@ void move_to_jumps(std::vector<InputChange>& changes, thermal::Course const& cou
 
 }  // namespace
 
+void check_unit_of_channel(Value const& table, SampledInput const& input) {
+  check_unit_among(own_channels({}), table, input);
+}
+
+void leave_out_impossible(SampledInput& input, std::vector<std::string>& remarks) {
+  if (!scenarios::is_temperature(input)) return;
+  auto const is_impossible = [](double T) { return std::isfinite(T) && !thermal::is_machine_temperature(T); };
+  std::vector<double> finite;
+  std::copy_if(input.values.begin(), input.values.end(), std::back_inserter(finite),
+               [](double T) { return std::isfinite(T); });
+  if (finite.empty()) return;
+  if (double const usual = models::upper_median(std::move(finite)); is_impossible(usual))
+    throw InputError(fmt::format("input '{}' is at {:.2f} degC most of the time; {}", input.name,
+                                 thermal::to_unit(usual, "degC"), thermal::machine_temperatures));
+  auto const impossible = std::count_if(input.values.begin(), input.values.end(), is_impossible);
+  if (impossible == 0) return;
+  remarks.push_back(fmt::format("input '{}' has temperatures that no machine meets in {} row{}: left out", input.name,
+                                impossible, impossible == 1 ? "" : "s"));
+  std::replace_if(input.values.begin(), input.values.end(), is_impossible, NAN);
+}
+
+std::vector<std::string> misspelt_inputs(MeasuredData const& data) {
+  auto const known = names_of(own_channels({}));
+  std::vector<std::string> remarks;
+  for (auto const& [name, table] : data.input_tables) {
+    bool const is_known = std::find(known.begin(), known.end(), name) != known.end();
+    auto const near = is_known ? "" : near_name(name, known);
+    if (!near.empty())
+      remarks.push_back(fmt::format("{}: input '{}': {}", place_of(table, "'" + name + "'").text(), name, near));
+  }
+  return remarks;
+}
+
 void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
   scenarios::Experiment experiment;
   experiment.duration = data.time[data.time.size() - 1];
@@ -176,6 +298,8 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
     experiment.start_time_of_day = start_time_of_day(*clock).value_or(experiment.start_time_of_day);
   std::erase_if(data.inputs, [](SampledInput const& input) { return !recorded(input); });
   for (auto const& axis : machine.limits.axes) complete_axis(data.inputs, axis);
+  check_names_of_inputs(data, machine, run.remarks);
+  check_units(data, machine);
   check_needs(data, machine);
   check_speed(data, machine);
   remark_suppositions(data, machine, run.remarks);

@@ -70,8 +70,8 @@ double usual_interval(std::span<double const> times) {
 MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string const& name) {
   Eigen::Index const rows = data.time.size();
   if (rows < fewest_rows)
-    throw InputError(
-        fmt::format("the run has {} rows, too few to identify anything; at least {} are due", rows, fewest_rows));
+    throw InputError(fmt::format("the run has {} row{}, too few to identify anything; at least {} are due", rows,
+                                 rows == 1 ? "" : "s", fewest_rows));
   MeasuredRun run;
   run.name = name;
   run.remarks = data.remarks;
@@ -92,7 +92,10 @@ MeasuredData measured_data(output::Dataset const& dataset) {
   data.time = dataset.time_s.array() - start;
   data.readings = dataset.readings;
   data.displacements = dataset.displacements;
-  for (auto const& channel : dataset.inputs) data.inputs.push_back(sampled(channel, data.time));
+  for (auto const& channel : dataset.inputs) {
+    data.inputs.push_back(sampled(channel, data.time));
+    leave_out_impossible(data.inputs.back(), data.remarks);
+  }
   if (start != 0.0) data.remarks.push_back(fmt::format("the data start at {} s; the run is counted from there", start));
   if (!dataset.complete) data.remarks.push_back("the data set is marked as incomplete");
   return data;

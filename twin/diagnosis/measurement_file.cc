@@ -9,8 +9,10 @@
 #include "scenarios/logged_table.h"
 #include "scenarios/recorded.h"
 #include "thermal/error.h"
+#include "thermal/unit.h"
 #include "thermal/units.h"
 #include "twin/file/tables.h"
+#include "twin/file/temperature_limits.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -96,26 +98,72 @@ double offset_of(ReadingColumn const& column) {
 output::Channel make_reading(ReadingColumn const& column, LoadedTable const& table, std::vector<double> const& numbers,
                              std::vector<double> const& rows, double first) {
   double const offset = offset_of(column);
-  output::Channel channel{column.sensor, is_scale(column.unit) ? "degC" : column.unit, column.column,
+  bool const scale = is_scale(column.unit), celsius = thermal::in_ascii(column.unit) == "degC";
+  output::Channel channel{column.sensor, scale ? "degC" : column.unit, column.column,
                           Eigen::VectorXd::Constant(Eigen::Index(rows.size()), std::nan(""))};
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     auto const row = std::lower_bound(rows.begin(), rows.end(), table.times[i]);
     if (row == rows.end() || *row != table.times[i] || *row < first) continue;
-    channel.values[row - rows.begin()] = column.factor * numbers[i] + offset;
+    double const shown = column.factor * numbers[i];
+    bool const convert = scale && !celsius;
+    channel.values[row - rows.begin()] =
+        (convert ? thermal::to_unit(thermal::from_unit(shown, column.unit), "degC") : shown) + offset;
   }
   return channel;
 }
 
-void add_constants(MeasurementFile const& file, MeasuredData& data) {
-  for (auto const& constant : file.constants) {
-    auto const quantity = thermal::parse_quantity(constant.value);
-    scenarios::SampledInput input;
-    input.name = constant.channel;
-    input.unit = thermal::unit_of(quantity.dimension);
-    input.absolute_temperature = quantity.absolute_temperature;
-    input.times = {0.0};
-    input.values = {quantity.value};
-    data.inputs.push_back(std::move(input));
+scenarios::SampledInput make_constant(ConstantInput const& constant) {
+  auto const quantity = thermal::parse_quantity(constant.value);
+  scenarios::SampledInput input;
+  input.name = constant.channel;
+  input.unit = thermal::unit_of(quantity.dimension);
+  input.absolute_temperature = quantity.absolute_temperature;
+  input.times = {0.0};
+  input.values = {quantity.value};
+  if (scenarios::is_temperature(input)) thermal::require_machine_temperature(quantity.value, constant.value);
+  return input;
+}
+
+/// The tables [[table.input]] and the like.
+Value::List const& tables_in(Value const& table, std::string const& kind) {
+  static Value::List const none;
+  Value const* list = table.find(kind);
+  return list ? std::get<Value::List>(list->content) : none;
+}
+
+void add_constants(MeasurementFile const& file, Value const& document, MeasuredData& data) {
+  for (std::size_t i = 0; i < file.constants.size(); ++i) {
+    auto const& place = tables_in(document, "constant")[i];
+    located(place, [&] { data.inputs.push_back(make_constant(file.constants[i])); });
+    data.input_tables.emplace(file.constants[i].channel, place);
+  }
+}
+
+/// A table's columns, each complaint at the place of its own.
+void add_columns(MeasuredTable const& table, Value const& place, LoadedTable const& loaded, double start,
+                 std::vector<double> const& rows, double first, MeasuredData& data) {
+  for (std::size_t i = 0; i < table.inputs.size(); ++i) {
+    auto const& own = tables_in(place, "input")[i];
+    located(own, [&] {
+      data.inputs.push_back(make_input(table.inputs[i], loaded, loaded.inputs[i], start));
+      check_unit_of_channel(own, data.inputs.back());
+      leave_out_impossible(data.inputs.back(), data.remarks);
+    });
+    data.input_tables.emplace(table.inputs[i].channel, own);
+  }
+  for (std::size_t i = 0; i < table.readings.size(); ++i) {
+    auto const& own = tables_in(place, "reading")[i];
+    located(own, [&] {
+      auto channel = make_reading(table.readings[i], loaded, loaded.readings[i], rows, first);
+      auto const unit = thermal::dimension_of(channel.unit);
+      bool const temperature = unit == dimension::temperature_difference;
+      if (!temperature && unit != dimension::length && unit != dimension::angle)
+        throw InputError(
+            fmt::format("'{}' is no unit of a temperature, a length or an angle; reading '{}' is due in one",
+                        channel.unit, channel.name));
+      (temperature ? data.readings : data.displacements).push_back(std::move(channel));
+    });
+    data.reading_tables.emplace(table.readings[i].sensor, own);
   }
 }
 
@@ -135,6 +183,7 @@ MeasuredData read_measurement_file(std::filesystem::path const& path) {
   Value const document = read_toml(path);
   MeasurementFile file;
   read_fields(document, file);
+  check_temperatures(document, list_fields<MeasurementFile>());
   if (file.tables.empty()) throw FileError(document.where, "the file names no [[table]]");
   auto const directory = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   auto const& places = std::get<Value::List>(document.find("table")->content);
@@ -155,19 +204,9 @@ MeasuredData read_measurement_file(std::filesystem::path const& path) {
     for (std::size_t t = 0; t < tables.size(); ++t)
       located(places[t], [&, &table = file.tables[t]] {
         data.max_gap = t == 0 ? table.max_gap : std::max(data.max_gap, table.max_gap);
-        for (std::size_t i = 0; i < table.inputs.size(); ++i)
-          data.inputs.push_back(make_input(table.inputs[i], tables[t], tables[t].inputs[i], window.from));
-        for (std::size_t i = 0; i < table.readings.size(); ++i) {
-          auto channel = make_reading(table.readings[i], tables[t], tables[t].readings[i], rows, first);
-          auto const unit = thermal::dimension_of(channel.unit);
-          bool const temperature = unit == dimension::temperature_difference;
-          if (!temperature && unit != dimension::length && unit != dimension::angle)
-            throw InputError(fmt::format("reading '{}': '{}' is no unit of a temperature, a length or an angle",
-                                         channel.name, channel.unit));
-          (temperature ? data.readings : data.displacements).push_back(std::move(channel));
-        }
+        add_columns(table, places[t], tables[t], window.from, rows, first, data);
       });
-    add_constants(file, data);
+    add_constants(file, document, data);
     check_names(data);
   });
   return data;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "thermal/error.h"
 #include "twin/diagnosis/binned_run.h"
 #include "twin/machine.h"
 
@@ -38,5 +39,16 @@ struct Doubt {
 
 /// One line each, for people; empty if there are none.
 [[nodiscard]] std::string doubt_lines(std::vector<Doubt> const& doubts);
+
+/// Runs a fit; where it cannot be had, what speaks against the data may be why, and follows the complaint.
+template <class Action>
+auto with_doubts(std::vector<Doubt> const& doubts, Action action) {
+  try {
+    return action();
+  } catch (thermal::InputError const& error) {
+    if (doubts.empty()) throw;
+    throw thermal::InputError(error.what() + ("\n" + doubt_lines(doubts)));
+  }
+}
 
 }  // namespace thermotwin::twin

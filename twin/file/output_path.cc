@@ -21,6 +21,11 @@ void require_folder(fs::path const& output, fs::path const& made) {
                                         output.string(), folder.string()));
 }
 
+[[noreturn]] void wrong_suffix(fs::path const& output, std::string_view what,
+                               std::vector<std::string> const& suffixes) {
+  throw thermal::InputError(fmt::format("{}: {} is written as {}", output.string(), what, fmt::join(suffixes, " or ")));
+}
+
 }  // namespace
 
 void refuse_to_overwrite(fs::path const& output, fs::path const& machine, std::vector<fs::path> const& others,
@@ -43,7 +48,11 @@ void refuse_to_overwrite(fs::path const& output, fs::path const& machine, std::v
 void check_suffix(fs::path const& output, std::string_view what, std::vector<std::string> const& suffixes) {
   auto const suffix = output.extension().string();
   if (suffix.empty() || std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end()) return;
-  throw thermal::InputError(fmt::format("{}: {} is written as {}", output.string(), what, fmt::join(suffixes, " or ")));
+  wrong_suffix(output, what, suffixes);
+}
+
+void check_machine_suffix(fs::path const& output) {
+  if (!output.empty() && output.extension() != ".toml") wrong_suffix(output, "a machine", {".toml"});
 }
 
 }  // namespace thermotwin::twin

@@ -12,10 +12,11 @@ namespace thermotwin::twin {
 std::filesystem::path shipped_file(std::string const& kind, std::filesystem::path const& folder,
                                    std::string const& name_or_path) {
   std::filesystem::path const given = name_or_path;
-  if (given.extension() == ".toml" || std::filesystem::exists(given)) return given;
   auto const shipped_folder = std::filesystem::path(THERMOTWIN_SOURCE_DIR) / folder;
   auto const shipped = shipped_folder / (name_or_path + ".toml");
-  if (std::filesystem::exists(shipped)) return shipped;
+  bool const may_be_name = given.extension() != ".toml" && !given.has_parent_path();
+  if (may_be_name && std::filesystem::exists(shipped)) return shipped;
+  if (given.extension() == ".toml" || std::filesystem::exists(given)) return given;
   std::vector<std::string> names;
   for (auto const& entry : std::filesystem::directory_iterator(shipped_folder))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());

@@ -31,7 +31,9 @@ Location place_of(Value const& table, std::string const& message) {
       for (auto const& item : std::get<Value::List>(entry.value.content)) {
         if (mentioned(item)) return item.where;
         if (item.is_table())
-          if (auto const inner = place_of(item, message); inner.line != item.where.line) return inner;
+          if (auto const inner = place_of(item, message);
+              inner.line != item.where.line || inner.column != item.where.column)
+            return inner;
       }
   }
   return table.where;

@@ -64,7 +64,9 @@ Value parse_toml(std::string_view text, std::string const& file_name) {
     toml::table const table = toml::parse(text, file_name);
     return {{file_name, 1, 1}, convert_table(table, file_name)};
   } catch (toml::parse_error const& error) {
-    throw FileError(location(error.source(), file_name), error.description());
+    std::string what(error.description());
+    if (what.find("control characters") != std::string::npos) what += "; is a quote missing at the end of the line?";
+    throw FileError(location(error.source(), file_name), what);
   }
 }
 

@@ -15,7 +15,7 @@ namespace thermotwin::twin {
 
 /// Which machines are put through what.
 struct EnsembleOptions {
-  int members = 24;
+  int members = 100;
   std::uint64_t seed = 1;  ///< member m is drawn with seed + m
   /// What every member is put through; none: two spectra drawn for each member anew, with a room of their own
   /// (challenge_runs: 16 h with blocks of 20 min, and about 13 h with blocks of 20 to 90 min).

@@ -1,6 +1,7 @@
 #include "twin/report/diagnosis_section.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -59,6 +60,9 @@ std::string missing_things(Json const& effects) {
   return fmt::format("{}", fmt::join(things, "; and "));
 }
 
+/// "−4.2 W", with a minus and no hyphen.
+std::string watts_text(double watts) { return fmt::format("{}{:.1f} W", watts < 0.0 ? "−" : "", std::abs(watts)); }
+
 bool disagrees(Json const& diagnosis) {
   if (!diagnosis.contains("disagreement")) return false;
   auto const& cells = diagnosis["disagreement"]["before"];
@@ -73,8 +77,9 @@ std::string sentence(Json const& diagnosis) {
   if (verdict == "sensor" && diagnosis.contains("sensor"))
     return fmt::format("The sensor {} is at fault, not the machine.", diagnosis["sensor"]["name"].get<std::string>());
   if (verdict == "none_known" && diagnosis.contains("heat"))
-    return fmt::format("Heat of {:.1f} W on average into {} is missing, and none of the effects tried explains it.",
-                       diagnosis["heat"]["watts"].get<double>(), diagnosis["heat"]["body"].get<std::string>());
+    return fmt::format("Heat of {} on average into {} is missing, and none of the effects tried explains it.",
+                       watts_text(diagnosis["heat"]["watts"].get<double>()),
+                       diagnosis["heat"]["body"].get<std::string>());
   if (effects.empty()) return headline(Verdict::none_known, 0, true);
   if (verdict == "none_known")
     return fmt::format("{} {}.", headline(Verdict::none_known, effects.size(), true), missing_things(effects));

@@ -17,6 +17,8 @@ const factors = (largest: number): number[] => [0, ...[0.2, 0.5, 1, 2, 5].map((m
 export interface Look {
   quantity: string;
   caption: (t: number) => string;
+  /** The colours go over the values of the time that is shown, and not over those of all times. */
+  fitted?: boolean;
 }
 
 /** The machine in space: coloured by temperature, deformed, turned with pointer or keys, its parts to be picked. */
@@ -30,7 +32,8 @@ export class MachineView {
   private readonly edges: Int32Array;
   private readonly moved: Float32Array;
   private readonly field: SurfaceField | null;
-  private readonly range: [number, number];
+  private range: [number, number];
+  private bar: HTMLElement;
   private readonly scene: Scene;
   private readonly camera: Camera;
   private readonly marks: SensorMarks;
@@ -58,10 +61,11 @@ export class MachineView {
     if (state.view) Object.assign(this.camera, state.view);
     this.marks = new SensorMarks(machine.sensors, state);
     this.stage.append(this.marks.element, this.caption);
+    this.bar = colourBar(gradient(viridis), ticks, look.quantity);
     this.element = make('section', {class: 'machine', 'aria-label': machine.title},
       this.stage,
       make('div', {class: 'controls'}, this.deformationControl(), this.viewButtons()),
-      colourBar(gradient(viridis), ticks, look.quantity),
+      this.bar,
       this.bodyList());
     this.listen();
   }
@@ -221,6 +225,7 @@ export class MachineView {
       this.field.displacement(t, this.moved);
       const points = this.scene.points;
       for (let i = 0; i < points.length; ++i) points[i] = this.rest[i]! + this.factor * this.moved[i]!;
+      if (this.look.fitted) this.fitColours();
       this.scene.changed(true);
     }
     const [low, high] = this.range;
@@ -229,6 +234,14 @@ export class MachineView {
       const value = course ? valueAt(course, t) : NaN;
       return Number.isFinite(value) ? css(viridis((value - low) / (high - low))) : 'transparent';
     }));
+  }
+
+  private fitColours(): void {
+    const ticks = roundTicks(...extent([this.scene.values])), bar = colourBar(gradient(viridis), ticks, this.look.quantity);
+    this.range = [ticks[0]!, ticks[ticks.length - 1]!];
+    this.scene.spread(this.range);
+    this.bar.replaceWith(bar);
+    this.bar = bar;
   }
 
   private showVisible(): void {

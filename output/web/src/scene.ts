@@ -37,6 +37,7 @@ export class Scene {
   private readonly surface = vtkPolyData.newInstance();
   private readonly lines = vtkPolyData.newInstance();
   private readonly chosen = vtkPolyData.newInstance();
+  private readonly colours = vtkColorTransferFunction.newInstance();
   private readonly faces = vtkActor.newInstance();
   private readonly edges = vtkActor.newInstance();
   private readonly mark = vtkActor.newInstance();
@@ -73,13 +74,17 @@ export class Scene {
     mapper.setInputData(data);
     mapper.setScalarVisibility(range !== null);
     if (range) {
-      const colours = vtkColorTransferFunction.newInstance();
-      for (let i = 0; i <= 20; ++i)
-        colours.addRGBPoint(range[0] + (i / 20) * (range[1] - range[0]), ...share(viridis(i / 20)));
-      mapper.setLookupTable(colours);
+      this.spread(range);
+      mapper.setLookupTable(this.colours);
       mapper.setResolveCoincidentTopologyToPolygonOffset();
     }
     return mapper;
+  }
+
+  /** The colours over these values. */
+  spread([low, high]: [number, number]): void {
+    this.colours.removeAllPoints();
+    for (let i = 0; i <= 20; ++i) this.colours.addRGBPoint(low + (i / 20) * (high - low), ...share(viridis(i / 20)));
   }
 
   /** The faces to draw: what is hidden anyway need not be. */

@@ -125,6 +125,9 @@ TEST_F(CalibrationTest, TellsWhatFallsShortBesideTheMisfit) {
   EXPECT_THAT(calibration.shortcomings(), IsEmpty());
   Calibration worse = calibration;
   for (auto& gap : worse.gaps) std::swap(gap.before, gap.after);
+  worse.expected_gap = 2.0 * whole(worse.gaps).after;
+  EXPECT_THAT(worse.shortcomings(), IsEmpty());  // both are noise
+  worse.expected_gap = 0.0;
   EXPECT_THAT(worse.shortcomings(), ElementsAre("the calibrated file is further from the data than yours"));
   worse.misfit = 2.5;
   EXPECT_THAT(calibration_table(worse),

@@ -8,6 +8,7 @@
 namespace thermotwin::twin {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -34,6 +35,17 @@ TEST(DiagnosisReport, TellsNoGainOfADeadDisplacement) {
                                              "2 um RMS; calibration alone leaves 5."));
   report.fitted = {dead};
   EXPECT_THAT(report_text(report), Not(HasSubstr("the error of the twin at")));
+}
+
+/// Beside something that was found, agreement in every part would read like a contradiction.
+TEST(DiagnosisReport, SaysThatAFindingMayShowInAllTogetherOnly) {
+  auto report = heat_in_the_bed();
+  std::string const together = "what was found is evident only in all channels and times together";
+  std::string const agrees = "The calibrated twin disagrees significantly with no channel at any time.";
+  EXPECT_THAT(report_text(report), AllOf(HasSubstr("Missing: 1 effect"), HasSubstr(together), Not(HasSubstr(agrees))));
+  report.diagnosis.explanations.clear();
+  report.diagnosis.verdict = Diagnosis::Verdict::nothing;
+  EXPECT_THAT(report_text(report), AllOf(HasSubstr(agrees), Not(HasSubstr(together))));
 }
 
 /// 100 W for an hour, 20 W for three.

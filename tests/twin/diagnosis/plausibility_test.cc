@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/scenarios/refusal.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 
 /// Mistakes of people who bring data, made one at a time in the run of a machine whose file is rough and lacks a heat.
@@ -155,6 +156,18 @@ TEST_F(PlausibilityTest, ARunThatIsGivenTwice) {
   EXPECT_THAT(all[0].text, HasSubstr("holds the same readings as run1, given as number 1"));
   EXPECT_THAT(doubt_lines(all), HasSubstr("Look at the data first"));
   EXPECT_EQ(doubt_lines({}), "");
+}
+
+/// Where there is no fit, people are told what may be why.
+TEST(Doubts, FollowTheComplaintOfAFit) {
+  std::vector<Doubt> const doubts = {{"monday", "", "the run lasts 5 s in all; is `time_unit` right?"}};
+  auto const fail = []() -> int { throw thermal::InputError("the machine cannot be run"); };
+  auto const complaint = [&](std::vector<Doubt> const& told) {
+    return tests::refusal([&] { (void)with_doubts(told, fail); });
+  };
+  EXPECT_THAT(complaint(doubts), StartsWith("the machine cannot be run"));
+  EXPECT_THAT(complaint(doubts), HasSubstr("the run lasts 5 s in all; is `time_unit` right?"));
+  EXPECT_EQ(complaint({}), "the machine cannot be run");
 }
 
 }  // namespace

@@ -29,5 +29,12 @@ TEST(DiagnosisSection, TakesWhatStandsInForAnUnknownShiftForNothingFound) {
             "E_Z; and centrifugal growth at E_Z.");
 }
 
+TEST(DiagnosisSection, WritesAMinusForHeatThatIsTaken) {
+  Json const diagnosis =
+      Json::parse(R"({"verdict": "none_known", "effects": [], "heat": {"body": "motor", "watts": -4.2, "runs": []}})");
+  EXPECT_EQ(diagnosis_json(diagnosis, "cold")["sentence"],
+            "Heat of −4.2 W on average into motor is missing, and none of the effects tried explains it.");
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

@@ -34,7 +34,7 @@ export function diagnosisSection(section: DiagnosisSection, state: PageState): H
       make('div', {}, make('p', {class: 'tag'}, tagOf(section)), make('h2', {}, section.sentence)),
       make('dl', {class: 'figures'},
         figure('gap before', size(before)), figure('gap after', size(after)),
-        figure('left of it', `${((100 * after) / before).toFixed(0)} %`)),
+        section.verdict !== 'nothing' && figure('left of it', `${((100 * after) / before).toFixed(0)} %`)),
       make('p', {class: 'remark'}, `Gap: root mean square over all channels ${section.gaps.held_out.length ? 'held out' : 'fitted'}, ${unitsOf([...section.gaps.fitted, ...section.gaps.held_out])}; one constant per channel and run taken off.`),
       ...actsOn(section.where).map((words) => make('p', {class: 'remark'}, words))),
     make('div', {class: 'flow'}, ...panels),

@@ -26,7 +26,7 @@ const shown = [['One sensor alone', 0], ['Beside the recommended', 1]] as const;
 function informationMap(section: PlacementSection, numbers: Numbers, page: PageState): HTMLElement {
   const state = new PageState(page.dark);
   const view = new MachineView(section.shape!, numbers, Float32Array.of(0, 1), new Map(), state, {
-    quantity: 'Error removed / µm',
+    quantity: 'Error removed / µm', fitted: true,
     caption: (at) => (at < 0.5 ? 'What one sensor there takes off the error' : 'What one more sensor there takes off'),
   });
   const buttons = shown.map(([text, at]) => make('button', {class: 'chip', onclick: () => {
@@ -44,11 +44,11 @@ function bar(share: number): HTMLElement {
 }
 
 function sensorsPanel(section: PlacementSection): HTMLElement {
-  const {sensors, model_um} = section.recommended, worst = Math.max(...sensors.map((s) => s.error_without_um - model_um), 1e-12);
+  const {sensors} = section.recommended, worst = Math.max(...sensors.map((s) => s.error_without_um), 1e-12);
   const place = (p: [number, number, number]): string => p.map((x) => (1e3 * x).toFixed(0).replace('-', '−')).join(', ');
   const rows = sensors.map((s, i) => make('tr', {}, make('td', {class: 'number'}, String(i + 1)), make('th', {scope: 'row', class: 'site'}, s.name),
     make('td', {class: 'number'}, s.at[0] === 'ambient' ? 'room air' : place(s.position_m)),
-    make('td', {class: 'wide'}, bar((s.error_without_um - model_um) / worst)),
+    make('td', {class: 'wide'}, bar(s.error_without_um / worst)),
     make('td', {class: 'number'}, `${short(s.error_without_um)} µm${s.idle ? (section.dead > 0 ? ', spare' : ', idle') : ''}`)));
   return panel('Recommended sensors', 'sensors', () => [
     {name: 'site', values: sensors.map((s) => s.name)},
