@@ -308,12 +308,12 @@ TEST(FileCheck, LooksAtRecordAndMachineTogether) {
   EXPECT_THAT(right[0].warnings, Contains(HasSubstr("run.toml: of the machine, but not in the data: T2")));
   auto const wrong = checks("spindel.speed");
   EXPECT_THAT(wrong[0].mistake,
-              HasSubstr("run.toml:3:36: nothing on 'v450' reads 'spindel.speed'; did you mean 'spindle.speed'?"));
+              HasSubstr("run.toml:3:35: nothing on 'v450' reads 'spindel.speed'; did you mean 'spindle.speed'?"));
   EXPECT_EQ(wrong[1].mistake, "");
   auto const alone = check_files({folder / "run.toml"});
   EXPECT_EQ(alone[0].mistake, "");
   EXPECT_THAT(alone[0].warnings,
-              Contains(HasSubstr("run.toml:3:36: input 'spindel.speed': did you mean 'spindle.speed'?")));
+              Contains(HasSubstr("run.toml:3:35: input 'spindel.speed': did you mean 'spindle.speed'?")));
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ void leave_out_failure(MeasuredChannel& channel, output::Channel const& shown, E
 MeasuredChannel in_si(output::Channel const& channel, Expected const& expected, MeasuredData const& data,
                       std::vector<std::string>& remarks) {
   if (thermal::dimension_of(channel.unit) != expected.dimension)
-    throw InputError(fmt::format("channel '{}' is in '{}', the machine's is a {}", channel.name, channel.unit,
+    throw InputError(fmt::format("channel '{}' is in {}, the machine's is a {}", channel.name, channel.unit,
                                  expected.displacement ? thermal::name_of(expected.dimension) : "temperature"));
   MeasuredChannel result{channel.name, expected.displacement, channel.values};
   thermal::from_unit({result.values.data(), std::size_t(result.values.size())}, channel.unit);
@@ -228,7 +228,7 @@ void at_reading(MeasuredData const& data, std::string const& name, Action action
 
 [[noreturn]] void contradicts(Expected const& expected, output::Channel const& channel) {
   auto const kind = [](bool displacement) { return displacement ? "displacement" : "temperature"; };
-  throw InputError(fmt::format("'{}': channel '{}' of the data is a {}, the machine's is a {}", channel.unit,
+  throw InputError(fmt::format("'{}': channel {} of the data is a {}, the machine's is a {}", channel.unit,
                                expected.name, kind(!expected.displacement), kind(expected.displacement)));
 }
 

@@ -144,7 +144,7 @@ void check_unit(Value const& table, std::string const& name, thermal::Dimension 
   try {
     thermal::require_unit(text, due);
   } catch (InputError const& error) {
-    throw InputError(fmt::format("{}; the channel is '{}'", error.what(), name));
+    throw InputError(fmt::format("{}; the channel is {}", error.what(), name));
   }
 }
 

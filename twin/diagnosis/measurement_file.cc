@@ -158,9 +158,8 @@ void add_columns(MeasuredTable const& table, Value const& place, LoadedTable con
       auto const unit = thermal::dimension_of(channel.unit);
       bool const temperature = unit == dimension::temperature_difference;
       if (!temperature && unit != dimension::length && unit != dimension::angle)
-        throw InputError(
-            fmt::format("'{}' is no unit of a temperature, a length or an angle; reading '{}' is due in one",
-                        channel.unit, channel.name));
+        throw InputError(fmt::format("'{}' is no unit of a temperature, a length or an angle; reading {} is due in one",
+                                     channel.unit, channel.name));
       (temperature ? data.readings : data.displacements).push_back(std::move(channel));
     });
     data.reading_tables.emplace(table.readings[i].sensor, own);
@@ -190,8 +189,12 @@ MeasuredData read_measurement_file(std::filesystem::path const& path) {
   MeasuredData data;
   scenarios::TableReader reader(scenarios::MissingValue::keep_as_nan);
   std::vector<LoadedTable> tables;
-  for (std::size_t t = 0; t < file.tables.size(); ++t)
-    located(places[t], [&] { tables.push_back(load(file.tables[t], directory, reader, data.remarks)); });
+  for (std::size_t t = 0; t < file.tables.size(); ++t) try {
+      tables.push_back(load(file.tables[t], directory, reader, data.remarks));
+    } catch (InputError const& error) {  // of the words that it quotes, the others are names that the table has
+      auto const words = quoted(error.what());
+      throw FileError(words.empty() ? places[t].where : place_of(places[t], "'" + words.front() + "'"), error.what());
+    }
 
   data.machine = file.machine;
   data.initial_temperature = file.initial_temperature;

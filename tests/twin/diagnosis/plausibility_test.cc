@@ -163,7 +163,7 @@ TEST(Doubts, FollowTheComplaintOfAFit) {
   std::vector<Doubt> const doubts = {{"monday", "", "the run lasts 5 s in all; is `time_unit` right?"}};
   auto const fail = []() -> int { throw thermal::InputError("the machine cannot be run"); };
   auto const complaint = [&](std::vector<Doubt> const& told) {
-    return tests::refusal([&] { (void)with_doubts(told, fail); });
+    return thermotwin::tests::refusal([&] { (void)with_doubts(told, fail); });
   };
   EXPECT_THAT(complaint(doubts), StartsWith("the machine cannot be run"));
   EXPECT_THAT(complaint(doubts), HasSubstr("the run lasts 5 s in all; is `time_unit` right?"));
