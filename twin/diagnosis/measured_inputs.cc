@@ -174,8 +174,9 @@ void check_names_of_inputs(MeasuredData const& data, Machine const& machine, std
   for (auto const& [name, table] : data.input_tables) {
     if (is_read(name)) continue;
     if (auto const near = near_name(name, not_given); !near.empty())
-      at_input(data, name,
-               [&] { throw InputError(fmt::format("nothing on '{}' reads '{}'; {}", machine.name, name, near)); });
+      at_input(data, name, [&, &name = name] {
+        throw InputError(fmt::format("nothing on '{}' reads '{}'; {}", machine.name, name, near));
+      });
     unread.push_back(name);
   }
   if (!unread.empty())

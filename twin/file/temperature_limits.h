@@ -12,7 +12,7 @@ namespace thermotwin::twin {
 /// FileError for a temperature of a table, or of one in it, that no machine has; `fields`: of the struct that it fills.
 inline void check_temperatures(Value const& table, std::vector<FieldRecord> const& fields) {
   for (auto const& [key, where, value] : std::get<Value::Table>(table.content)) {
-    auto const field = std::find_if(fields.begin(), fields.end(), [&](auto const& f) { return f.key == key; });
+    auto const field = std::find_if(fields.begin(), fields.end(), [&key = key](auto const& f) { return f.key == key; });
     if (field == fields.end()) continue;
     if (value.is_table()) check_temperatures(value, field->nested);
     if (value.is_list())
