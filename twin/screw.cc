@@ -7,9 +7,7 @@ namespace thermotwin::twin {
 
 std::string Screw::channel_at(double x) const { return fmt::format("{}_{:g}mm", description.name, x * 1e3); }
 
-bool Screw::is_linear() const {
-  return screw.support != thermal::BallScrew::Support::fixed_fixed || !screw.unilateral;
-}
+bool Screw::is_linear() const { return screw.support != thermal::BallScrew::Support::fixed_fixed || !screw.unilateral; }
 
 NodeWeights Screw::weights_at(double x) const {
   NodeWeights weights;

@@ -262,6 +262,12 @@ Diagnosis::Verdict Diagnostician::verdict() const {
 
 }  // namespace
 
+bool Diagnosis::is_refuted() const {
+  double evidence = vote.value_or(0.0);
+  for (auto const& explanation : explanations) evidence += explanation.alternatives[0].strength;
+  return evidence < 0.0;
+}
+
 std::string name_of(Diagnosis::Verdict verdict) {
   switch (verdict) {
     case Diagnosis::Verdict::nothing:

@@ -47,8 +47,8 @@ struct Diagnosis {
   /// 2 ln of how much likelier the runs held out are by the amended machine than by the calibrated one.
   std::optional<double> vote;
   std::vector<std::pair<std::string, double>> noise_heard;  ///< of every channel, over what was expected
-  /// Runs held out speak against the effects.
-  [[nodiscard]] bool is_refuted() const { return vote && *vote < 0.0; }
+  /// Runs held out speak against the effects by more than the fitted ones speak for them.
+  [[nodiscard]] bool is_refuted() const;
   std::size_t visible = 0;  ///< hypotheses that would have been seen at half of their largest amplitude
 };
 

@@ -207,7 +207,9 @@ std::string words_of_proposal(Diagnosis const& diagnosis) {
 std::string words_of_vote(Diagnosis const& diagnosis) {
   if (!diagnosis.is_refuted()) return "";
   return fmt::format(
-      "The runs held out speak against it: they are likelier by calibration alone, by {:.0f} of 2 ln.\n\n",
+      "The runs held out speak against it, more than the others for it: they are likelier by calibration alone, by "
+      "{:.0f} "
+      "of 2 ln.\n\n",
       -*diagnosis.vote);
 }
 
