@@ -98,15 +98,10 @@ double gap_of_noise(Machine const& machine, std::vector<BinnedRun> const& runs) 
     for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
       auto const& channel = run.run->channels[c];
       auto const noise = expected_noise(machine, channel.name, runs);
-      auto const finite = [](double v, double otherwise) { return std::isnan(v) ? otherwise : v; };
-      double lowest = INFINITY, highest = -INFINITY;
-      for (double const v : run.values.col(Eigen::Index(c))) {
-        lowest = std::min(lowest, finite(v, INFINITY));
-        highest = std::max(highest, finite(v, -INFINITY));
-      }
-      if (!(lowest <= highest)) continue;
-      double const deviation =
-          std::hypot(noise.fast, std::hypot(noise.white, noise.rounding), noise.slow_share * (highest - lowest));
+      Eigen::VectorXd const values = run.values.col(Eigen::Index(c));
+      if (values.array().isNaN().all()) continue;
+      double const slow = noise.slow_along(run.time, values)[0];
+      double const deviation = std::hypot(noise.fast, std::hypot(noise.white, noise.rounding), slow);
       noises.push_back({run.run->name, channel.name, channel.displacement, "", deviation, deviation});
     }
   return whole(noises).after;

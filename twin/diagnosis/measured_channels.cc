@@ -9,7 +9,6 @@
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
 #include "twin/diagnosis/measured_data.h"
-#include "twin/file/tables.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -218,14 +217,6 @@ std::vector<MeasuredChannel> living_channels(MeasuredData const& data, std::vect
   return channels;
 }
 
-/// Puts the place in a measurement file in front of a complaint about a reading.
-template <class Action>
-void at_reading(MeasuredData const& data, std::string const& name, Action action) {
-  auto const table = data.reading_tables.find(name);
-  if (table == data.reading_tables.end()) return action();
-  located(table->second, action);
-}
-
 [[noreturn]] void contradicts(Expected const& expected, output::Channel const& channel) {
   auto const kind = [](bool displacement) { return displacement ? "displacement" : "temperature"; };
   throw InputError(fmt::format("'{}': channel {} of the data is a {}, the machine's is a {}", channel.unit,
@@ -239,7 +230,7 @@ std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const
   auto const expected = expected_channels(machine);
   std::vector<MeasuredChannel> channels;
   for (auto const& e : expected)
-    at_reading(data, e.name, [&] {
+    located(data.reading_tables, e.name, [&] {
       if (auto const* channel = find(e.displacement ? data.displacements : data.readings, e.name))
         channels.push_back(in_si(*channel, e, data, remarks));
       else if (auto const* other = find(e.displacement ? data.readings : data.displacements, e.name))
@@ -254,7 +245,7 @@ std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const
 std::vector<MeasuredChannel> channels_of(MeasuredData const& data, std::vector<std::string>& remarks) {
   std::vector<MeasuredChannel> channels;
   for (auto const& e : all_channels(data))
-    at_reading(data, e.name, [&] {
+    located(data.reading_tables, e.name, [&] {
       channels.push_back(in_si(*find(e.displacement ? data.displacements : data.readings, e.name), e, data, remarks));
     });
   return living_channels(data, std::move(channels), remarks);

@@ -11,7 +11,7 @@
 #include "output/dataset.h"
 #include "scenarios/sampled.h"
 #include "twin/diagnosis/measured_run.h"
-#include "twin/file/value.h"
+#include "twin/file/tables.h"
 
 namespace thermotwin::twin {
 
@@ -27,8 +27,17 @@ struct MeasuredData {
   double max_gap = 600.0;                     ///< longer gaps become remarks, and those of inputs are estimated [s]
   std::vector<std::string> remarks;           ///< of the reader
   /// Tables of a measurement file that name them, for complaints with a place; a data set has none.
-  std::map<std::string, Value> input_tables, reading_tables;
+  using Tables = std::map<std::string, Value>;
+  Tables input_tables, reading_tables;
 };
+
+/// Puts the place of the table that names a channel, if there is one, in front of a complaint about it.
+template <class Action>
+void located(MeasuredData::Tables const& tables, std::string const& channel, Action action) {
+  auto const table = tables.find(channel);
+  if (table == tables.end()) return action();
+  located(table->second, action);
+}
 
 /// A data set (`.h5` as `run -o` writes it, `.csv` as `export` does) or a measurement file (`.toml`), which maps the
 /// columns of a table to inputs and channels. InputError that names the file.

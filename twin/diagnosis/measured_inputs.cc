@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 #include "models/quantile.h"
 #include "scenarios/course.h"
@@ -108,10 +109,11 @@ std::string due_for(std::string const& channel, Machine const& machine) {
   return channel == "time_of_day" || channel.starts_with("clock.") ? "" : channel;
 }
 
-/// "did you mean 'coolant.on'?" where a name is nearly one of these; else empty.
+/// "'coolant.on'?" where a name is nearly one of these; else empty.
 std::string near_name(std::string const& name, std::vector<std::string> const& known) {
   std::string const text = known.empty() ? "" : thermal::did_you_mean(name, known);
-  return text.starts_with("did you mean") ? text : "";
+  constexpr std::string_view question = "did you mean ";
+  return text.starts_with(question) ? text.substr(question.size()) : "";
 }
 
 /// Channels that every experiment on a machine with these axes has.
@@ -125,14 +127,6 @@ std::vector<std::string> names_of(std::vector<thermal::InputChannel> const& chan
   std::vector<std::string> names;
   for (auto const& channel : channels) names.push_back(channel.name);
   return names;
-}
-
-/// Puts the place in a measurement file in front of a complaint about an input.
-template <class Action>
-void at_input(MeasuredData const& data, std::string const& name, Action action) {
-  auto const table = data.input_tables.find(name);
-  if (table == data.input_tables.end()) return action();
-  located(table->second, action);
 }
 
 /// In words of the measurement file, where the channel is of another dimension than its unit there.
@@ -159,7 +153,7 @@ void check_units(MeasuredData const& data, Machine const& machine) {
   auto const own = own_channels(machine.limits);
   for (auto const& input : data.inputs)
     if (auto const table = data.input_tables.find(input.name); table != data.input_tables.end())
-      at_input(data, input.name, [&] { check_unit_among(own, table->second, input); });
+      located(table->second, [&] { check_unit_among(own, table->second, input); });
 }
 
 /// Of a measurement file, whose names somebody wrote: a name that is nearly one that is read, and not given, is a
@@ -174,8 +168,8 @@ void check_names_of_inputs(MeasuredData const& data, Machine const& machine, std
   for (auto const& [name, table] : data.input_tables) {
     if (is_read(name)) continue;
     if (auto const near = near_name(name, not_given); !near.empty())
-      at_input(data, name, [&, &name = name] {
-        throw InputError(fmt::format("nothing on '{}' reads '{}'; {}", machine.name, name, near));
+      located(data.input_tables, name, [&, &name = name] {
+        throw InputError(fmt::format("nothing on '{}' reads '{}'; did you mean {}", machine.name, name, near));
       });
     unread.push_back(name);
   }
@@ -198,8 +192,7 @@ void check_needs(MeasuredData const& data, Machine const& machine) {
   for (auto const& name : missing) {
     bool const own = std::find(known.begin(), known.end(), name) != known.end();
     auto const hint = near_name(name, own ? given : known);
-    if (!hint.empty())
-      hints += own ? fmt::format("; '{}': is it {}", name, hint.substr(13)) : fmt::format("; '{}': {}", name, hint);
+    if (!hint.empty()) hints += fmt::format("; '{}': {} {}", name, own ? "is it" : "did you mean", hint);
   }
   throw InputError(fmt::format("the machine '{}' needs inputs that the data lack: {}; the data have {}{}", machine.name,
                                fmt::join(missing, ", "),
@@ -214,7 +207,7 @@ void check_speed(MeasuredData const& data, Machine const& machine) {
   for (double const value : speed->values)
     if (std::isfinite(value)) fastest = std::max(fastest, std::abs(value));
   if (fastest > 1.2 * limit)
-    at_input(data, "spindle.speed", [&] {
+    located(data.input_tables, "spindle.speed", [&] {
       throw InputError(fmt::format(
           "input 'spindle.speed' reaches {:.0f} rpm, and the machine's maximum is {:.0f} rpm; is its unit right?",
           thermal::to_unit(fastest, "rpm"), thermal::to_unit(limit, "rpm")));
@@ -286,7 +279,8 @@ std::vector<std::string> misspelt_inputs(MeasuredData const& data) {
     bool const is_known = std::find(known.begin(), known.end(), name) != known.end();
     auto const near = is_known ? "" : near_name(name, known);
     if (!near.empty())
-      remarks.push_back(fmt::format("{}: input '{}': {}", place_of(table, "'" + name + "'").text(), name, near));
+      remarks.push_back(
+          fmt::format("{}: input '{}': did you mean {}", place_of(table, "'" + name + "'").text(), name, near));
   }
   return remarks;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "scenarios/course.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"
@@ -23,12 +24,27 @@ scenarios::Experiment with_step() {
   return experiment;
 }
 
+/// What a machine showed, with noise, and the estimation of v450 from it.
+struct Asked {
+  Asked(MeasuredRun shown, unsigned seed)
+      : run(noisy(std::move(shown), seed)),
+        data{bin(run, 300.0)},
+        estimation(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres)) {}
+  Asked(Asked const&) = delete;
+  Asked& operator=(Asked const&) = delete;
+  static MeasuredRun noisy(MeasuredRun shown, unsigned seed) {
+    tests::add_noise(shown, kelvin, metres, seed);
+    return shown;
+  }
+
+  MeasuredRun run;
+  std::vector<BinnedRun> data;
+  Estimation estimation;
+};
+
 std::vector<FreeHeat> scan(Value const& truth, unsigned seed) {
-  auto run = tests::measured(truth, with_step());
-  tests::add_noise(run, kelvin, metres, seed);
-  std::vector<BinnedRun> const data = {bin(run, 300.0)};
-  Estimation const estimation(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
-  return scan_for_free_heat(estimation, estimation.fit(estimation.prior_mean()));
+  Asked const asked(tests::measured(truth, with_step()), seed);
+  return scan_for_free_heat(asked.estimation, asked.estimation.fit(asked.estimation.prior_mean()));
 }
 
 TEST(FreeHeat, SitesAreAllNodesOnce) {
@@ -99,9 +115,8 @@ TEST(FreeHeat, JumpsWithAnInputWhateverIsRoundedOff) {
                              experiment);
   run.course = std::make_shared<scenarios::ExperimentCourse const>(experiment, Machine::build(v450()).limits);
   run.changes.clear();
-  tests::add_noise(run, kelvin, metres, 3);
-  std::vector<BinnedRun> const data = {bin(run, 300.0)};
-  Estimation const estimation(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+  Asked const asked(std::move(run), 3);
+  auto const& estimation = asked.estimation;
   auto const best = scan_for_free_heat(estimation, estimation.fit(estimation.prior_mean())).front();
   EXPECT_EQ(best.site.body, "column_rear");
   auto const& knots = best.knots[0];
@@ -130,15 +145,14 @@ TEST(FreeHeat, ThatIsNotThereGainsNothing) {
 
 /// 150 W that are always there, and nothing calibrated: the other numbers give way within the one linearisation.
 TEST(FreeHeat, IsFoundAboutTheNumbersOfTheFile) {
-  auto run = tests::measured(tests::with_table(v450(), R"(
+  Asked const asked(tests::measured(tests::with_table(v450(), R"(
     [[heat]]
     name = "hidden"
     at = "motor"
     power = "150 W")"),
-                             tests::two_speeds());
-  tests::add_noise(run, kelvin, metres, 5);
-  std::vector<BinnedRun> const data = {bin(run, 300.0)};
-  Estimation const estimation(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+                                    tests::two_speeds()),
+                    5);
+  auto const& estimation = asked.estimation;
   auto const best = scan_for_free_heat(estimation, estimation.fit(estimation.prior_mean(), 0)).front();
   EXPECT_EQ(best.site.body, "motor");
   EXPECT_NEAR(best.mean[0], 150.0, 30.0);
@@ -146,7 +160,7 @@ TEST(FreeHeat, IsFoundAboutTheNumbersOfTheFile) {
 
 /// 60 W while the machine is on and 40 W more while the spindle turns: what both bring, as surely as both are known.
 TEST(FreeHeat, OfTwoEffectsIsWhatTheyBringTogether) {
-  auto run = tests::measured(tests::with_table(v450(), R"(
+  Asked const asked(tests::measured(tests::with_table(v450(), R"(
     [[heat]]
     name = "pump"
     at = "motor"
@@ -156,19 +170,17 @@ TEST(FreeHeat, OfTwoEffectsIsWhatTheyBringTogether) {
     at = "motor"
     power = "40 W"
     while_on = "spindle.running")"),
-                             tests::two_speeds());
-  tests::add_noise(run, kelvin, metres, 5);
-  std::vector<BinnedRun> const data = {bin(run, 300.0)};
-  Estimation const plain(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+                                    tests::two_speeds()),
+                    5);
   std::vector<Hypothesis> both;
   for (auto const& hypothesis : hypotheses(v450(), Machine::build(v450())))
     if (hypothesis.label() == "heat at motor" && hypothesis.keys.back().second != "coolant.on")
       both.push_back(hypothesis);
   ASSERT_EQ(both.size(), 2);
-  auto const estimation = plain.with(both);
+  auto const estimation = asked.estimation.with(both);
   auto const fit = estimation.fit(estimation.prior_mean());
   auto const heat = heat_of_effects(estimation, fit, "motor");
-  auto const [moving, standing] = mean_heat(heat, 0, data[0]);
+  auto const [moving, standing] = mean_heat(heat, 0, asked.data[0]);
   double const error = heat.standard_error[0].maxCoeff();
   EXPECT_NEAR(moving, 100.0, 3.0 * error);
   EXPECT_NEAR(standing, 60.0, 3.0 * error);
