@@ -94,6 +94,8 @@ Evaluation::Evaluation(Network const& network)
       heat_(temperature_.size()),
       temperature_rate_(temperature_.size()),
       heat_rate_(temperature_.size()) {
+  auto const& slope = network.capacity_slope();
+  constant_capacity_ = std::all_of(slope.begin(), slope.end(), [](double s) { return s == 0.0; });
   for (auto const& average : network.averages()) weights_.push_back(average.weights);
   input_.resize(std::size_t(network.channels()));
 }
@@ -120,6 +122,8 @@ std::span<double const> Evaluation::temperatures(double const* state, double con
   int const n = net.nodes();
   std::copy_n(input, net.given_channels(), input_.begin());
   for_blocks(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::copy(state + begin, state + end, temperature_.data() + begin);
+    if (constant_capacity_) return;
     for (auto i = begin; i < end; ++i) temperature_[std::size_t(i)] = net.temperature_of_state(int(i), state[i]);
   });
   double* next = temperature_.data() + n;
@@ -152,10 +156,8 @@ void Evaluation::rate(double const* state, double const* input, double* state_ra
 Energy Evaluation::rate_and_power(double const* state, double const* input, double* state_rate) {
   Energy const energy = power(state, input);
   share_averages(heat_);
-  auto const* capacity = network_->capacity().data();
-  for_blocks(network_->nodes(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto i = begin; i < end; ++i) state_rate[i] = heat_[std::size_t(i)] / capacity[i];
-  });
+  for_terms(network_->nodes(), [state_rate, heat = heat_.data(), capacity = network_->capacity().data()](
+                                   std::ptrdiff_t i) { state_rate[i] = heat[i] / capacity[i]; });
   return energy;
 }
 

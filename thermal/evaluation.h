@@ -98,6 +98,7 @@ class Evaluation {
   Network const* network_;
   std::vector<double> input_;  ///< the operating point, completed by the weights of moving averages
   std::vector<double> temperature_, heat_, temperature_rate_, heat_rate_, flows_, blocks_;
+  bool constant_capacity_;                    ///< of all nodes
   std::vector<std::vector<double>> weights_;  ///< of the averages, at the present operating point
 };
 

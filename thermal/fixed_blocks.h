@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -22,6 +23,30 @@ void for_blocks(std::ptrdiff_t length, Visit const& visit) {
   }
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t b = 0; b < blocks; ++b) visit_block(b);
+}
+
+/// visit(i) for each i of [0, length), several at once: none may read what another writes.
+template <class Visit>
+void for_terms(std::ptrdiff_t length, Visit const& visit) {
+  for_blocks(length, [&visit](std::ptrdiff_t begin, std::ptrdiff_t end) {
+#pragma omp simd
+    for (auto i = begin; i < end; ++i) visit(i);
+  });
+}
+
+/// Σ term(i) over [begin, end), in sixteen sums side by side: a single one would wait for itself at every term.
+template <class Term>
+double sum_of_terms(std::ptrdiff_t begin, std::ptrdiff_t end, Term const& term) {
+  constexpr std::ptrdiff_t lanes = 16;
+  std::array<double, lanes> sums{};
+  auto i = begin;
+  for (; i + lanes <= end; i += lanes)
+#pragma omp simd
+    for (std::ptrdiff_t k = 0; k < lanes; ++k) sums[std::size_t(k)] += term(i + k);
+  double sum = 0.0;
+  for (double const s : sums) sum += s;
+  for (; i < end; ++i) sum += term(i);
+  return sum;
 }
 
 /// Σ part(begin, end) over the blocks of [0, length).

@@ -14,19 +14,13 @@ constexpr int most_reductions = 8;
 
 double norm(double const* x, int n) {
   return std::sqrt(sum_of_blocks(n, [x](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-    for (std::ptrdiff_t i = begin; i < end; ++i) sum += x[i] * x[i];
-    return sum;
+    return sum_of_terms(begin, end, [x](std::ptrdiff_t i) { return x[i] * x[i]; });
   }));
 }
 
 double dot(float const* a, float const* b, int n) {
   return sum_of_blocks(n, [a, b](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-    for (std::ptrdiff_t i = begin; i < end; ++i) sum += double(a[i]) * double(b[i]);
-    return sum;
+    return sum_of_terms(begin, end, [a, b](std::ptrdiff_t i) { return double(a[i]) * double(b[i]); });
   });
 }
 
@@ -37,9 +31,12 @@ GridSystem::GridSystem(Network const& network)
       nodes_(network.nodes()),
       port_temperature_(network.averages().size()),
       port_heat_(network.averages().size()) {
-  for (double const c : network.capacity()) inverse_capacity_.push_back(float(1.0 / c));
-  for (auto* field : {&scaled_, &change_}) field->resize(std::size_t(nodes_));
-  for (auto* field : {&correction_, &residual_}) field->resize(std::size_t(nodes_));
+  for (double const c : network.capacity()) {
+    capacity_.push_back(float(c));
+    inverse_capacity_.push_back(float(1.0 / c));
+  }
+  scaled_.resize(std::size_t(nodes_));
+  residual_.resize(std::size_t(nodes_));
 }
 
 void GridSystem::linearise(Linearisation const& at) {
@@ -113,9 +110,7 @@ void GridSystem::multiply(X const* temperature, X* result) {
   }
   for (std::size_t a = 0; a < averages.size(); ++a)
     for (auto const& [node, weight] : averages[a]) result[node] -= X(gamma_ * double(weight) * port_heat_[a]);
-  for_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto i = begin; i < end; ++i) result[i] *= X(inverse_capacity_[std::size_t(i)]);
-  });
+  for_terms(nodes_, [result, inverse = inverse_capacity_.data()](std::ptrdiff_t i) { result[i] *= X(inverse[i]); });
 }
 
 /// Makes the newest direction orthonormal to the `count` before it; `column` receives the coefficients and the length
@@ -131,37 +126,30 @@ void GridSystem::orthogonalise(std::size_t count, std::vector<double>& column) {
 #pragma omp simd
       for (auto i = begin; i < end; ++i) newest[i] -= share * other[i];
     }
-    double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-    for (auto i = begin; i < end; ++i) sum += double(newest[i]) * double(newest[i]);
-    return sum;
+    return sum_of_terms(begin, end, [newest](std::ptrdiff_t i) { return double(newest[i]) * double(newest[i]); });
   });
   column[count] = std::sqrt(square);
   auto const inverse = float(1.0 / std::max(column[count], 1e-300));
-  for_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto i = begin; i < end; ++i) newest[i] *= inverse;
-  });
+  for_terms(nodes_, [newest, inverse](std::ptrdiff_t i) { newest[i] *= inverse; });
 }
 
-/// Adds to correction_ what brings the norm of residual_ from `size` below `target`, or as far as single precision and
-/// the number of directions allow; returns the norm that it comes to.
-double GridSystem::reduce(double size, double target) {
+/// Adds to x what brings the norm of `residual` from `size` below `target`, or as far as single precision and the
+/// number of directions allow; returns the norm that it comes to.
+double GridSystem::reduce(double const* residual, double size, double target, double* x) {
   auto const direction = [&](std::vector<std::vector<float>>& set, std::size_t k) {
     while (set.size() <= k) set.emplace_back(std::size_t(nodes_));
     return set[k].data();
   };
   float* first = direction(basis_, 0);
-  for_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto i = begin; i < end; ++i) first[i] = float(residual_[std::size_t(i)] / size);
-  });
+  for_terms(nodes_, [first, residual, share = 1.0 / size](std::ptrdiff_t i) { first[i] = float(share * residual[i]); });
   std::vector<std::vector<double>> triangle;
   std::vector<double> right{size}, cosine, sine, column;
   std::size_t count = 0;
   while (count < most_directions && std::abs(right[count]) > std::max(target, single_reduction * size)) {
     float const* from = basis_[count].data();
     float* z = direction(preconditioned_, count);
-    for_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      for (auto i = begin; i < end; ++i) scaled_[std::size_t(i)] = from[i] / inverse_capacity_[std::size_t(i)];
+    for_terms(nodes_, [from, scaled = scaled_.data(), capacity = capacity_.data()](std::ptrdiff_t i) {
+      scaled[i] = capacity[i] * from[i];
     });
     multigrid_.solve(scaled_.data(), z);
     multiply(z, direction(basis_, count + 1));
@@ -188,36 +176,33 @@ double GridSystem::reduce(double size, double target) {
     share[k] = sum / triangle[k][k];
   }
   for_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (std::size_t k = 0; k < count; ++k)
-      for (auto i = begin; i < end; ++i)
-        correction_[std::size_t(i)] += share[k] * double(preconditioned_[k][std::size_t(i)]);
+    for (std::size_t k = 0; k < count; ++k) {
+      float const* along = preconditioned_[k].data();
+      double const part = share[k];
+#pragma omp simd
+      for (auto i = begin; i < end; ++i) x[i] += part * double(along[i]);
+    }
   });
   return std::abs(right[count]);
 }
 
 bool GridSystem::solve(double const* b, double tolerance, double* x) {
   double const size = norm(b, nodes_);
-  std::fill_n(x, nodes_, 0.0);
-  if (size == 0.0) return true;
+  if (size == 0.0) return std::fill_n(x, nodes_, 0.0), true;
   double const target = std::min(tolerance, 0.1 * size);
-  std::fill(correction_.begin(), correction_.end(), 0.0);
-  std::copy_n(b, nodes_, residual_.begin());
+  for_terms(nodes_, [x](std::ptrdiff_t i) { x[i] = 0.0; });
   double left = size;
   for (int k = 0; left > target; ++k) {
     bool const enough = target >= single_reduction * left;
-    double const reached = reduce(left, target);
+    double const reached = reduce(k == 0 ? b : residual_.data(), left, target, x);
     if (k == most_reductions || !(reached < 0.5 * left)) return false;
     left = reached;
     if (enough && left <= target) break;
-    multiply(correction_.data(), residual_.data());
-    for (int i = 0; i < nodes_; ++i) residual_[std::size_t(i)] = b[i] - residual_[std::size_t(i)];
+    multiply(x, residual_.data());
+    for_terms(nodes_, [b, residual = residual_.data()](std::ptrdiff_t i) { residual[i] = b[i] - residual[i]; });
     left = norm(residual_.data(), nodes_);
   }
-  for_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto i = begin; i < end; ++i)
-      x[i] =
-          slope_.empty() ? correction_[std::size_t(i)] : correction_[std::size_t(i)] / double(slope_[std::size_t(i)]);
-  });
+  for_terms(std::ptrdiff_t(slope_.size()), [x, slope = slope_.data()](std::ptrdiff_t i) { x[i] /= double(slope[i]); });
   return true;
 }
 

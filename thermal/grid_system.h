@@ -27,19 +27,19 @@ class GridSystem {
  private:
   template <class X>
   void multiply(X const* temperature, X* result);
-  [[nodiscard]] double reduce(double size, double target);
+  [[nodiscard]] double reduce(double const* residual, double size, double target, double* x);
   void orthogonalise(std::size_t count, std::vector<double>& column);
 
   Network const* network_;
   int nodes_;
-  std::vector<float> inverse_capacity_;
+  std::vector<float> capacity_, inverse_capacity_;
   std::vector<float> slope_;  ///< dT/dy; empty where it is 1 everywhere
   std::vector<PortCoupling> couplings_;
   Multigrid multigrid_;
   double identity_ = 1.0, gamma_ = -1.0;              ///< of the last shift
   std::vector<double> port_temperature_, port_heat_;  ///< of averages
-  std::vector<double> correction_, residual_;
-  std::vector<float> scaled_, change_;
+  std::vector<double> residual_;
+  std::vector<float> scaled_;
   std::vector<std::vector<float>> basis_, preconditioned_;
 };
 

@@ -202,16 +202,12 @@ bool Multigrid::shift(double identity, double gamma) {
   gamma_ = gamma;
   auto const s = float(identity), y = float(gamma);
   for (auto& level : levels_)
-    for_blocks(level.network.size(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      float const *capacity = level.network.capacity.data(), *outside = level.network.outside.data(),
-                  *around = level.around.data();
-      float *base = level.base.data(), *inverse = level.inverse.data();
-#pragma omp simd
-      for (auto i = begin; i < end; ++i) {
-        base[i] = s * capacity[i] + y * outside[i];
-        inverse[i] = 1.0F / (s * capacity[i] + y * around[i]);
-      }
-    });
+    for_terms(level.network.size(),
+              [s, y, base = level.base.data(), inverse = level.inverse.data(), around = level.around.data(),
+               capacity = level.network.capacity.data(), outside = level.network.outside.data()](std::ptrdiff_t i) {
+                base[i] = s * capacity[i] + y * outside[i];
+                inverse[i] = 1.0F / (s * capacity[i] + y * around[i]);
+              });
   coarsest_.coeffs() = identity * coarsest_capacity_.coeffs() + gamma * coarsest_conduction_.coeffs();
   return factors_->factorise(coarsest_);
 }
@@ -293,9 +289,7 @@ void Multigrid::smooth_from_zero(Level& level, float const* b, float* x) const {
   auto const* base = level.base.data();
   auto* first = level.y.data();
   auto const gamma = float(gamma_);
-  for_pieces(level, [&](Grid const&, int begin, int end) {
-    for (int i = begin; i < end; ++i) first[i] = inverse[i] * b[i] * (1.0F / middle);
-  });
+  for_terms(level.network.size(), [=](std::ptrdiff_t i) { first[i] = inverse[i] * b[i] * (1.0F / middle); });
   for_pieces(level, [&](Grid const& grid, int begin, int end) {
     for_balances(grid, level.network.links(), first, begin, end, [&](int i, float heat) {
       float const residual = b[i] - base[i] * first[i] + gamma * heat;

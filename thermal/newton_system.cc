@@ -186,16 +186,12 @@ void NewtonSystem::keep_balance(double const* b, double* x) const {
   Eigen::Map<Eigen::Vector4d const> const b_energies(b + nodes_);
   Eigen::Map<Eigen::Vector4d> x_energies(x + nodes_);
   double const missing = sum_of_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    double sum = 0.0;
-    for (auto i = begin; i < end; ++i) sum += capacity_[i] * (b[i] - x[i]);
-    return sum;
+    return sum_of_terms(begin, end, [&](std::ptrdiff_t i) { return capacity_[i] * (b[i] - x[i]); });
   });
   Eigen::Vector4d const power = power_of(x);
   double const defect = missing / total_capacity_ - gamma_ * sign.dot(power);
   double const shift = defect / (1.0 + gamma_ * sign.dot(power_of_shift_));
-  for_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto i = begin; i < end; ++i) x[i] += shift * has_heat_[i];
-  });
+  for_terms(nodes_, [x, shift, has_heat = has_heat_.data()](std::ptrdiff_t i) { x[i] += shift * has_heat[i]; });
   x_energies = b_energies + gamma_ * (power + shift * power_of_shift_);
 }
 

@@ -152,7 +152,7 @@ int Run::rate(double t, N_Vector y, N_Vector ydot, void* user) {
     data(ydot)[n + 2] = power.lost / unit;
     data(ydot)[n + 3] = power.exchanged / unit;
     double const sum = sum_of_blocks(n + NewtonSystem::energies, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      return std::accumulate(data(ydot) + begin, data(ydot) + end, 0.0);
+      return sum_of_terms(begin, end, [rates = data(ydot)](std::ptrdiff_t i) { return rates[i]; });
     });
     return std::isfinite(sum) ? 0 : 1;
   });

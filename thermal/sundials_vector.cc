@@ -10,26 +10,18 @@ namespace {
 void linear_sum(realtype a, N_Vector first, realtype b, N_Vector second, N_Vector sum) {
   double const *x = data(first), *y = data(second);
   double* z = data(sum);
-  for_blocks(NV_LENGTH_S(sum), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
-#pragma omp simd
-    for (auto i = begin; i < end; ++i) z[i] = a * x[i] + b * y[i];
-  });
+  for_terms(NV_LENGTH_S(sum), [=](std::ptrdiff_t i) { z[i] = a * x[i] + b * y[i]; });
 }
 
 void fill(realtype value, N_Vector v) {
   double* z = data(v);
-  for_blocks(NV_LENGTH_S(v), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto i = begin; i < end; ++i) z[i] = value;
-  });
+  for_terms(NV_LENGTH_S(v), [=](std::ptrdiff_t i) { z[i] = value; });
 }
 
 void scale(realtype factor, N_Vector from, N_Vector to) {
   double const* x = data(from);
   double* z = data(to);
-  for_blocks(NV_LENGTH_S(to), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
-#pragma omp simd
-    for (auto i = begin; i < end; ++i) z[i] = factor * x[i];
-  });
+  for_terms(NV_LENGTH_S(to), [=](std::ptrdiff_t i) { z[i] = factor * x[i]; });
 }
 
 /// The first of the added vectors is the sum's own place where they are the same.
@@ -66,10 +58,7 @@ int scale_add_multi(int count, realtype* factors, N_Vector added, N_Vector* to, 
 realtype weighted_norm(N_Vector v, N_Vector weights) {
   double const *x = data(v), *w = data(weights);
   double const sum = sum_of_blocks(NV_LENGTH_S(v), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    double part = 0.0;
-#pragma omp simd reduction(+ : part)
-    for (auto i = begin; i < end; ++i) part += x[i] * w[i] * (x[i] * w[i]);
-    return part;
+    return sum_of_terms(begin, end, [=](std::ptrdiff_t i) { return x[i] * w[i] * (x[i] * w[i]); });
   });
   return std::sqrt(sum / double(NV_LENGTH_S(v)));
 }
