@@ -12,6 +12,7 @@
 #include "output/error.h"
 #include "output/locked_file.h"
 #include "twin/fingerprint.h"
+#include "twin/node_cores.h"
 #include "twin/packed.h"
 #include "twin/version.h"
 
@@ -172,7 +173,10 @@ Reduction ReductionStore::find_or_make(std::string const& key, std::function<Red
     output::make_directory(folder_);
     output::LockedFile const lock(folder_ / (key + ".lock"), output::LockedFile::Busy::wait);
     if (auto known = find(key)) return *known;
-    made = make();
+    {
+      NodeCores const all;
+      made = make();
+    }
     auto const bytes = bytes_of(*made);
     output::write_atomically(file(key), first_line(key, bytes) + bytes);
   } catch (output::OutputError const&) {
