@@ -122,7 +122,7 @@ def w1(runs, long):
     bars_of_w1(answer, medium, runs)
     memory, _ = bandwidth()
     answer.limit = f"{100 * medium.share_of(memory):.0f} %, were it in memory ({MOVED_PER_STEP} bytes a cell and step); but " \
-        "most of it stays in the cache, and the two cores wait for each other after every short loop"
+        "most of it stays in the cache of the one core that is used: waking another costs more than its share of such short loops"
     return answer
 
 
