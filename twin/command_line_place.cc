@@ -91,12 +91,12 @@ std::vector<scenarios::Experiment> read_all(std::vector<std::string> const& name
 
 void PlaceCommand::check_outputs() const {
   check_suffix(output, "a list of sensors", {".toml"});
-  check_suffix(picture, "a picture", {".png"});
   std::vector<std::filesystem::path> read = {candidates};
   for (auto const* names : {&experiments, &unseen})
     for (auto const& name : *names) read.push_back(experiment_file(name));
   refuse_to_overwrite(output, machine_file(machine), read);
   refuse_to_overwrite(picture, machine_file(machine), read, fields);  // written after them
+  check_picture(picture);
 }
 
 void PlaceCommand::write_map(PlacementReport const& report, Machine const& built) const {

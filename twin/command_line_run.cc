@@ -59,11 +59,11 @@ void RunCommand::add_to(CLI::App& command) {
 void RunCommand::check_outputs(std::filesystem::path const& machine_path, std::filesystem::path const& experiment_path,
                                scenarios::Experiment const& programme) const {
   check_suffix(dataset, "a data set", {".h5"});
-  check_suffix(picture, "a picture", {".png"});
   std::vector<std::filesystem::path> read = {experiment_path};
   for (auto const& recording : programme.recorded)
     read.push_back(scenarios::resolved_path(recording.file, programme.directory));
   for (auto const& output : {dataset, picture}) refuse_to_overwrite(output, machine_path, read, fields);
+  check_picture(picture);
 }
 
 void RunCommand::set_checkpoint(RunOptions& options) const {

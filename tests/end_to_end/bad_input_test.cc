@@ -381,6 +381,19 @@ TEST(BadInput, SuffixesOfOtherFormats) {
   }
 }
 
+TEST(BadInput, APictureWithoutADisplayIsRefusedBeforeTheWork) {
+  tests::TemporaryDirectory const directory;
+  for (std::string const arguments :
+       {"run golden_b_2000 -o run.h5 --picture run.png", "place v450 -k 3 -o sensors.toml --picture map.png",
+        "volumetric g200 -o tables --picture field.png"}) {
+    auto const answer = tests::run_command("cd " + directory.path().string() + " && env -u DISPLAY " +
+                                           std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1");
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find("DISPLAY is not set; run under xvfb-run"), std::string::npos) << answer.text;
+    EXPECT_TRUE(fs::is_empty(directory.path())) << arguments;
+  }
+}
+
 /// A file or a folder of the same name does not stand in for a machine that is shipped.
 TEST(BadInput, ANameIsTheShippedMachine) {
   tests::TemporaryDirectory const directory;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "output/display.h"
 #include "thermal/error.h"
 
 namespace thermotwin::twin {
@@ -49,6 +50,12 @@ void check_suffix(fs::path const& output, std::string_view what, std::vector<std
   auto const suffix = output.extension().string();
   if (suffix.empty() || std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end()) return;
   wrong_suffix(output, what, suffixes);
+}
+
+void check_picture(fs::path const& picture) {
+  if (picture.empty()) return;
+  check_suffix(picture, "a picture", {".png"});
+  output::DisplayConnection const there;
 }
 
 void check_machine_suffix(fs::path const& output) {

@@ -16,6 +16,9 @@ void refuse_to_overwrite(std::filesystem::path const& output, std::filesystem::p
 /// InputError when a file's suffix says another format than `what` ("a data set") is written in; none says nothing.
 void check_suffix(std::filesystem::path const& output, std::string_view what, std::vector<std::string> const& suffixes);
 
+/// The same of a picture (.png), and OutputError where no display is there to draw it: before any work, too.
+void check_picture(std::filesystem::path const& picture);
+
 /// The same of a machine, which must have its suffix: without one it would be taken for a shipped machine's name.
 void check_machine_suffix(std::filesystem::path const& output);
 

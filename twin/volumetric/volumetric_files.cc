@@ -101,8 +101,8 @@ void write_tables(VolumetricStudy const& study, VolumetricFiles const& files) {
 }  // namespace
 
 VolumetricStudy volumetric_files(VolumetricFiles const& files) {
-  check_suffix(files.picture, "a picture", {".png"});
   refuse_to_overwrite(files.picture, files.machine, {files.run}, files.output);
+  check_picture(files.picture);
   Value document = read_toml(files.machine);
   for (auto const& setting : files.settings) set_parameter(document, setting.path, setting.value);
   auto const machine = read_volumetric(document);
