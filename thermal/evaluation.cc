@@ -122,9 +122,10 @@ std::span<double const> Evaluation::temperatures(double const* state, double con
   int const n = net.nodes();
   std::copy_n(input, net.given_channels(), input_.begin());
   for_blocks(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    std::copy(state + begin, state + end, temperature_.data() + begin);
-    if (constant_capacity_) return;
-    for (auto i = begin; i < end; ++i) temperature_[std::size_t(i)] = net.temperature_of_state(int(i), state[i]);
+    if (constant_capacity_)
+      std::copy(state + begin, state + end, temperature_.data() + begin);
+    else
+      for (auto i = begin; i < end; ++i) temperature_[std::size_t(i)] = net.temperature_of_state(int(i), state[i]);
   });
   double* next = temperature_.data() + n;
   for (auto const& boundary : net.boundaries()) {

@@ -36,7 +36,7 @@ void for_terms(std::ptrdiff_t length, Visit const& visit) {
 
 /// Σ term(i) over [begin, end), in sixteen sums side by side: a single one would wait for itself at every term.
 template <class Term>
-double sum_of_terms(std::ptrdiff_t begin, std::ptrdiff_t end, Term const& term) {
+double sum_within(std::ptrdiff_t begin, std::ptrdiff_t end, Term const& term) {
   constexpr std::ptrdiff_t lanes = 16;
   std::array<double, lanes> sums{};
   auto i = begin;
@@ -60,6 +60,13 @@ double sum_of_blocks(std::ptrdiff_t length, Part const& part) {
   double sum = 0.0;
   for (double const s : sums) sum += s;
   return sum;
+}
+
+/// Σ term(i) over [0, length).
+template <class Term>
+double sum_of_terms(std::ptrdiff_t length, Term const& term) {
+  return sum_of_blocks(length,
+                       [&term](std::ptrdiff_t begin, std::ptrdiff_t end) { return sum_within(begin, end, term); });
 }
 
 }  // namespace thermotwin::thermal

@@ -13,15 +13,11 @@ constexpr double single_reduction = 1e-4;    ///< what one reduction in single p
 constexpr int most_reductions = 8;
 
 double norm(double const* x, int n) {
-  return std::sqrt(sum_of_blocks(n, [x](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    return sum_of_terms(begin, end, [x](std::ptrdiff_t i) { return x[i] * x[i]; });
-  }));
+  return std::sqrt(sum_of_terms(n, [x](std::ptrdiff_t i) { return x[i] * x[i]; }));
 }
 
 double dot(float const* a, float const* b, int n) {
-  return sum_of_blocks(n, [a, b](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    return sum_of_terms(begin, end, [a, b](std::ptrdiff_t i) { return double(a[i]) * double(b[i]); });
-  });
+  return sum_of_terms(n, [a, b](std::ptrdiff_t i) { return double(a[i]) * double(b[i]); });
 }
 
 }  // namespace
@@ -126,7 +122,7 @@ void GridSystem::orthogonalise(std::size_t count, std::vector<double>& column) {
 #pragma omp simd
       for (auto i = begin; i < end; ++i) newest[i] -= share * other[i];
     }
-    return sum_of_terms(begin, end, [newest](std::ptrdiff_t i) { return double(newest[i]) * double(newest[i]); });
+    return sum_within(begin, end, [newest](std::ptrdiff_t i) { return double(newest[i]) * double(newest[i]); });
   });
   column[count] = std::sqrt(square);
   auto const inverse = float(1.0 / std::max(column[count], 1e-300));

@@ -185,9 +185,7 @@ void NewtonSystem::keep_balance(double const* b, double* x) const {
   Eigen::Vector4d const sign(-1.0, 1.0, 1.0, 0.0);
   Eigen::Map<Eigen::Vector4d const> const b_energies(b + nodes_);
   Eigen::Map<Eigen::Vector4d> x_energies(x + nodes_);
-  double const missing = sum_of_blocks(nodes_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    return sum_of_terms(begin, end, [&](std::ptrdiff_t i) { return capacity_[i] * (b[i] - x[i]); });
-  });
+  double const missing = sum_of_terms(nodes_, [&](std::ptrdiff_t i) { return capacity_[i] * (b[i] - x[i]); });
   Eigen::Vector4d const power = power_of(x);
   double const defect = missing / total_capacity_ - gamma_ * sign.dot(power);
   double const shift = defect / (1.0 + gamma_ * sign.dot(power_of_shift_));

@@ -151,9 +151,8 @@ int Run::rate(double t, N_Vector y, N_Vector ydot, void* user) {
     data(ydot)[n + 1] = power.withdrawn / unit;
     data(ydot)[n + 2] = power.lost / unit;
     data(ydot)[n + 3] = power.exchanged / unit;
-    double const sum = sum_of_blocks(n + NewtonSystem::energies, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      return sum_of_terms(begin, end, [rates = data(ydot)](std::ptrdiff_t i) { return rates[i]; });
-    });
+    double const sum =
+        sum_of_terms(n + NewtonSystem::energies, [rates = data(ydot)](std::ptrdiff_t i) { return rates[i]; });
     return std::isfinite(sum) ? 0 : 1;
   });
 }

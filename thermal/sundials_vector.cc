@@ -57,9 +57,7 @@ int scale_add_multi(int count, realtype* factors, N_Vector added, N_Vector* to, 
 
 realtype weighted_norm(N_Vector v, N_Vector weights) {
   double const *x = data(v), *w = data(weights);
-  double const sum = sum_of_blocks(NV_LENGTH_S(v), [=](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    return sum_of_terms(begin, end, [=](std::ptrdiff_t i) { return x[i] * w[i] * (x[i] * w[i]); });
-  });
+  double const sum = sum_of_terms(NV_LENGTH_S(v), [=](std::ptrdiff_t i) { return x[i] * w[i] * (x[i] * w[i]); });
   return std::sqrt(sum / double(NV_LENGTH_S(v)));
 }
 
