@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "twin/diagnosis/drifting_sensor.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/excitation.h"
 #include "twin/diagnosis/seen_form.h"
+#include "twin/diagnosis/verdict.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -44,10 +44,7 @@ class Diagnostician {
   void tell_where(HeatAt const& heat);
   void propose();
   [[nodiscard]] bool is_heat_left() const;
-  [[nodiscard]] std::optional<std::string> twice_warmed() const;
   [[nodiscard]] std::optional<std::string> first_warmed() const;
-  [[nodiscard]] bool is_unknown_shift() const;
-  [[nodiscard]] Diagnosis::Verdict verdict() const;
 
   DiagnosisOptions const& options_;
   Value const& document_;
@@ -86,12 +83,14 @@ Diagnosis Diagnostician::operator()() {
   d.faulty_sensor = faulty_sensor(machine_, runs_);
   if (!d.faulty_sensor && d.effects.empty() && !is_heat_left())
     d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
-  d.verdict = verdict();
+  d.verdict = verdict_on(d, is_heat_left());
   if (d.verdict == Diagnosis::Verdict::none_known) {
     if (is_heat_left())
       d.unknown_heat = unknown_heat();
-    else if (auto const body = d.is_refuted() ? first_warmed() : twice_warmed())
+    else if (auto const body = first_warmed())
       d.unknown_heat = heat_of_effects(amended, d.amended, *body);
+    else if (!d.scan.empty() && d.scan[0].gain > search_.evident_beside())
+      d.unknown_heat = unknown_heat();
     if (d.unknown_heat) d.unknown_heat_by_speed = heat_by_speed(*d.unknown_heat, runs_);
   }
   d.disagreement = disagreements(search_.plain().with(amended.noise()), d.calibrated.x, machine_);
@@ -170,29 +169,10 @@ std::optional<std::string> Diagnostician::first_warmed() const {
   return std::nullopt;
 }
 
-/// The body on which it took two effects that are about heat: the catalogue does not have what acts there.
-std::optional<std::string> Diagnostician::twice_warmed() const {
-  std::map<std::string, std::string> acting;  // on each body, the first
-  for (auto const& explanation : diagnosis_.explanations) {
-    auto const& effect = explanation.alternatives[0].hypothesis;
-    if (!is_about_heat(effect)) continue;
-    if (acting.emplace(effect.body, effect.label()).first->second != effect.label()) return effect.body;
-  }
-  return std::nullopt;
-}
-
-/// It took two effects on one displacement: the catalogue does not have what moves it.
-bool Diagnostician::is_unknown_shift() const {
-  std::set<std::string> moved;
-  return std::any_of(diagnosis_.effects.begin(), diagnosis_.effects.end(), [&](Hypothesis const& effect) {
-    return effect.is_about("deformation") && !moved.insert(effect.body).second;
-  });
-}
-
 /// About the numbers of the file: those that were calibrated without the heat have taken part of it. So has the noise
 /// that was heard where no effect stands in for it.
 FreeHeat Diagnostician::unknown_heat() const {
-  bool const bare = diagnosis_.effects.empty();
+  bool const bare = only_sensors(diagnosis_);
   Estimation const plain = search_.plain().with(bare ? search_.expected_noise() : search_.estimation().noise());
   return scan_for_free_heat(plain, plain.fit(plain.prior_mean(), 0), fine)[0];
 }
@@ -206,8 +186,11 @@ void Diagnostician::find_where() {
     while_moving = std::max(while_moving, std::abs(mean.moving));
     while_standing = std::max(while_standing, std::abs(mean.standing));
   };
-  if (auto const& unknown = diagnosis_.unknown_heat; unknown && is_heat_left()) {
-    for (std::size_t r = 0; r < runs_.size(); ++r) add(unknown->site.body, mean_heat(*unknown, r, runs_[r]));
+  if (auto const& unknown = diagnosis_.unknown_heat; unknown && unknown->gain > 0.0) {
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      auto const [moving, standing] = mean_heat(*unknown, r, runs_[r]);
+      for (auto const& [body, share] : unknown->shares()) add(body, {share * moving, share * standing});
+    }
     return tell_where(heat);
   }
   auto const& amended = search_.estimation();
@@ -245,44 +228,7 @@ void Diagnostician::propose() {
   }
 }
 
-Diagnosis::Verdict Diagnostician::verdict() const {
-  using Verdict = Diagnosis::Verdict;
-  if (diagnosis_.faulty_sensor && diagnosis_.explanations.empty()) return Verdict::sensor;
-  if (is_heat_left() || twice_warmed() || is_unknown_shift()) return Verdict::none_known;
-  if (diagnosis_.explanations.empty()) return Verdict::nothing;
-  bool const sensors = std::all_of(
-      diagnosis_.explanations.begin(), diagnosis_.explanations.end(),
-      [](Explanation const& explanation) { return explanation.alternatives[0].hypothesis.is_about("sensor"); });
-  if (sensors) return Verdict::sensor;
-  if (diagnosis_.is_refuted()) return Verdict::none_known;
-  bool const single = std::all_of(diagnosis_.explanations.begin(), diagnosis_.explanations.end(),
-                                  [](Explanation const& explanation) { return explanation.alternatives.size() == 1; });
-  return single ? Verdict::effect : Verdict::either;
-}
-
 }  // namespace
-
-bool Diagnosis::is_refuted() const {
-  double evidence = vote.value_or(0.0);
-  for (auto const& explanation : explanations) evidence += explanation.alternatives[0].strength;
-  return evidence < 0.0;
-}
-
-std::string name_of(Diagnosis::Verdict verdict) {
-  switch (verdict) {
-    case Diagnosis::Verdict::nothing:
-      return "nothing";
-    case Diagnosis::Verdict::effect:
-      return "effect";
-    case Diagnosis::Verdict::either:
-      return "either";
-    case Diagnosis::Verdict::sensor:
-      return "sensor";
-    case Diagnosis::Verdict::none_known:
-      return "none_known";
-  }
-  return "";
-}
 
 Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options,
                    std::vector<BinnedRun> const& held_out) {

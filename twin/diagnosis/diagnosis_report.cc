@@ -71,7 +71,9 @@ Json json_of(FreeHeat const& heat) {
         {{"time_s", std::vector<double>(heat.knots[r].begin(), heat.knots[r].end())},
          {"watts", std::vector<double>(heat.heat[r].begin(), heat.heat[r].end())},
          {"standard_error", std::vector<double>(heat.standard_error[r].begin(), heat.standard_error[r].end())}});
-  return {{"body", heat.site.body}, {"watts", mean_of(heat)}, {"gain", heat.gain}, {"runs", runs}};
+  Json json = {{"body", heat.site.body}, {"watts", mean_of(heat)}, {"gain", heat.gain}, {"runs", runs}};
+  if (heat.site.is_air()) json["watts_per_kelvin_of_air"] = heat.per_kelvin;
+  return json;
 }
 
 Json json_of(std::vector<ChannelGap> const& gaps) {
@@ -213,11 +215,25 @@ std::string words_of_vote(Diagnosis const& diagnosis) {
       -*diagnosis.vote);
 }
 
+/// "Were it the air at the machine, warmer than its record by −1.2 to 0.8 K".
+std::string words_of_air(FreeHeat const& air) {
+  double least = INFINITY, most = -INFINITY;
+  for (auto const& heat : air.heat) {
+    least = std::min(least, heat.minCoeff());
+    most = std::max(most, heat.maxCoeff());
+  }
+  double const per_kelvin = air.per_kelvin.at(air.site.body);
+  return fmt::format("Were it the air at the machine, warmer than its record by {:+.1f} to {:+.1f} K",
+                     least / per_kelvin, most / per_kelvin);
+}
+
 std::string words_of_heat(Diagnosis const& diagnosis) {
   if (!diagnosis.unknown_heat) return "";
   auto const& all = *diagnosis.unknown_heat;
   std::string text = fmt::format("{}: {:.1f} W on average into {}.\n",
-                                 all.gain > 0.0 ? "Were it one heat of free course" : "What stands in for it brings",
+                                 all.site.is_air() ? words_of_air(all)
+                                 : all.gain > 0.0  ? "Were it one heat of free course"
+                                                   : "What stands in for it brings",
                                  mean_of(all), all.site.body);
   auto const& by_speed = diagnosis.unknown_heat_by_speed;
   if (by_speed.mean.size() > 1) {
@@ -227,8 +243,9 @@ std::string words_of_heat(Diagnosis const& diagnosis) {
                         by_speed.swing);
   }
   if (!diagnosis.left.empty())
-    text += fmt::format("Beside what stands in for it, still: {:.1f} W on average into {}.\n",
-                        mean_of(diagnosis.left[0]), diagnosis.left[0].site.body);
+    text +=
+        fmt::format("Beside what stands in for it, still: {:.1f} W on average into {}{}.\n", mean_of(diagnosis.left[0]),
+                    diagnosis.left[0].site.body, diagnosis.left[0].site.is_air() ? ", of the air" : "");
   return text + "\n";
 }
 

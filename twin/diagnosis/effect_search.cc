@@ -194,18 +194,15 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
 /// One per name: the best site speaks for the effect.
 Explanation EffectSearch::explanation_of(std::vector<Refit> const& refits) const {
   Explanation explanation;
-  double sum = 0.0;
+  auto& told = explanation.alternatives;
   for (auto const& refit : refits) {
-    double const behind = std::max(0.0, refits[0].strength - refit.strength);
-    if (behind > options_.indistinct || explanation.alternatives.size() == most_alternatives) break;
+    if (refits[0].strength - refit.strength > options_.indistinct || told.size() == most_alternatives) break;
     auto const same = [&](Finding const& f) { return f.hypothesis.effect == refit.hypothesis.effect; };
-    if (std::any_of(explanation.alternatives.begin(), explanation.alternatives.end(), same)) continue;
-    Finding finding{.hypothesis = refit.hypothesis, .strength = refit.strength, .weight = std::exp(-0.5 * behind)};
-    finding.take(refit.amplitude, refit.standard_error, geometry_);
-    sum += finding.weight;
-    explanation.alternatives.push_back(std::move(finding));
+    if (std::any_of(told.begin(), told.end(), same)) continue;
+    told.push_back({.hypothesis = refit.hypothesis, .strength = refit.strength});
+    told.back().take(refit.amplitude, refit.standard_error, geometry_);
   }
-  for (auto& finding : explanation.alternatives) finding.weight /= sum;
+  explanation.weigh();
   return explanation;
 }
 

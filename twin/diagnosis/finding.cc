@@ -8,6 +8,7 @@
 namespace thermotwin::twin {
 namespace {
 
+constexpr double credible = 0.95;
 constexpr double fit_share = 1.2, form_share = 0.1;
 constexpr double lump_limit = 0.1;     // Biot number
 constexpr double conductivity = 20.0;  // of a body of several parts [W/(m K)]
@@ -35,10 +36,21 @@ double Finding::high() const {
   return at_least ? most_of_largest * hypothesis.largest : amplitude + two_sided_95 * standard_error;
 }
 
+bool Finding::is_at_end() const { return std::abs(amplitude) > 0.999 * most_of_largest * hypothesis.largest; }
+
 std::string Finding::interval_text(std::string const& unit) const {
   if (at_least) return "or more, at least " + written_value(low(), unit, 2);
-  bool const at_end = std::abs(amplitude) > 0.999 * most_of_largest * hypothesis.largest;
-  return written_interval(standard_error, unit) + (at_end ? ", as much as is plausible here" : "");
+  return written_interval(standard_error, unit) + (is_at_end() ? ", as much as is plausible here" : "");
+}
+
+void Explanation::weigh() {
+  double sum = 0.0, held = 0.0;
+  for (auto& finding : alternatives)
+    sum += finding.weight = std::exp(0.5 * std::min(0.0, finding.strength - alternatives[0].strength));
+  std::size_t told = 0;
+  while (told < alternatives.size() && held < credible * sum) held += alternatives[told++].weight;
+  alternatives.resize(told);
+  for (auto& finding : alternatives) finding.weight /= held;
 }
 
 }  // namespace thermotwin::twin

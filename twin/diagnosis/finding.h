@@ -28,6 +28,8 @@ struct Finding {
   /// Ends of the 95 % interval [SI].
   [[nodiscard]] double low() const;
   [[nodiscard]] double high() const;
+  /// As much as is plausible: the fit would have more.
+  [[nodiscard]] bool is_at_end() const;
   /// "± 10 W/(m2 K)"; without an upper end "or more, at least 170 W/(m2 K)"; at the end of what is plausible with a
   /// word that it is.
   [[nodiscard]] std::string interval_text(std::string const& unit) const;
@@ -36,6 +38,10 @@ struct Finding {
 /// One thing that is missing: one effect, or several that the data cannot tell apart, best first.
 struct Explanation {
   std::vector<Finding> alternatives;
+
+  /// Weights by evidence, exp(strength/2), where none counts as stronger than the first; no more are kept than hold
+  /// what is missing with a probability of 95 %.
+  void weigh();
 };
 
 }  // namespace thermotwin::twin

@@ -8,12 +8,14 @@
 
 #include "thermal/threaded_product.h"
 #include "twin/diagnosis/regimes.h"
+#include "twin/diagnosis/warmer_air.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
 namespace {
 
 constexpr double first_deviations[] = {3.0, 30.0, 300.0};  // σ_0 [W]
+constexpr double of_air = 0.01;                            // of what heat may be [K/W]
 constexpr double jump_time = 60.0;                         // in which the heat may jump with an input [s]
 constexpr double jump_worth = 4 * 3600.0;                  // as much as it may change otherwise in so long [s]
 constexpr double half_a_day = 12 * 3600.0;                 // [s]
@@ -54,7 +56,7 @@ double mean(Eigen::VectorXd const& knots, Eigen::VectorXd const& values) {
   return 0.5 * steps.dot(values.head(n) + values.tail(n)) / steps.sum();
 }
 
-/// Sites as shares of one watt [K/s]: node × site.
+/// Sites as shares of one watt [K/s]: node × site. The air has none here.
 Eigen::MatrixXd shapes_of(Machine const& machine, std::vector<HeatSite> const& sites) {
   auto const& capacity = machine.network().capacity();
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(Eigen::Index(capacity.size()), Eigen::Index(sites.size()));
@@ -66,15 +68,26 @@ Eigen::MatrixXd shapes_of(Machine const& machine, std::vector<HeatSite> const& s
   return shapes;
 }
 
-/// Response of a run to the heat at the knots from `first` up to `end`: knot by knot, the sites of each.
-Eigen::MatrixXd response_to(LinearisedRun const& twin, Eigen::MatrixXd const& shapes, Eigen::VectorXd const& knots,
-                            Eigen::Index first, Eigen::Index end) {
+/// Response of a run to the heat at the knots from `first` up to `end`: knot by knot, the sites of each; `air`: the
+/// number of its site, or −1.
+Eigen::MatrixXd response_to(LinearisedRun const& twin, Eigen::MatrixXd const& shapes, Eigen::Index air,
+                            Eigen::VectorXd const& knots, Eigen::Index first, Eigen::Index end) {
   auto const sites = shapes.cols();
-  auto const forcing = [&](thermal::Evaluation&, double t, auto const&, auto const&, thermal::NodeByParameter& into) {
+  auto const& network = twin.machine().network();
+  auto const warmer = warmer_air(network);
+  thermal::ParameterColumns const of_air_alone(network, {&warmer});
+  thermal::NodeByParameter by_air;
+  auto const forcing = [&](thermal::Evaluation& evaluation, double t, auto const& state, auto const& input,
+                           thermal::NodeByParameter& into) {
     into.setZero(shapes.rows(), (end - first) * sites);
-    for (Eigen::Index k = first; k < end; ++k)
-      if (double const share = hat(knots, k, t); share > 0.0)
-        into.middleCols((k - first) * sites, sites) = share * shapes;
+    for (Eigen::Index k = first; k < end; ++k) {
+      double const share = hat(knots, k, t);
+      if (share <= 0.0) continue;
+      into.middleCols((k - first) * sites, sites) = share * shapes;
+      if (air < 0) continue;
+      of_air_alone.evaluate(evaluation, state.data(), input.data(), by_air);
+      into.col((k - first) * sites + air) = share * by_air.col(0);
+    }
   };
   auto const& steps = twin.data().steps;
   double const begin = knots[std::max<Eigen::Index>(first - 1, 0)];
@@ -111,12 +124,13 @@ double log_determinant(Eigen::LLT<Eigen::MatrixXd> const& factor) {
 
 FreeHeat estimate(HeatSite const& site, std::vector<Eigen::VectorXd> const& knots, Eigen::MatrixXd const& information,
                   Eigen::VectorXd const& towards) {
-  FreeHeat best{site, 0.0, -INFINITY, knots, {}, {}, {}};
+  FreeHeat best{site, 0.0, -INFINITY, knots, {}, {}, {}, {}};
+  double const unit = site.is_air() ? of_air : 1.0;
   Eigen::VectorXd heat;
   Eigen::VectorXd variance;
   for (double const first_deviation : first_deviations)
     for (double const intensity : intensities) {
-      Eigen::MatrixXd const prior = walk_precision(knots, first_deviation, intensity);
+      Eigen::MatrixXd const prior = walk_precision(knots, unit * first_deviation, unit * intensity);
       Eigen::LLT<Eigen::MatrixXd> const posterior(information + prior), before(prior);
       Eigen::VectorXd const q = posterior.solve(towards);
       double const gain = q.dot(towards) - log_determinant(posterior) + log_determinant(before);
@@ -140,6 +154,7 @@ FreeHeat estimate(HeatSite const& site, std::vector<Eigen::VectorXd> const& knot
 std::vector<Eigen::MatrixXd> columns_of(Estimation const& estimation, Machine const& machine,
                                         std::vector<HeatSite> const& sites, std::vector<Eigen::VectorXd> const& knots) {
   auto const shapes = shapes_of(machine, sites);
+  Eigen::Index const air = sites.back().is_air() ? shapes.cols() - 1 : -1;
   std::vector<std::optional<LinearisedRun>> twins(knots.size());
   std::vector<Eigen::MatrixXd> columns(knots.size());
   in_parallel(knots.size(), [&](std::size_t r) {
@@ -157,7 +172,7 @@ std::vector<Eigen::MatrixXd> columns_of(Estimation const& estimation, Machine co
       parts.push_back({r, k, std::min(k + knots_at_once, knots[r].size())});
   in_parallel(parts.size(), [&](std::size_t p) {
     auto const& [r, first, end] = parts[p];
-    Eigen::MatrixXd const response = response_to(*twins[r], shapes, knots[r], first, end);
+    Eigen::MatrixXd const response = response_to(*twins[r], shapes, air, knots[r], first, end);
     for (Eigen::Index k = first; k < end; ++k)
       for (Eigen::Index s = 0; s < shapes.cols(); ++s)
         columns[r].col(s * knots[r].size() + k) = response.col((k - first) * shapes.cols() + s);
@@ -166,7 +181,47 @@ std::vector<Eigen::MatrixXd> columns_of(Estimation const& estimation, Machine co
   return columns;
 }
 
+Eigen::VectorXd all_runs(std::vector<Eigen::VectorXd> const& courses) {
+  Eigen::VectorXd all(0);
+  for (auto const& course : courses) {
+    all.conservativeResize(all.size() + course.size());
+    all.tail(course.size()) = course;
+  }
+  return all;
+}
+
+/// By how much the air of each run differs from its record throughout is an unknown of its own.
+void add_steady_air(FreeHeat& air, Estimation const& estimation, Eigen::VectorXd const& x) {
+  for (std::size_t u = 0; u < estimation.unknowns().size(); ++u) {
+    auto const& unknown = estimation.unknowns()[u];
+    if (unknown.kind != Unknown::Kind::air) continue;
+    air.heat[std::size_t(unknown.run)].array() += x[Eigen::Index(u)];
+    air.mean[std::size_t(unknown.run)] += x[Eigen::Index(u)];
+  }
+}
+
+/// From kelvins of the air to what it brings into the body that takes up most of it.
+void tell_in_watts(FreeHeat& air, Machine const& machine, std::vector<BinnedRun> const& data) {
+  auto const warmer = warmer_air(machine.network());
+  for (auto const& run : data)
+    for (auto const& [body, heat] : LinearisedRun(machine, run).more_heat_per_unit(warmer))
+      air.per_kelvin[body] += heat.mean() / double(data.size());
+  auto const most = std::max_element(air.per_kelvin.begin(), air.per_kelvin.end(),
+                                     [](auto const& a, auto const& b) { return a.second < b.second; });
+  air.site.body = most->first;
+  air.intensity *= most->second;
+  for (auto* course : {&air.heat, &air.standard_error})
+    for (auto& of_run : *course) of_run *= most->second;
+  for (double& mean : air.mean) mean *= most->second;
+}
+
 }  // namespace
+
+std::map<std::string, double> FreeHeat::shares() const {
+  std::map<std::string, double> shares = {{site.body, 1.0}};
+  for (auto const& [body, conductance] : per_kelvin) shares[body] = conductance / per_kelvin.at(site.body);
+  return shares;
+}
 
 std::vector<HeatSite> heat_sites(Machine const& machine) {
   std::vector<HeatSite> sites;
@@ -178,6 +233,9 @@ std::vector<HeatSite> heat_sites(Machine const& machine) {
       sites.push_back({body.name, body.first_node + from, to - from});
     }
   }
+  auto const& warmer = warmer_air(machine.network()).boundary_offset;
+  if (std::any_of(warmer.begin(), warmer.end(), [](double offset) { return offset > 0.0; }))
+    sites.push_back({"", 0, 0});
   return sites;
 }
 
@@ -214,7 +272,10 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
     Eigen::MatrixXd const information = own - square(nuisance.matrixL().solve(with_unknowns));
     towards -= with_unknowns.transpose() * explained;
     scan[s] = estimate(sites[s], knots, information, towards);
+    if (sites[s].is_air())
+      add_steady_air(scan[s], estimation, fit.x + nuisance.solve(with_unknowns * all_runs(scan[s].heat)) - explained);
   });
+  if (scan.back().site.is_air()) tell_in_watts(scan.back(), machine, estimation.data());
   std::stable_sort(scan.begin(), scan.end(), [](auto const& a, auto const& b) { return a.gain > b.gain; });
   return scan;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,10 +10,12 @@
 
 namespace thermotwin::twin {
 
-/// Where heat that nobody knows may enter: a body, or a third of a bar, evenly over its capacity.
+/// Where heat that nobody knows may enter: a body, or a third of a bar, evenly over its capacity. Or all that the
+/// room's air meets, which is not as warm as its record: no nodes, and the body that takes up most.
 struct HeatSite {
   std::string body;
   int first_node = 0, nodes = 1;
+  [[nodiscard]] bool is_air() const { return nodes == 0; }
 };
 
 [[nodiscard]] std::vector<HeatSite> heat_sites(Machine const& machine);
@@ -22,7 +25,8 @@ struct HeatSite {
 ///
 ///   q_0 ~ N(0, σ_0²),  q_{k+1} − q_k ~ N(0, S² Δt),  Δt of a jump of the inputs: 4 h,
 ///
-/// on top of everything that the fit could still change by its own unknowns. σ_0 and S by evidence.
+/// on top of everything that the fit could still change by its own unknowns. σ_0 and S by evidence. Air walks likewise,
+/// its kelvins for 100 W.
 struct FreeHeat {
   HeatSite site;
   double intensity = 0.0;              ///< S [W/√s] that fits best
@@ -31,6 +35,10 @@ struct FreeHeat {
   std::vector<Eigen::VectorXd> heat;   ///< per run, at the knots [W]
   std::vector<Eigen::VectorXd> standard_error;
   std::vector<double> mean;  ///< per run [W]
+  /// Of the air: what every body takes up per kelvin, a mean over all runs [W/K].
+  std::map<std::string, double> per_kelvin;
+  /// Bodies that receive it, in shares of what the site's does.
+  [[nodiscard]] std::map<std::string, double> shares() const;
 };
 
 /// Every site as the place of such heat, best first, from one linearisation about a fit. Knots besides those at jumps:

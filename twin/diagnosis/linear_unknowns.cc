@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "twin/diagnosis/linearised_run.h"
+#include "twin/diagnosis/warmer_air.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -33,16 +34,6 @@ Unknown zero_unknown(MeasuredChannel const& channel, std::size_t index, std::siz
           .deviation = first == values.begin() ? zero_deviation : unread_zero,
           .index = index,
           .run = int(run)};
-}
-
-/// The room air, wherever the machine meets it, one kelvin warmer.
-thermal::NetworkDerivative warmer_air(thermal::Network const& network) {
-  thermal::NetworkDerivative d = thermal::lengthened({}, network);
-  auto const& names = network.channel_names();
-  for (std::size_t b = 0; b < network.boundaries().size(); ++b)
-    for (auto const& term : network.boundaries()[b].terms)
-      if (names[std::size_t(term.channel)] == "ambient.floor_temperature") d.boundary_offset[b] = 1.0;
-  return d;
 }
 
 /// Of the whole machine warmer by a kelvin at the start, and of warmer air.

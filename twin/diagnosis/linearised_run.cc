@@ -279,20 +279,41 @@ Eigen::MatrixXd LinearisedRun::response_to_earlier(std::vector<double> const& ju
   return response(unforced, Eigen::MatrixXd::Zero(nodes, count), leap, 0);
 }
 
-std::map<std::string, Eigen::VectorXd> LinearisedRun::more_heat_than(Machine const& other) const {
+/// Of rates where each step begins [K/s].
+std::map<std::string, Eigen::VectorXd> LinearisedRun::heat_of_bodies(
+    std::function<void(End const&, Eigen::VectorXd& rates)> const& rates_at) const {
   auto const& network = machine_->network();
-  thermal::Evaluation with(network), without(other.network());
-  std::vector<double> rate(std::size_t(network.nodes())), rate_without(rate.size());
+  Eigen::VectorXd rates(network.nodes());
   std::map<std::string, Eigen::VectorXd> heat;
   for (auto const& range : network.ranges()) heat[range.name].setZero(Eigen::Index(begins_.size()));
   for (std::size_t s = 0; s < begins_.size(); ++s) {
-    with.rate(begins_[s].state.data(), begins_[s].input.data(), rate.data());
-    without.rate(begins_[s].state.data(), begins_[s].input.data(), rate_without.data());
+    rates_at(begins_[s], rates);
     for (auto const& range : network.ranges())
-      for (auto i = std::size_t(range.first); i < std::size_t(range.first + range.count); ++i)
-        heat[range.name][Eigen::Index(s)] += network.capacity()[i] * (rate[i] - rate_without[i]);
+      for (int i = range.first; i < range.first + range.count; ++i)
+        heat[range.name][Eigen::Index(s)] += network.capacity()[std::size_t(i)] * rates[i];
   }
   return heat;
+}
+
+std::map<std::string, Eigen::VectorXd> LinearisedRun::more_heat_than(Machine const& other) const {
+  thermal::Evaluation with(machine_->network()), without(other.network());
+  Eigen::VectorXd rates_without(machine_->network().nodes());
+  return heat_of_bodies([&](End const& at, Eigen::VectorXd& rates) {
+    with.rate(at.state.data(), at.input.data(), rates.data());
+    without.rate(at.state.data(), at.input.data(), rates_without.data());
+    rates -= rates_without;
+  });
+}
+
+std::map<std::string, Eigen::VectorXd> LinearisedRun::more_heat_per_unit(
+    thermal::NetworkDerivative const& number) const {
+  thermal::Evaluation evaluation(machine_->network());
+  thermal::ParameterColumns const parameter(machine_->network(), {&number});
+  thermal::NodeByParameter column(machine_->network().nodes(), 1);
+  return heat_of_bodies([&](End const& at, Eigen::VectorXd& rates) {
+    parameter.evaluate(evaluation, at.state.data(), at.input.data(), column);
+    rates = column.col(0);
+  });
 }
 
 LinearisedRun::MeanHeat LinearisedRun::mean(Eigen::VectorXd const& heat) const {

@@ -58,6 +58,9 @@ class LinearisedRun {
   /// What every body receives more of in this machine than in another of the same nodes, at this machine's
   /// temperatures where each step begins: Σ C (dT/dt − dT/dt of the other) over the body's nodes [W].
   [[nodiscard]] std::map<std::string, Eigen::VectorXd> more_heat_than(Machine const& other) const;
+  /// What every body receives more of per unit of a number, likewise [W per unit].
+  [[nodiscard]] std::map<std::string, Eigen::VectorXd> more_heat_per_unit(
+      thermal::NetworkDerivative const& number) const;
   /// Mean heat [W], while the spindle or an axis moves and while all stands.
   struct MeanHeat {
     double moving = 0.0, standing = 0.0;
@@ -77,6 +80,8 @@ class LinearisedRun {
   struct Piece {
     double from = 0.0, to = 0.0, bend_from = 0.0, bend_to = 0.0;
   };
+  [[nodiscard]] std::map<std::string, Eigen::VectorXd> heat_of_bodies(
+      std::function<void(End const&, Eigen::VectorXd& rates)> const& rates_at) const;
   void trace();
   void bend(thermal::Evaluation& evaluation, End& begin, End& end) const;
   /// By which s jumps where a step begins; whether it does.

@@ -76,6 +76,11 @@ std::string sentence(Json const& diagnosis) {
   if (verdict == "nothing") return headline(Verdict::nothing, 0, disagrees(diagnosis));
   if (verdict == "sensor" && diagnosis.contains("sensor"))
     return fmt::format("The sensor {} is at fault, not the machine.", diagnosis["sensor"]["name"].get<std::string>());
+  if (verdict == "none_known" && diagnosis.contains("heat") && diagnosis["heat"].contains("watts_per_kelvin_of_air"))
+    return fmt::format(
+        "The air at the machine is not as warm as its record says, and none of the effects tried explains it: {} on "
+        "average into {}.",
+        watts_text(diagnosis["heat"]["watts"].get<double>()), diagnosis["heat"]["body"].get<std::string>());
   if (verdict == "none_known" && diagnosis.contains("heat"))
     return fmt::format("Heat of {} on average into {} is missing, and none of the effects tried explains it.",
                        watts_text(diagnosis["heat"]["watts"].get<double>()),

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "tests/thermal/function_course.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "thermal/integrate.h"
 #include "twin/diagnosis/channel_reading.h"
 #include "twin/diagnosis/prediction.h"
+#include "twin/diagnosis/warmer_air.h"
 #include "twin/sensitivity.h"
 
 namespace thermotwin::twin {
@@ -347,6 +349,26 @@ TEST(LinearisedRun, TellsWhichBodiesReceiveMoreHeatThanInAnotherMachine) {
   EXPECT_LT(twin.mean(more.at("front_ring")).moving, -1.0);
   EXPECT_NEAR((more.at("bed") + more.at("front_ring")).cwiseAbs().maxCoeff(), 0.0, 1e-9);
   EXPECT_NEAR(more.at("column_front").cwiseAbs().maxCoeff(), 0.0, 1e-9);
+}
+
+/// A millikelvin of the air at six in the morning, by the machine that has it.
+TEST(LinearisedRun, TellsWhatEveryBodyTakesUpPerKelvinOfTheAir) {
+  BinnedRun const binned = bin(measured(), 300.0);
+  Machine const warmer = Machine::build(tests::with_table(v450(), R"(
+    [[ambient_cycle]]
+    name = "more"
+    sine = "1 mK")"));
+  auto const per_kelvin = LinearisedRun(machine(), binned).more_heat_per_unit(warmer_air(machine().network()));
+  auto const more = LinearisedRun(warmer, binned).more_heat_than(machine());
+  double const eight = 8 * 3600.0;
+  for (std::size_t s = 0; s < binned.steps.size(); ++s) {
+    double const rise = 1e-3 * std::sin(2.0 * std::numbers::pi * (eight + binned.steps[s].begin) / 86400.0);
+    for (auto const& [body, heat] : per_kelvin)
+      EXPECT_NEAR(heat[Index(s)] * rise, more.at(body)[Index(s)], 3e-6 + 2e-3 * std::abs(more.at(body)[Index(s)]))
+          << body << " at " << binned.steps[s].begin << " s";
+  }
+  EXPECT_GT(per_kelvin.at("bed").minCoeff(), 1.0);
+  EXPECT_EQ(per_kelvin.at("front_ring").cwiseAbs().maxCoeff(), 0.0);  // within the spindle
 }
 
 /// Blocks that end 20 s earlier than the record tells, by a run of the machine.

@@ -1,0 +1,65 @@
+#include "twin/diagnosis/verdict.h"
+
+#include <algorithm>
+
+namespace thermotwin::twin {
+namespace {
+
+constexpr double most_of_a_fault = 2.0;  // noise that a sensor may leave whose fault is known, over what is expected
+
+bool errs(Diagnosis const& diagnosis, std::string const& channel) {
+  return std::any_of(diagnosis.noise_heard.begin(), diagnosis.noise_heard.end(),
+                     [&](auto const& heard) { return heard.first == channel && heard.second >= most_of_a_fault; });
+}
+
+bool stands_in(Diagnosis const& diagnosis) {
+  return std::any_of(diagnosis.explanations.begin(), diagnosis.explanations.end(), [&](auto const& explanation) {
+    auto const& best = explanation.alternatives[0];
+    if (best.is_at_end() && !best.at_least) return true;  // a film on a lump may be anything above
+    return best.hypothesis.is_about("sensor") && errs(diagnosis, best.hypothesis.body);
+  });
+}
+
+}  // namespace
+
+bool only_sensors(Diagnosis const& diagnosis) {
+  return std::all_of(diagnosis.explanations.begin(), diagnosis.explanations.end(),
+                     [](auto const& explanation) { return explanation.alternatives[0].hypothesis.is_about("sensor"); });
+}
+
+Diagnosis::Verdict verdict_on(Diagnosis const& diagnosis, bool heat_left) {
+  using Verdict = Diagnosis::Verdict;
+  auto const& found = diagnosis.explanations;
+  if (diagnosis.faulty_sensor && found.empty()) return Verdict::sensor;
+  if (heat_left || stands_in(diagnosis)) return Verdict::none_known;
+  if (found.empty()) return Verdict::nothing;
+  if (only_sensors(diagnosis)) return Verdict::sensor;
+  if (diagnosis.is_refuted()) return Verdict::none_known;
+  bool const single =
+      std::all_of(found.begin(), found.end(), [](auto const& one) { return one.alternatives.size() == 1; });
+  return single ? Verdict::effect : Verdict::either;
+}
+
+bool Diagnosis::is_refuted() const {
+  double evidence = vote.value_or(0.0);
+  for (auto const& explanation : explanations) evidence += explanation.alternatives[0].strength;
+  return evidence < 0.0;
+}
+
+std::string name_of(Diagnosis::Verdict verdict) {
+  switch (verdict) {
+    case Diagnosis::Verdict::nothing:
+      return "nothing";
+    case Diagnosis::Verdict::effect:
+      return "effect";
+    case Diagnosis::Verdict::either:
+      return "either";
+    case Diagnosis::Verdict::sensor:
+      return "sensor";
+    case Diagnosis::Verdict::none_known:
+      return "none_known";
+  }
+  return "";
+}
+
+}  // namespace thermotwin::twin
