@@ -198,8 +198,10 @@ std::string words_of_proposal(Diagnosis const& diagnosis) {
   auto const* proposal = proposal_of(diagnosis);
   if (!proposal) return "";
   auto const& best = diagnosis.proposals[0];
-  std::string text = fmt::format("Experiment that would tell them apart: {} ({:.0f} h), {:.1f} σ.", proposal->schedule,
-                                 proposal->hours, proposal->distance);
+  bool const tells = proposal->distance >= wanted_distance;
+  std::string text = fmt::format("Experiment that would {}tell them apart: {} ({:.0f} h), {:.1f} σ{}.",
+                                 tells ? "" : "best ", proposal->schedule, proposal->hours, proposal->distance,
+                                 tells ? "" : fmt::format(" of {:g} that are wanted", wanted_distance));
   if (!best.sensor.empty() && best.distance > 1.5 * proposal->distance)
     text += fmt::format(" With one more sensor on {}: {}, {:.1f} σ.", best.sensor, best.schedule, best.distance);
   return text + "\n\n";

@@ -8,7 +8,7 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double credible = 0.95;
+constexpr double credible = 0.975;
 constexpr double fit_share = 1.2, form_share = 0.1;
 constexpr double lump_limit = 0.1;     // Biot number
 constexpr double conductivity = 20.0;  // of a body of several parts [W/(m K)]

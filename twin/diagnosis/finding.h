@@ -40,7 +40,7 @@ struct Explanation {
   std::vector<Finding> alternatives;
 
   /// Weights by evidence, exp(strength/2), where none counts as stronger than the first; no more are kept than hold
-  /// what is missing with a probability of 95 %.
+  /// what is missing with a probability of 97.5 %.
   void weigh();
 };
 

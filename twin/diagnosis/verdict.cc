@@ -12,11 +12,16 @@ bool errs(Diagnosis const& diagnosis, std::string const& channel) {
                      [&](auto const& heard) { return heard.first == channel && heard.second >= most_of_a_fault; });
 }
 
+bool stands_in(Diagnosis const& diagnosis, Finding const& finding) {
+  if (finding.is_at_end() && !finding.at_least) return true;  // a film on a lump may be anything above
+  return finding.hypothesis.is_about("sensor") && errs(diagnosis, finding.hypothesis.body);
+}
+
+/// Whether all that may be one of the things does.
 bool stands_in(Diagnosis const& diagnosis) {
   return std::any_of(diagnosis.explanations.begin(), diagnosis.explanations.end(), [&](auto const& explanation) {
-    auto const& best = explanation.alternatives[0];
-    if (best.is_at_end() && !best.at_least) return true;  // a film on a lump may be anything above
-    return best.hypothesis.is_about("sensor") && errs(diagnosis, best.hypothesis.body);
+    auto const& all = explanation.alternatives;
+    return std::all_of(all.begin(), all.end(), [&](auto const& finding) { return stands_in(diagnosis, finding); });
   });
 }
 

@@ -44,7 +44,7 @@ TEST(Finding, OfAFilmThatALumpCannotShowHasNoUpperEnd) {
 
 /// 12 W/(m² K): of the room's size, to which a lump is one temperature.
 /// 1 : e^-1 : e^-2.5 : e^-4, which are 0.68, 0.25, 0.06 and 0.01 of all.
-TEST(Explanation, HoldsWhatIsMissingWithNineteenOfTwenty) {
+TEST(Explanation, HoldsWhatIsMissingWithThirtyNineOfForty) {
   Explanation explanation;
   for (double const strength : {40.0, 38.0, 35.0, 32.0}) {
     explanation.alternatives.push_back(half_of("heat", "bed"));
@@ -56,7 +56,7 @@ TEST(Explanation, HoldsWhatIsMissingWithNineteenOfTwenty) {
   EXPECT_NEAR(explanation.alternatives[0].weight, 1.0 / sum, 1e-12);
   EXPECT_NEAR(explanation.alternatives[2].weight, std::exp(-2.5) / sum, 1e-12);
   explanation.alternatives = {explanation.alternatives[0], explanation.alternatives[2]};
-  explanation.alternatives[1].strength = 33.0;  // 3 %
+  explanation.alternatives[1].strength = 32.5;  // 2.3 %
   explanation.weigh();
   ASSERT_EQ(explanation.alternatives.size(), 1);
   EXPECT_EQ(explanation.alternatives[0].weight, 1.0);

@@ -45,6 +45,8 @@ TEST(Verdict, IsEitherWhereOneHasTwoNames) {
 TEST(Verdict, IsNoneKnownWhereAFitWouldHaveMoreThanIsPlausible) {
   EXPECT_EQ(verdict_of({{{finding_of("heat", "motor", -1.25)}}}), "none_known");
   EXPECT_EQ(verdict_of({{{finding_of("heat", "motor", 1.2)}}}), "effect");
+  Explanation const one_of_two = {{finding_of("hot_neighbour", "motor", 1.25), heat.alternatives[0]}};
+  EXPECT_EQ(verdict_of({one_of_two}), "either");
   auto film = finding_of("flood_coolant", "motor", 1.25);
   EXPECT_EQ(verdict_of({{{film}}}), "none_known");
   film.at_least = true;
