@@ -85,6 +85,7 @@ TEST_P(Board, OfTwoCoupledNodesLacksTheLagOfItsThermistorAndNoRadiation) {
   ASSERT_TRUE(effects.contains("sensor_lag")) << found["effects"];
   EXPECT_NEAR(effects.at("sensor_lag"), 18.0, 6.0);
   EXPECT_EQ(found["effects"][0]["site"], "T1");
+  EXPECT_EQ(found["verdict"], "sensor");
   for (auto const* refused : {"radiation", "ambient_cycle"}) EXPECT_FALSE(effects.contains(refused)) << refused;
   EXPECT_LT(left(found["gap"]), 0.35);
 }

@@ -5,11 +5,21 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double most_of_a_fault = 2.0;  // noise that a sensor may leave whose fault is known, over what is expected
+constexpr double most_of_a_fault = 2.0;  // noise that a sensor may leave whose fault is known, over that of the others
 
+/// More noise, over what was expected, than the median of the other channels: where all err, the machine is rough.
 bool errs(Diagnosis const& diagnosis, std::string const& channel) {
-  return std::any_of(diagnosis.noise_heard.begin(), diagnosis.noise_heard.end(),
-                     [&](auto const& heard) { return heard.first == channel && heard.second >= most_of_a_fault; });
+  double own = 0.0;
+  std::vector<double> others;
+  for (auto const& [name, times] : diagnosis.noise_heard)
+    if (name == channel)
+      own = times;
+    else
+      others.push_back(times);
+  if (others.empty()) return false;
+  auto const middle = others.begin() + std::ptrdiff_t(others.size() / 2);
+  std::nth_element(others.begin(), middle, others.end());
+  return own >= most_of_a_fault * *middle;
 }
 
 bool stands_in(Diagnosis const& diagnosis, Finding const& finding) {

@@ -58,10 +58,12 @@ TEST(Verdict, IsASensorOnlyIfItsFaultIsAllThatItErrsBy) {
   EXPECT_EQ(verdict_of({contact, heat}), "effect");
   Diagnosis diagnosis;
   diagnosis.explanations = {contact};
-  diagnosis.noise_heard = {{"T6", 4.0}, {"T7", 1.5}};
+  diagnosis.noise_heard = {{"T6", 4.0}, {"T7", 1.5}, {"T8", 1.0}, {"T9", 1.0}};
   EXPECT_EQ(name_of(verdict_on(diagnosis, false)), "sensor");
   diagnosis.noise_heard[1].second = 2.0;
   EXPECT_EQ(name_of(verdict_on(diagnosis, false)), "none_known");
+  diagnosis.noise_heard = {{"T6", 8.0}, {"T7", 8.0}};  // a rough machine
+  EXPECT_EQ(name_of(verdict_on(diagnosis, false)), "sensor");
 }
 
 TEST(Verdict, IsRefutedByRunsHeldOutThatOutweighTheOthers) {
