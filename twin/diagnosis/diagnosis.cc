@@ -85,11 +85,10 @@ Diagnosis Diagnostician::operator()() {
     d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
   d.verdict = verdict_on(d, is_heat_left());
   if (d.verdict == Diagnosis::Verdict::none_known) {
-    if (is_heat_left())
-      d.unknown_heat = unknown_heat();
-    else if (auto const body = first_warmed())
+    bool const scanned = !d.scan.empty() && d.scan[0].gain > search_.evident_beside();
+    if (auto const body = first_warmed(); body && !is_heat_left())
       d.unknown_heat = heat_of_effects(amended, d.amended, *body);
-    else if (!d.scan.empty() && d.scan[0].gain > search_.evident_beside())
+    else if (is_heat_left() || scanned)
       d.unknown_heat = unknown_heat();
     if (d.unknown_heat) d.unknown_heat_by_speed = heat_by_speed(*d.unknown_heat, runs_);
   }
