@@ -108,6 +108,7 @@ export interface FreeHeat {
   body: string;
   watts: number;
   gain: number;
+  watts_per_kelvin_of_air?: Record<string, number>;
   runs: {time_s: number[]; watts: number[]; standard_error: number[]}[];
 }
 
