@@ -80,13 +80,14 @@ Eigen::MatrixXd response_to(LinearisedRun const& twin, Eigen::MatrixXd const& sh
   auto const forcing = [&](thermal::Evaluation& evaluation, double t, auto const& state, auto const& input,
                            thermal::NodeByParameter& into) {
     into.setZero(shapes.rows(), (end - first) * sites);
+    bool evaluated = air < 0;  // of the air, once for the two knots between which t lies
     for (Eigen::Index k = first; k < end; ++k) {
       double const share = hat(knots, k, t);
       if (share <= 0.0) continue;
       into.middleCols((k - first) * sites, sites) = share * shapes;
-      if (air < 0) continue;
-      of_air_alone.evaluate(evaluation, state.data(), input.data(), by_air);
-      into.col((k - first) * sites + air) = share * by_air.col(0);
+      if (!evaluated) of_air_alone.evaluate(evaluation, state.data(), input.data(), by_air);
+      evaluated = true;
+      if (air >= 0) into.col((k - first) * sites + air) = share * by_air.col(0);
     }
   };
   auto const& steps = twin.data().steps;
