@@ -45,7 +45,7 @@ using CampaignValues = std::variant<std::vector<float>, std::vector<double>, std
 struct CampaignPart {
   std::int64_t first = 0, count = 0;
   std::vector<CampaignValues> values;                          ///< per variable, run by run
-  std::vector<std::pair<std::int64_t, std::string>> failures;  ///< run, and why it failed
+  std::map<std::int64_t, std::string> failures;  ///< run, and why it failed
 };
 
 /// A part as an HDF5 file: `/run` (numbers of the runs) and the layout's axes as dimension scales, the variables over
@@ -53,7 +53,7 @@ struct CampaignPart {
 void write_part(CampaignLayout const& layout, CampaignPart const& part, std::filesystem::path const& path);
 
 /// Runs that failed, and why; thermal::InputError when the file is no part.
-[[nodiscard]] std::vector<std::pair<std::int64_t, std::string>> read_failures(std::filesystem::path const& part);
+[[nodiscard]] std::map<std::int64_t, std::string> read_failures(std::filesystem::path const& part);
 
 /// Some runs of a part, read back.
 struct CampaignRuns {

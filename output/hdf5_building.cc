@@ -9,6 +9,7 @@ namespace {
 
 constexpr hsize_t values_per_chunk = 16'384;
 constexpr unsigned deflate_level = 4;
+constexpr std::size_t superblock_version = 8, old_status = 20, status = 11;  // bytes; HDF5 file format 3.0, II.A
 
 /// Rows in a chunk: about `values_per_chunk` values; not more than 1024, so that short runs stay small.
 hsize_t rows_per_chunk(Shape const& shape) {
@@ -114,19 +115,23 @@ Handle make_file_in_memory() {
   auto const access = properties(H5P_FILE_ACCESS);
   constexpr std::size_t growth = 1 << 20;
   H5Pset_fapl_core(access, growth, false);
+  H5Pset_sieve_buf_size(access, 0);  // nothing to be gathered before it goes to memory
   auto const how = properties(H5P_FILE_CREATE);
   H5Pset_obj_track_times(how, false);
   H5Pset_link_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   return {H5Fcreate("in memory", H5F_ACC_TRUNC, how, access), H5Fclose, "file"};
 }
 
-std::string image_of(Id file) {
+std::string_view image_of(Id file) {
   expect(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush");
   ssize_t const size = H5Fget_file_image(file, nullptr, 0);
   if (size < 0) fail("size");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file, bytes.data(), bytes.size()) != size) fail("bytes");
-  return bytes;
+  void* where = nullptr;  // of the pointer to the bytes
+  expect(H5Fget_vfd_handle(file, H5P_DEFAULT, &where), "bytes");
+  char* const bytes = *static_cast<char**>(where);
+  bool const old = bytes[superblock_version] < 2;
+  bytes[old ? old_status : status] = 0;  // that it is being written, as H5Fget_file_image does
+  return {bytes, static_cast<std::size_t>(size)};
 }
 
 }  // namespace thermotwin::output::hdf5

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "output/hdf5_handle.h"
@@ -50,7 +51,7 @@ Handle write_axis(Id group, std::string const& name, std::vector<std::string> co
 void attach(Id variable, std::vector<Id> const& axes);
 
 Handle make_file_in_memory();
-/// The bytes that the file in memory would have on the disk.
-std::string image_of(Id file);
+/// The bytes that the file in memory would have on the disk, while it lives and is not changed.
+std::string_view image_of(Id file);
 
 }  // namespace thermotwin::output::hdf5

@@ -99,8 +99,8 @@ void write_failures(hid_t file, CampaignPart const& part) {
   hdf5::store(of_reason, text, reasons.data());
 }
 
-std::string part_image(CampaignLayout const& layout, CampaignPart const& part) {
-  auto const file = hdf5::make_file_in_memory();
+Handle part_in_memory(CampaignLayout const& layout, CampaignPart const& part) {
+  auto file = hdf5::make_file_in_memory();
   CampaignFrame frame(file, layout);
   std::vector<std::int64_t> numbers(static_cast<std::size_t>(part.count));
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = part.first + static_cast<std::int64_t>(i);
@@ -117,7 +117,7 @@ std::string part_image(CampaignLayout const& layout, CampaignPart const& part) {
     frame.attach(made, variable.axes);
   }
   write_failures(file, part);
-  return hdf5::image_of(file);
+  return file;
 }
 
 /// A variable of this shape whose rows are those of the parts, one after another.
@@ -150,10 +150,10 @@ void write_texts(hid_t file, std::map<std::string, std::string> const& texts) {
   }
 }
 
-std::string index_image(CampaignLayout const& layout, std::vector<CampaignPartFile> const& parts) {
+Handle index_in_memory(CampaignLayout const& layout, std::vector<CampaignPartFile> const& parts) {
   std::int64_t runs = 0;
   for (auto const& part : parts) runs += part.count;
-  auto const file = hdf5::make_file_in_memory();
+  auto file = hdf5::make_file_in_memory();
   CampaignFrame frame(file, layout);
   CampaignVariable const run{Kind::whole, "run", "1", "number of the run", {}};
   frame.set_run_scale(make_virtual(file, "run", "/run", H5T_STD_I64LE, {extent(runs)}, parts, run));
@@ -164,13 +164,14 @@ std::string index_image(CampaignLayout const& layout, std::vector<CampaignPartFi
     frame.attach(made, variable.axes);
   }
   write_texts(file, layout.provenance);
-  return hdf5::image_of(file);
+  return file;
 }
 
-template <class Image>
-std::string image_or_error(std::filesystem::path const& path, Image image) try {
+template <class File>
+void write(std::filesystem::path const& path, File const& file_in_memory) try {
   hdf5::Silence const silence;
-  return image();
+  auto const file = file_in_memory();
+  write_atomically(path, hdf5::image_of(file));
 } catch (hdf5::Failure const& failure) {
   throw OutputError(fmt::format("'{}' cannot be made: {}", path.string(), failure.what()));
 }
@@ -192,22 +193,22 @@ std::size_t CampaignLayout::size(CampaignVariable const& variable) const {
 }
 
 void write_part(CampaignLayout const& layout, CampaignPart const& part, std::filesystem::path const& path) {
-  write_atomically(path, image_or_error(path, [&] { return part_image(layout, part); }));
+  write(path, [&] { return part_in_memory(layout, part); });
 }
 
 void write_index(CampaignLayout const& layout, std::vector<CampaignPartFile> const& parts,
                  std::filesystem::path const& path) {
-  write_atomically(path, image_or_error(path, [&] { return index_image(layout, parts); }));
+  write(path, [&] { return index_in_memory(layout, parts); });
 }
 
-std::vector<std::pair<std::int64_t, std::string>> read_failures(std::filesystem::path const& part) try {
+std::map<std::int64_t, std::string> read_failures(std::filesystem::path const& part) try {
   hdf5::Silence const silence;
   Handle const file(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open");
   Handle const runs(H5Dopen2(file, "/failures/run", H5P_DEFAULT), H5Dclose, "failures");
   Handle const reasons(H5Dopen2(file, "/failures/reason", H5P_DEFAULT), H5Dclose, "failures");
   Handle const space(H5Dget_space(runs), H5Sclose, "failures");
   auto const count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
-  std::vector<std::pair<std::int64_t, std::string>> failures(count);
+  std::map<std::int64_t, std::string> failures;
   if (count == 0) return failures;
   std::vector<std::int64_t> numbers(count);
   std::vector<char*> texts(count);
@@ -215,7 +216,7 @@ std::vector<std::pair<std::int64_t, std::string>> read_failures(std::filesystem:
   expect(H5Dread(runs, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), "runs");
   expect(H5Dread(reasons, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), "reasons");
   for (std::size_t i = 0; i < count; ++i) {
-    failures[i] = {numbers[i], texts[i]};
+    failures[numbers[i]] = texts[i];
     H5free_memory(texts[i]);
   }
   return failures;

@@ -115,7 +115,7 @@ std::string to_hdf5(Dataset const& dataset) try {
   write_channels(file, "heat", dataset.heat, time);
   write_nodes(file, dataset, time);
   write_provenance(file, dataset.provenance);
-  return hdf5::image_of(file);
+  return std::string(hdf5::image_of(file));
 } catch (hdf5::Failure const& failure) {
   throw OutputError(fmt::format("data set '{}' cannot be made into HDF5: {}", dataset.title, failure.what()));
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "scenarios/course.h"
 #include "thermal/error.h"
@@ -19,7 +20,8 @@ namespace {
 using Kind = output::CampaignVariable::Kind;
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t figures = 4;  // first, last, lowest, highest
+constexpr std::size_t figures = 4;                  // first, last, lowest, highest
+constexpr std::size_t rows_of_run = 2, failed = 3;  // variables of a part
 
 std::vector<std::string> names_of(std::vector<output::Channel> const& channels) {
   std::vector<std::string> names;
@@ -197,34 +199,43 @@ std::vector<float> CampaignForm::kept(ReducedResult const& result) const {
   return numbers;
 }
 
-output::CampaignPart CampaignForm::part(std::vector<CampaignResult> const& results) const {
-  output::CampaignPart part;
-  part.first = results.front().number;
-  part.count = std::int64_t(results.size());
-  std::vector<std::int64_t> experiment, seed, rows, failed;
-  std::vector<std::vector<double>> parameters(campaign_.grid.size() + campaign_.samples.size());
-  for (auto const& result : results) {
-    auto const run = campaign_.run(result.number);
-    experiment.push_back(std::int64_t(run.experiment));
-    seed.push_back(run.seed);
-    rows.push_back(result.rows);
-    failed.push_back(result.failure.empty() ? 0 : 1);
-    for (std::size_t p = 0; p < parameters.size(); ++p) parameters[p].push_back(run.positions[p]);
-    if (!result.failure.empty()) part.failures.emplace_back(result.number, result.failure);
+output::CampaignPart CampaignForm::part(std::int64_t first, std::int64_t count) const {
+  output::CampaignPart part{first, count, {}, {}};
+  auto const runs = std::size_t(count);
+  std::vector<std::int64_t> experiment(runs), seed(runs);
+  std::vector<std::vector<double>> parameters(campaign_.grid.size() + campaign_.samples.size(),
+                                              std::vector<double>(runs));
+  for (std::size_t r = 0; r < runs; ++r) {
+    auto const run = campaign_.run(first + std::int64_t(r));
+    experiment[r] = std::int64_t(run.experiment);
+    seed[r] = run.seed;
+    for (std::size_t p = 0; p < parameters.size(); ++p) parameters[p][r] = run.positions[p];
   }
-  part.values = {experiment, seed, rows, failed};
+  std::vector<std::int64_t> const none(runs, 0);
+  part.values = {std::move(experiment), std::move(seed), none, none};
   for (auto& values : parameters) part.values.emplace_back(std::move(values));
-  std::size_t from = 0;
-  for (std::size_t v = first_kept_; v < layout_.variables.size(); ++v) {
-    std::size_t const size = layout_.size(layout_.variables[v]);
-    std::vector<float> values(size * results.size(), missing);
-    for (std::size_t r = 0; r < results.size(); ++r)
-      if (!results[r].numbers.empty())
-        std::copy_n(results[r].numbers.begin() + std::ptrdiff_t(from), size, values.begin() + std::ptrdiff_t(r * size));
-    from += size;
-    part.values.emplace_back(std::move(values));
-  }
+  for (std::size_t v = first_kept_; v < layout_.variables.size(); ++v)
+    part.values.emplace_back(std::vector<float>(layout_.size(layout_.variables[v]) * runs));
   return part;
+}
+
+void CampaignForm::put(CampaignResult const& result, output::CampaignPart& part) const {
+  auto const r = std::size_t(result.number - part.first);
+  std::get<std::vector<std::int64_t>>(part.values[rows_of_run])[r] = result.rows;
+  bool const has_failed = !result.failure.empty();
+  if (has_failed) {
+    std::get<std::vector<std::int64_t>>(part.values[failed])[r] = 1;
+    part.failures.emplace(result.number, result.failure);
+  }
+  auto from = result.numbers.begin();
+  for (std::size_t v = first_kept_; v < layout_.variables.size(); ++v) {
+    auto const size = std::ptrdiff_t(layout_.size(layout_.variables[v]));
+    auto const place = std::get<std::vector<float>>(part.values[v]).begin() + std::ptrdiff_t(r) * size;
+    if (has_failed)
+      std::fill_n(place, size, missing);
+    else
+      std::copy_n(std::exchange(from, from + size), size, place);
+  }
 }
 
 }  // namespace thermotwin::twin

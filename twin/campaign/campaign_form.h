@@ -36,8 +36,9 @@ class CampaignForm {
   [[nodiscard]] std::vector<float> kept(output::Dataset const& dataset) const;
   /// The same of a reduced run, and its bounds.
   [[nodiscard]] std::vector<float> kept(ReducedResult const& result) const;
-  /// All results of a part, in order.
-  [[nodiscard]] output::CampaignPart part(std::vector<CampaignResult> const& results) const;
+  /// A part that lacks all its results.
+  [[nodiscard]] output::CampaignPart part(std::int64_t first, std::int64_t count) const;
+  void put(CampaignResult const& result, output::CampaignPart& part) const;
 
  private:
   void add_axes(Machine const& machine);

@@ -11,20 +11,28 @@ namespace thermotwin::twin {
 namespace fs = std::filesystem;
 
 struct CampaignParts::Part {
-  Part(fs::path const& journal, std::int64_t number, std::int64_t first, std::int64_t size)
-      : number(number), first(first), journal(journal), results(std::size_t(size)), missing(size) {
+  Part(fs::path const& journal, CampaignForm const& form, std::int64_t number, std::int64_t first, std::int64_t size)
+      : number(number),
+        form(form),
+        journal(journal),
+        results(form.part(first, size)),
+        is_there(std::size_t(size)),
+        missing(size) {
     for (auto const& record : this->journal.take_records()) keep(CampaignResult::from_bytes(record));
   }
 
-  void keep(CampaignResult result) {
-    auto& place = results[std::size_t(result.number - first)];
-    if (!place) --missing;
-    place = std::move(result);
+  void keep(CampaignResult const& result) {
+    form.put(result, results);
+    auto&& there = is_there[std::size_t(result.number - results.first)];
+    if (!there) --missing;
+    there = true;
   }
 
-  std::int64_t number, first;
+  std::int64_t number;
+  CampaignForm const& form;
   output::Journal journal;
-  std::vector<std::optional<CampaignResult>> results;
+  output::CampaignPart results;
+  std::vector<bool> is_there;
   std::int64_t missing;
   std::size_t given = 0;  ///< results up to here are there or in work
 };
@@ -59,8 +67,8 @@ bool CampaignParts::open_next() {
       done_ += size(next_part_);
       continue;
     }
-    auto part = std::make_unique<Part>(journal, next_part_, first_run(next_part_), size(next_part_));
-    done_ += std::int64_t(part->results.size()) - part->missing;
+    auto part = std::make_unique<Part>(journal, form_, next_part_, first_run(next_part_), size(next_part_));
+    done_ += part->results.count - part->missing;
     if (part->missing == 0) {  // whoever made it was killed before its file was there
       output::remove_leftovers(file);
       close(*part);
@@ -77,13 +85,13 @@ std::optional<std::int64_t> CampaignParts::next() {
   std::lock_guard const lock(mutex_);
   for (;;) {
     if (current_)
-      for (auto& given = current_->given; given < current_->results.size();)
-        if (auto const at = given++; !current_->results[at]) return current_->first + std::int64_t(at);
+      for (auto& given = current_->given; given < current_->is_there.size();)
+        if (auto const at = given++; !current_->is_there[at]) return current_->results.first + std::int64_t(at);
     if (!open_next()) return std::nullopt;
   }
 }
 
-void CampaignParts::put(CampaignResult result) {
+void CampaignParts::put(CampaignResult const& result) {
   std::unique_ptr<Part> whole;
   {
     std::string const record = result.to_bytes();
@@ -91,7 +99,7 @@ void CampaignParts::put(CampaignResult result) {
     auto const place = open_.find(result.number / campaign_.runs_per_part());
     auto& part = *place->second;
     part.journal.append(record);
-    part.keep(std::move(result));
+    part.keep(result);
     ++done_;
     if (part.missing > 0) return;
     if (current_ == &part) current_ = nullptr;
@@ -102,10 +110,8 @@ void CampaignParts::put(CampaignResult result) {
 }
 
 void CampaignParts::close(Part& part) {
-  std::vector<CampaignResult> results;
-  for (auto& result : part.results) results.push_back(std::move(*result));
   std::lock_guard const lock(writing_);
-  output::write_part(form_.layout(), form_.part(results), folder_ / part_file(part.number));
+  output::write_part(form_.layout(), part.results, folder_ / part_file(part.number));
   part.journal.remove();
 }
 

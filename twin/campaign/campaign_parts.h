@@ -28,7 +28,7 @@ class CampaignParts {
 
   /// The next run that nobody has; none when all are given out.
   [[nodiscard]] std::optional<std::int64_t> next();
-  void put(CampaignResult result);
+  void put(CampaignResult const& result);
 
   /// Of this process' share: runs in all, and how many are in files or journals by now.
   [[nodiscard]] std::int64_t runs() const { return runs_; }

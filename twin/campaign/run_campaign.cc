@@ -205,9 +205,9 @@ CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& opt
         auto const number = parts.next();
         if (!number) break;
         auto const begin = Clock::now();
-        auto result = make(*number);
+        auto const result = make(*number);
         in_runs += seconds_since(begin);
-        parts.put(std::move(result));
+        parts.put(result);
         ++made;
         if (options.progress && omp_get_thread_num() == 0)
           options.progress(double(parts.done()) / double(parts.runs()));

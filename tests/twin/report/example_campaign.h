@@ -27,7 +27,7 @@ inline void put_part(std::filesystem::path const& path, std::int64_t first, std:
   for (auto run = first; run < first + count; ++run) {
     squares.push_back(double(run * run));
     bool const failed = one_failed && run == first;
-    if (failed) part.failures.emplace_back(run, "too fast");
+    if (failed) part.failures.emplace(run, "too fast");
     for (int t = 0; t < 3; ++t) {
       readings.push_back(failed ? std::nanf("") : float(run + 10 * t));
       for (int c = 0; c < 2; ++c) displacements.push_back(float(100 * c + run));
