@@ -53,25 +53,25 @@ Json json_of(Finding const& finding, std::size_t group) {
           {"strength", finding.strength}};
 }
 
-/// Over the time of all runs [W].
-double mean_of(FreeHeat const& heat) {
-  double sum = 0.0, time = 0.0;
-  for (std::size_t r = 0; r < heat.mean.size(); ++r) {
-    double const span = heat.knots[r][heat.knots[r].size() - 1] - heat.knots[r][0];
-    sum += heat.mean[r] * span;
-    time += span;
-  }
-  return sum / time;
+/// "40.0 ± 6.1 W", with the half of its 95 % interval.
+std::string words_of(Watts const& watts) {
+  return fmt::format("{:.1f} ± {:.1f} W", watts.mean, two_sided_95 * watts.standard_error);
 }
 
 Json json_of(FreeHeat const& heat) {
   Json runs = Json::array();
-  for (std::size_t r = 0; r < heat.mean.size(); ++r)
-    runs.push_back(
-        {{"time_s", std::vector<double>(heat.knots[r].begin(), heat.knots[r].end())},
-         {"watts", std::vector<double>(heat.heat[r].begin(), heat.heat[r].end())},
-         {"standard_error", std::vector<double>(heat.standard_error[r].begin(), heat.standard_error[r].end())}});
-  Json json = {{"body", heat.site.body}, {"watts", mean_of(heat)}, {"gain", heat.gain}, {"runs", runs}};
+  for (std::size_t r = 0; r < heat.mean.size(); ++r) {
+    auto const error = heat.standard_error(r);
+    runs.push_back({{"time_s", std::vector<double>(heat.knots[r].begin(), heat.knots[r].end())},
+                    {"watts", std::vector<double>(heat.heat[r].begin(), heat.heat[r].end())},
+                    {"standard_error", std::vector<double>(error.begin(), error.end())}});
+  }
+  auto const mean = heat.mean_of_all();
+  Json json = {{"body", heat.site.body},
+               {"watts", mean.mean},
+               {"standard_error", mean.standard_error},
+               {"gain", heat.gain},
+               {"runs", runs}};
   if (heat.site.is_air()) json["watts_per_kelvin_of_air"] = heat.per_kelvin;
   return json;
 }
@@ -232,22 +232,22 @@ std::string words_of_air(FreeHeat const& air) {
 std::string words_of_heat(Diagnosis const& diagnosis) {
   if (!diagnosis.unknown_heat) return "";
   auto const& all = *diagnosis.unknown_heat;
-  std::string text = fmt::format("{}: {:.1f} W on average into {}.\n",
+  std::string text = fmt::format("{}: {} on average into {}.\n",
                                  all.site.is_air() ? words_of_air(all)
                                  : all.gain > 0.0  ? "Were it one heat of free course"
                                                    : "What stands in for it brings",
-                                 mean_of(all), all.site.body);
+                                 words_of(all.mean_of_all()), all.site.body);
   auto const& by_speed = diagnosis.unknown_heat_by_speed;
   if (by_speed.mean.size() > 1) {
     std::vector<std::string> parts;
-    for (auto const& [name, watts] : by_speed.mean) parts.push_back(fmt::format("{} {:.1f} W", name, watts));
+    for (auto const& [name, watts] : by_speed.mean) parts.push_back(name + ' ' + words_of(watts));
     text += fmt::format("By speed: {}; about these it swings by {:.1f} W (root mean square).\n", fmt::join(parts, ", "),
                         by_speed.swing);
   }
   if (!diagnosis.left.empty())
-    text +=
-        fmt::format("Beside what stands in for it, still: {:.1f} W on average into {}{}.\n", mean_of(diagnosis.left[0]),
-                    diagnosis.left[0].site.body, diagnosis.left[0].site.is_air() ? ", of the air" : "");
+    text += fmt::format("Beside what stands in for it, still: {} on average into {}{}.\n",
+                        words_of(diagnosis.left[0].mean_of_all()), diagnosis.left[0].site.body,
+                        diagnosis.left[0].site.is_air() ? ", of the air" : "");
   return text + "\n";
 }
 
@@ -328,7 +328,8 @@ std::string report_json(DiagnosisReport const& report) {
   if (diagnosis.unknown_heat) {
     json["heat"] = json_of(*diagnosis.unknown_heat);
     for (auto const& [name, watts] : diagnosis.unknown_heat_by_speed.mean)
-      json["heat"]["by_speed"].push_back({{"part", name}, {"watts", watts}});
+      json["heat"]["by_speed"].push_back(
+          {{"part", name}, {"watts", watts.mean}, {"standard_error", watts.standard_error}});
     json["heat"]["swing"] = diagnosis.unknown_heat_by_speed.swing;
   }
   if (diagnosis.verdict == Diagnosis::Verdict::sensor)

@@ -9,7 +9,6 @@ namespace thermotwin::twin {
 namespace {
 
 constexpr double credible = 0.975;
-constexpr double fit_share = 1.2, form_share = 0.1;
 constexpr double lump_limit = 0.1;     // Biot number
 constexpr double conductivity = 20.0;  // of a body of several parts [W/(m K)]
 
@@ -22,10 +21,15 @@ double strongest_film(std::string const& body, thermal::Geometry const& geometry
 
 }  // namespace
 
+double whole_error(double of_fit, double estimate) {
+  constexpr double fit_share = 1.2, form_share = 0.1;
+  return std::hypot(fit_share * of_fit, form_share * estimate);
+}
+
 void Finding::take(double of_largest, double error, thermal::Geometry const& geometry) {
   double const unit = hypothesis.largest;
   amplitude = of_largest * unit;
-  standard_error = std::hypot(fit_share * error, form_share * of_largest) * unit;
+  standard_error = whole_error(error, of_largest) * unit;
   at_least = hypothesis.dimension() == thermal::dimension::film_coefficient &&
              amplitude > strongest_film(hypothesis.body, geometry);
 }

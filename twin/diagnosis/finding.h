@@ -8,6 +8,10 @@
 
 namespace thermotwin::twin {
 
+/// Standard error of an estimate, from the one that the fit states: 1.2 of that, and a tenth of the estimate, which is
+/// what a machine of some ten nodes gets wrong by its form, however clear the data are (docs/diagnosis.md).
+[[nodiscard]] double whole_error(double of_fit, double estimate);
+
 /// An effect at a site as fitted.
 struct Finding {
   Hypothesis hypothesis;
@@ -19,10 +23,9 @@ struct Finding {
   double strength = 0.0;  ///< 2 ln of the evidence against a machine without it
   double weight = 0.0;    ///< among its alternatives
 
-  /// Takes an amplitude of the fit and its standard error there, in units of its largest. To that error comes a
-  /// tenth of the amplitude: what a machine of some ten nodes gets wrong by its form, however clear the data are
-  /// (docs/diagnosis.md). Beyond a Biot number h L/k of 0.1, with L = V^(1/3)/6 as of a cube and k = 20 W/(m K) as of a
-  /// body of several parts, a lump is none (Incropera, Fundamentals of Heat and Mass Transfer, 5.2).
+  /// Takes an amplitude of the fit and its standard error there, in units of its largest. Beyond a Biot number h L/k of
+  /// 0.1, with L = V^(1/3)/6 as of a cube and k = 20 W/(m K) as of a body of several parts, a lump is none (Incropera,
+  /// Fundamentals of Heat and Mass Transfer, 5.2).
   void take(double of_largest, double error, thermal::Geometry const& geometry);
 
   /// Ends of the 95 % interval [SI].

@@ -1,12 +1,15 @@
 #include "twin/diagnosis/free_heat.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "thermal/threaded_product.h"
+#include "twin/diagnosis/finding.h"
 #include "twin/diagnosis/regimes.h"
 #include "twin/diagnosis/warmer_air.h"
 #include "twin/parallel.h"
@@ -49,11 +52,19 @@ double hat(Eigen::VectorXd const& knots, Eigen::Index k, double t) {
   return 1.0;
 }
 
-/// Mean over time of straight lines between knots.
-double mean(Eigen::VectorXd const& knots, Eigen::VectorXd const& values) {
+/// Of straight lines between knots the integral over time is this, times the values there [s].
+Eigen::VectorXd weights_of(Eigen::VectorXd const& knots) {
   auto const n = knots.size() - 1;
   Eigen::VectorXd const steps = knots.tail(n) - knots.head(n);
-  return 0.5 * steps.dot(values.head(n) + values.tail(n)) / steps.sum();
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(n + 1);
+  weights.head(n) += 0.5 * steps;
+  weights.tail(n) += 0.5 * steps;
+  return weights;
+}
+
+/// Mean over time of straight lines between knots.
+double mean(Eigen::VectorXd const& knots, Eigen::VectorXd const& values) {
+  return weights_of(knots).dot(values) / (knots[knots.size() - 1] - knots[0]);
 }
 
 /// Sites as shares of one watt [K/s]: node × site. The air has none here.
@@ -126,9 +137,9 @@ double log_determinant(Eigen::LLT<Eigen::MatrixXd> const& factor) {
 FreeHeat estimate(HeatSite const& site, std::vector<Eigen::VectorXd> const& knots, Eigen::MatrixXd const& information,
                   Eigen::VectorXd const& towards) {
   FreeHeat best{site, 0.0, -INFINITY, knots, {}, {}, {}, {}};
+  auto const size = information.rows();
   double const unit = site.is_air() ? of_air : 1.0;
   Eigen::VectorXd heat;
-  Eigen::VectorXd variance;
   for (double const first_deviation : first_deviations)
     for (double const intensity : intensities) {
       Eigen::MatrixXd const prior = walk_precision(knots, unit * first_deviation, unit * intensity);
@@ -139,12 +150,11 @@ FreeHeat estimate(HeatSite const& site, std::vector<Eigen::VectorXd> const& knot
       best.gain = gain;
       best.intensity = intensity;
       heat = q;
-      variance = posterior.solve(Eigen::MatrixXd::Identity(prior.rows(), prior.rows())).diagonal();
+      best.spread = posterior.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
     }
   Eigen::Index at = 0;
   for (auto const& k : knots) {
     best.heat.emplace_back(heat.segment(at, k.size()));
-    best.standard_error.emplace_back(variance.segment(at, k.size()).cwiseSqrt());
     best.mean.push_back(mean(k, heat.segment(at, k.size())));
     at += k.size();
   }
@@ -191,13 +201,35 @@ Eigen::VectorXd all_runs(std::vector<Eigen::VectorXd> const& courses) {
   return all;
 }
 
-/// By how much the air of each run differs from its record throughout is an unknown of its own.
-void add_steady_air(FreeHeat& air, Estimation const& estimation, Eigen::VectorXd const& x) {
+/// A mean of the heat, by the weights of all knots.
+Watts watts(FreeHeat const& heat, Eigen::VectorXd const& weights) {
+  double const mean = weights.dot(all_runs(heat.heat));
+  return {mean, whole_error((heat.spread.transpose() * weights).norm(), mean)};
+}
+
+/// By how much the air of each run differs from its record throughout is an unknown of its own. `nuisance`: what data
+/// and priors know of the unknowns but for the walk, `shared` with it.
+void add_steady_air(FreeHeat& air, Estimation const& estimation, Eigen::VectorXd const& without_walk,
+                    Eigen::LLT<Eigen::MatrixXd> const& nuisance, Eigen::MatrixXd const& shared) {
+  Eigen::VectorXd const x = without_walk + nuisance.solve(shared * all_runs(air.heat));
+  Eigen::MatrixXd const follows = nuisance.solve(shared * air.spread);
+  auto const knots = air.spread.rows(), parts = air.spread.cols(), unknowns = x.size();
+  air.spread.conservativeResize(knots, parts + unknowns);
+  air.spread.rightCols(unknowns).setZero();
+  Eigen::Index at = 0;
+  std::vector<Eigen::Index> first;
+  for (auto const& k : air.knots) first.push_back(std::exchange(at, at + k.size()));
   for (std::size_t u = 0; u < estimation.unknowns().size(); ++u) {
     auto const& unknown = estimation.unknowns()[u];
     if (unknown.kind != Unknown::Kind::air) continue;
-    air.heat[std::size_t(unknown.run)].array() += x[Eigen::Index(u)];
-    air.mean[std::size_t(unknown.run)] += x[Eigen::Index(u)];
+    auto const r = std::size_t(unknown.run);
+    auto const i = Eigen::Index(u), count = air.knots[r].size();
+    air.heat[r].array() += x[i];
+    air.mean[r] += x[i];
+    auto spread = air.spread.middleRows(first[r], count);
+    spread.leftCols(parts).rowwise() += follows.row(i);
+    spread.rightCols(unknowns).rowwise() +=
+        nuisance.matrixL().solve(Eigen::VectorXd::Unit(unknowns, i)).transpose().eval();
   }
 }
 
@@ -211,8 +243,8 @@ void tell_in_watts(FreeHeat& air, Machine const& machine, std::vector<BinnedRun>
                                      [](auto const& a, auto const& b) { return a.second < b.second; });
   air.site.body = most->first;
   air.intensity *= most->second;
-  for (auto* course : {&air.heat, &air.standard_error})
-    for (auto& of_run : *course) of_run *= most->second;
+  air.spread *= most->second;
+  for (auto& of_run : air.heat) of_run *= most->second;
   for (double& mean : air.mean) mean *= most->second;
 }
 
@@ -222,6 +254,19 @@ std::map<std::string, double> FreeHeat::shares() const {
   std::map<std::string, double> shares = {{site.body, 1.0}};
   for (auto const& [body, conductance] : per_kelvin) shares[body] = conductance / per_kelvin.at(site.body);
   return shares;
+}
+
+Eigen::VectorXd FreeHeat::standard_error(std::size_t run) const {
+  Eigen::Index first = 0;
+  for (std::size_t r = 0; r < run; ++r) first += knots[r].size();
+  return spread.middleRows(first, knots[run].size()).rowwise().norm();
+}
+
+Watts FreeHeat::mean_of_all() const {
+  std::vector<Eigen::VectorXd> weights;
+  for (auto const& k : knots) weights.push_back(weights_of(k));
+  Eigen::VectorXd const all = all_runs(weights) / all_runs(weights).sum();
+  return watts(*this, all);
 }
 
 std::vector<HeatSite> heat_sites(Machine const& machine) {
@@ -273,8 +318,7 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
     Eigen::MatrixXd const information = own - square(nuisance.matrixL().solve(with_unknowns));
     towards -= with_unknowns.transpose() * explained;
     scan[s] = estimate(sites[s], knots, information, towards);
-    if (sites[s].is_air())
-      add_steady_air(scan[s], estimation, fit.x + nuisance.solve(with_unknowns * all_runs(scan[s].heat)) - explained);
+    if (sites[s].is_air()) add_steady_air(scan[s], estimation, fit.x - explained, nuisance, with_unknowns);
   });
   if (scan.back().site.is_air()) tell_in_watts(scan.back(), machine, estimation.data());
   std::stable_sort(scan.begin(), scan.end(), [](auto const& a, auto const& b) { return a.gain > b.gain; });
@@ -291,6 +335,8 @@ FreeHeat heat_of_effects(Estimation const& amended, Fit const& fit, std::string 
     x[x.size() - effects + e] = as_good_as_none;
     lacking_one.push_back(amended.machine_at(x));
   }
+  Eigen::MatrixXd const root =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(fit.covariance.bottomRightCorner(effects, effects)).operatorSqrt();
   FreeHeat all;
   all.site.body = body;
   for (auto const& run : amended.data()) {
@@ -307,44 +353,43 @@ FreeHeat heat_of_effects(Estimation const& amended, Fit const& fit, std::string 
     Eigen::MatrixXd const per_unit = each * amplitudes.cwiseInverse().asDiagonal();
     all.knots.push_back(knots);
     all.heat.emplace_back(each.rowwise().sum());
-    all.standard_error.emplace_back((per_unit * fit.covariance.bottomRightCorner(effects, effects))
-                                        .cwiseProduct(per_unit)
-                                        .rowwise()
-                                        .sum()
-                                        .cwiseMax(0.0)
-                                        .cwiseSqrt());
+    all.spread.conservativeResize(all.spread.rows() + knots.size(), effects);
+    all.spread.bottomRows(knots.size()) = per_unit * root;
     all.mean.push_back(mean(knots, all.heat.back()));
   }
   return all;
 }
 
 HeatBySpeed heat_by_speed(FreeHeat const& heat, std::vector<BinnedRun> const& data) {
-  struct Sum {
-    double count = 0.0, first = 0.0, second = 0.0;
-  };
   std::vector<std::string> names;
-  std::map<std::string, Sum> sums;
+  std::map<std::string, Eigen::VectorXd> weights;  // of the knots in the sum over the rows of a regime
+  std::map<std::string, double> rows, squares;
+  Eigen::Index first = 0;
   for (std::size_t r = 0; r < data.size(); ++r) {
     auto const regimes = speed_regimes(*data[r].run, data[r].time);
+    auto const& knots = heat.knots[r];
     for (Eigen::Index i = 0; i < data[r].time.size(); ++i) {
-      double q = 0.0;
-      for (Eigen::Index k = 0; k < heat.knots[r].size(); ++k)
-        q += heat.heat[r][k] * hat(heat.knots[r], k, data[r].time[i]);
       auto const& name = regimes.names.empty() ? std::string() : regimes.names[regimes.of_row[std::size_t(i)]];
-      if (!sums.contains(name)) names.push_back(name);
-      auto& sum = sums[name];
-      sum.count += 1.0;
-      sum.first += q;
-      sum.second += q * q;
+      auto const [weight, is_new] = weights.try_emplace(name, Eigen::VectorXd::Zero(heat.spread.rows()));
+      if (is_new) names.push_back(name);
+      double q = 0.0;
+      for (Eigen::Index k = 0; k < knots.size(); ++k) {
+        double const share = hat(knots, k, data[r].time[i]);
+        q += share * heat.heat[r][k];
+        weight->second[first + k] += share;
+      }
+      rows[name] += 1.0;
+      squares[name] += q * q;
     }
+    first += knots.size();
   }
   HeatBySpeed result;
   double count = 0.0, square = 0.0;
   for (auto const& name : names) {
-    auto const& sum = sums[name];
-    result.mean.emplace_back(name, sum.first / sum.count);
-    count += sum.count;
-    square += sum.second - sum.first * sum.first / sum.count;
+    Eigen::VectorXd const weight = weights[name] / rows[name];
+    result.mean.emplace_back(name, watts(heat, weight));
+    count += rows[name];
+    square += squares[name] - rows[name] * std::pow(result.mean.back().second.mean, 2);
   }
   result.swing = std::sqrt(std::max(0.0, square) / count);
   return result;

@@ -20,6 +20,11 @@ struct HeatSite {
 
 [[nodiscard]] std::vector<HeatSite> heat_sites(Machine const& machine);
 
+/// A mean and its whole_error() [W].
+struct Watts {
+  double mean = 0.0, standard_error = 0.0;
+};
+
 /// Heat of unknown course into one site (physics.md 8.3): straight lines between knots, a random walk from knot to
 /// knot,
 ///
@@ -33,12 +38,17 @@ struct FreeHeat {
   double gain = 0.0;                   ///< 2 ln of the evidence against no such heat
   std::vector<Eigen::VectorXd> knots;  ///< per run [s]
   std::vector<Eigen::VectorXd> heat;   ///< per run, at the knots [W]
-  std::vector<Eigen::VectorXd> standard_error;
+  /// What is not known of it, as a sum of independent parts of deviation 1: (knots of all runs) × part [W].
+  Eigen::MatrixXd spread;
   std::vector<double> mean;  ///< per run [W]
   /// Of the air: what every body takes up per kelvin, a mean over all runs [W/K].
   std::map<std::string, double> per_kelvin;
   /// Bodies that receive it, in shares of what the site's does.
   [[nodiscard]] std::map<std::string, double> shares() const;
+  /// Of the heat at the knots of one run [W].
+  [[nodiscard]] Eigen::VectorXd standard_error(std::size_t run) const;
+  /// Over the time of all runs.
+  [[nodiscard]] Watts mean_of_all() const;
 };
 
 /// Every site as the place of such heat, best first, from one linearisation about a fit. Knots besides those at jumps:
@@ -50,8 +60,8 @@ struct FreeHeat {
 
 /// Such heat at each speed of the spindle, and how far it is from that otherwise.
 struct HeatBySpeed {
-  std::vector<std::pair<std::string, double>> mean;  ///< regimes.h, speed_regimes; over all runs [W]
-  double swing = 0.0;                                ///< root mean square about these means [W]
+  std::vector<std::pair<std::string, Watts>> mean;  ///< regimes.h, speed_regimes; over all runs
+  double swing = 0.0;                               ///< root mean square about these means [W]
 };
 [[nodiscard]] HeatBySpeed heat_by_speed(FreeHeat const& heat, std::vector<BinnedRun> const& data);
 

@@ -56,17 +56,17 @@ TEST(DiagnosisReport, WeighsHeatByTheTimeOfAllRuns) {
   heat.mean = {100.0, 20.0};
   for (double const hours : {1.0, 3.0}) heat.knots.push_back(Eigen::VectorXd::LinSpaced(2, 0.0, 3600.0 * hours));
   for (double const watts : heat.mean) heat.heat.push_back(Eigen::VectorXd::Constant(2, watts));
-  heat.standard_error = heat.heat;
+  heat.spread = Eigen::Vector4d::Constant(2.0);
   auto report = heat_in_the_bed();
   report.diagnosis.verdict = Diagnosis::Verdict::none_known;
   report.diagnosis.unknown_heat = heat;
   report.diagnosis.left = {heat};
   std::string const text = report_text(report);
-  EXPECT_THAT(text, HasSubstr("Were it one heat of free course: 40.0 W on average into motor."));
-  EXPECT_THAT(text, HasSubstr("still: 40.0 W on average into motor."));
+  EXPECT_THAT(text, HasSubstr("Were it one heat of free course: 40.0 ± 9.1 W on average into motor."));
+  EXPECT_THAT(text, HasSubstr("still: 40.0 ± 9.1 W on average into motor."));
   EXPECT_DOUBLE_EQ(nlohmann::json::parse(report_json(report))["heat"]["watts"], 40.0);
   report.diagnosis.unknown_heat->gain = 0.0;  // of effects
-  EXPECT_THAT(report_text(report), HasSubstr("What stands in for it brings: 40.0 W on average into motor."));
+  EXPECT_THAT(report_text(report), HasSubstr("What stands in for it brings: 40.0 ± 9.1 W on average into motor."));
 }
 
 }  // namespace

@@ -181,7 +181,7 @@ TEST(FreeHeat, OfTwoEffectsIsWhatTheyBringTogether) {
   auto const fit = estimation.fit(estimation.prior_mean());
   auto const heat = heat_of_effects(estimation, fit, "motor");
   auto const [moving, standing] = mean_heat(heat, 0, asked.data[0]);
-  double const error = heat.standard_error[0].maxCoeff();
+  double const error = heat.standard_error(0).maxCoeff();
   EXPECT_NEAR(moving, 100.0, 3.0 * error);
   EXPECT_NEAR(standing, 60.0, 3.0 * error);
   EXPECT_NEAR(heat.mean[0], moving - (moving - standing) * 50.0 / 240.0, 2.0);  // 50 min of 4 h it stands
@@ -198,14 +198,38 @@ TEST(FreeHeat, IsToldBySpeed) {
   FreeHeat rising;
   rising.knots = {Eigen::Vector3d(0.0, 7200.0, 14400.0)};
   rising.heat = {Eigen::Vector3d(0.0, 2.0, 4.0)};
+  rising.spread = Eigen::Vector3d(0.0, 0.5, 1.0);  // known to a quarter, at all times the same
   auto const [mean, swing] = heat_by_speed(rising, data);
-  std::map<std::string, double> const means(mean.begin(), mean.end());
-  EXPECT_NEAR(means.at("5000 rpm"), 40.0 / 60.0, 0.02);
-  EXPECT_NEAR(means.at("2500 rpm"), 105.0 / 60.0, 0.02);
-  EXPECT_NEAR(means.at("idle"), 155.0 / 60.0, 0.02);
-  EXPECT_NEAR(means.at("4000 rpm"), 210.0 / 60.0, 0.02);
+  std::map<std::string, Watts> const means(mean.begin(), mean.end());
+  EXPECT_NEAR(means.at("5000 rpm").mean, 40.0 / 60.0, 0.02);
+  EXPECT_NEAR(means.at("2500 rpm").mean, 105.0 / 60.0, 0.02);
+  EXPECT_NEAR(means.at("idle").mean, 155.0 / 60.0, 0.02);
+  EXPECT_NEAR(means.at("4000 rpm").mean, 210.0 / 60.0, 0.02);
   double const square = (std::pow(80.0, 3) + 2.0 * std::pow(50.0, 3) + std::pow(60.0, 3)) / (12.0 * 240.0 * 3600.0);
   EXPECT_NEAR(swing, std::sqrt(square), 0.02 * std::sqrt(square));
+  for (auto const& [name, watts] : means)
+    EXPECT_NEAR(watts.standard_error, std::hypot(1.2 * 0.25, 0.1) * watts.mean, 1e-12) << name;
+}
+
+/// Three hours of 30 W and one of 90 W that are known to 4 W each: to √(3² + 1²) W in the mean of these weights, to 4 W
+/// if both err by the same, by no more than 2 W if what one lacks the other has.
+TEST(FreeHeat, HasAMeanThatIsKnownAsWellAsItsRunsTogether) {
+  FreeHeat heat;
+  heat.knots = {Eigen::Vector2d(0.0, 10800.0), Eigen::Vector2d(0.0, 3600.0)};
+  heat.heat = {Eigen::Vector2d(20.0, 40.0), Eigen::Vector2d(90.0, 90.0)};
+  auto const error_for = [&](Eigen::MatrixXd const& spread) {
+    heat.spread = spread;
+    EXPECT_DOUBLE_EQ(heat.standard_error(0)[0], 4.0);
+    EXPECT_DOUBLE_EQ(heat.standard_error(1)[1], 4.0);
+    return heat.mean_of_all().standard_error;
+  };
+  auto const whole = [](double of_fit) { return std::hypot(1.2 * of_fit, 4.5); };  // finding.h
+  Eigen::MatrixXd each = Eigen::MatrixXd::Zero(4, 2);
+  each << 4.0, 0.0, 4.0, 0.0, 0.0, 4.0, 0.0, 4.0;
+  EXPECT_DOUBLE_EQ(error_for(each), whole(std::sqrt(10.0)));
+  EXPECT_DOUBLE_EQ(error_for(Eigen::Vector4d(4.0, 4.0, 4.0, 4.0)), whole(4.0));
+  EXPECT_DOUBLE_EQ(error_for(Eigen::Vector4d(4.0, 4.0, -4.0, -4.0)), whole(2.0));
+  EXPECT_DOUBLE_EQ(heat.mean_of_all().mean, 45.0);
 }
 
 }  // namespace
