@@ -44,7 +44,7 @@ using CampaignValues = std::variant<std::vector<float>, std::vector<double>, std
 /// Runs that follow one another, with all their numbers.
 struct CampaignPart {
   std::int64_t first = 0, count = 0;
-  std::vector<CampaignValues> values;                          ///< per variable, run by run
+  std::vector<CampaignValues> values;            ///< per variable, run by run
   std::map<std::int64_t, std::string> failures;  ///< run, and why it failed
 };
 
