@@ -60,8 +60,13 @@ std::string missing_things(Json const& effects) {
   return fmt::format("{}", fmt::join(things, "; and "));
 }
 
-/// "−4.2 W", with a minus and no hyphen.
-std::string watts_text(double watts) { return fmt::format("{}{:.1f} W", watts < 0.0 ? "−" : "", std::abs(watts)); }
+/// "−4.2 ± 8.5 W", with a minus and no hyphen, and half of the 95 % interval.
+std::string watts_text(Json const& heat) {
+  auto const watts = heat["watts"].get<double>();
+  double const half = two_sided_95 * heat.value("standard_error", 0.0);  // not told by earlier versions
+  return fmt::format("{}{:.1f}{} W", watts < 0.0 ? "−" : "", std::abs(watts),
+                     half > 0.0 ? fmt::format(" ± {:.1f}", half) : "");
+}
 
 bool disagrees(Json const& diagnosis) {
   if (!diagnosis.contains("disagreement")) return false;
@@ -80,11 +85,10 @@ std::string sentence(Json const& diagnosis) {
     return fmt::format(
         "The air at the machine is not as warm as its record says, and none of the effects tried explains it: {} on "
         "average into {}.",
-        watts_text(diagnosis["heat"]["watts"].get<double>()), diagnosis["heat"]["body"].get<std::string>());
+        watts_text(diagnosis["heat"]), diagnosis["heat"]["body"].get<std::string>());
   if (verdict == "none_known" && diagnosis.contains("heat"))
     return fmt::format("Heat of {} on average into {} is missing, and none of the effects tried explains it.",
-                       watts_text(diagnosis["heat"]["watts"].get<double>()),
-                       diagnosis["heat"]["body"].get<std::string>());
+                       watts_text(diagnosis["heat"]), diagnosis["heat"]["body"].get<std::string>());
   if (effects.empty()) return headline(Verdict::none_known, 0, true);
   if (verdict == "none_known")
     return fmt::format("{} {}.", headline(Verdict::none_known, effects.size(), true), missing_things(effects));

@@ -107,7 +107,7 @@ export interface Finding {
 export interface FreeHeat {
   body: string;
   watts: number;
-  standard_error: number;
+  standard_error?: number;
   gain: number;
   watts_per_kelvin_of_air?: Record<string, number>;
   runs: {time_s: number[]; watts: number[]; standard_error: number[]}[];

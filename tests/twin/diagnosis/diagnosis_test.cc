@@ -148,6 +148,11 @@ TEST(Diagnosis, KnowsNoneWhereTheRoomIsNotWhatItsRecordSays) {
   Eigen::VectorXd const found = air.heat[0] / per_kelvin;
   double const error = std::sqrt((found - truth).squaredNorm() / double(knots.size()));
   EXPECT_LT(error, 0.4);
+  Eigen::VectorXd const in_errors = ((found - truth) * per_kelvin).cwiseQuotient(air.standard_error(0));
+  EXPECT_LT(in_errors.squaredNorm() / double(knots.size()), 4.0);
+  auto const [mean, mean_error] = air.mean_of_all();  // of a whole day
+  EXPECT_LT(std::abs(mean), 2.0 * mean_error);
+  EXPECT_LT(mean_error, 0.3 * per_kelvin);
   DiagnosisReport report;
   report.diagnosis = diagnosis;
   EXPECT_THAT(report_text(report), testing::HasSubstr("the air at the machine"));

@@ -156,6 +156,9 @@ TEST(FreeHeat, IsFoundAboutTheNumbersOfTheFile) {
   auto const best = scan_for_free_heat(estimation, estimation.fit(estimation.prior_mean(), 0)).front();
   EXPECT_EQ(best.site.body, "motor");
   EXPECT_NEAR(best.mean[0], 150.0, 30.0);
+  auto const [mean, error] = best.mean_of_all();
+  EXPECT_NEAR(mean, 150.0, 2.0 * error);
+  EXPECT_LT(error, 30.0);
 }
 
 /// 60 W while the machine is on and 40 W more while the spindle turns: what both bring, as surely as both are known.

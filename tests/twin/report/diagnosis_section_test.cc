@@ -38,10 +38,12 @@ TEST(DiagnosisSection, WritesAMinusForHeatThatIsTaken) {
 
 TEST(DiagnosisSection, NamesTheAirWhereAllBodiesTakePart) {
   Json const diagnosis = Json::parse(R"({"verdict": "none_known", "effects": [],
-    "heat": {"body": "bed", "watts": 12.1, "runs": [], "watts_per_kelvin_of_air": {"bed": 14.0, "motor": 3.0}}})");
-  EXPECT_EQ(diagnosis_json(diagnosis, "room")["sentence"],
-            "The air at the machine is not as warm as its record says, and none of the effects tried explains it: 12.1 "
-            "W on average into bed.");
+    "heat": {"body": "bed", "watts": 12.1, "standard_error": 3.5, "runs": [],
+             "watts_per_kelvin_of_air": {"bed": 14.0, "motor": 3.0}}})");
+  EXPECT_EQ(
+      diagnosis_json(diagnosis, "room")["sentence"],
+      "The air at the machine is not as warm as its record says, and none of the effects tried explains it: 12.1 ± "
+      "6.9 W on average into bed.");
 }
 
 }  // namespace

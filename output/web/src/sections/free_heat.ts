@@ -9,7 +9,7 @@ const two_sided_95 = 1.96;
 /** Heat of unknown course into a body, run by run, with the band in which 95 % of it lies. */
 export function freeHeatPanel(title: string, file: string, bodies: FreeHeat[], state: PageState): HTMLElement {
   const host = make('div', {}), buttons = bodies.map((heat, i) => make('button', {class: 'chip', onclick: () => show(i)},
-    `${heat.body.replaceAll('_', ' ')}${heat.watts_per_kelvin_of_air ? ', of the air' : ''}, ${valueText(heat.watts, 'W')} ± ${valueText(two_sided_95 * heat.standard_error, 'W')} W on average`));
+    `${heat.body.replaceAll('_', ' ')}${heat.watts_per_kelvin_of_air ? ', of the air' : ''}, ${meanText(heat)} W on average`));
 
   function show(chosen: number): void {
     buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(i === chosen)));
@@ -24,6 +24,11 @@ export function freeHeatPanel(title: string, file: string, bodies: FreeHeat[], s
     {name: 'standard_error_W', values: rows.map((x) => x.error)},
   ], make('div', {class: 'chips'}, ...buttons), host,
   make('p', {class: 'words'}, 'Shaded: where the heat lies with 95 % probability.'));
+}
+
+/** "−1.8 ± 8.5", with half of the 95 % interval. */
+function meanText({watts, standard_error}: FreeHeat): string {
+  return valueText(watts, 'W') + (standard_error === undefined ? '' : ` ± ${valueText(two_sided_95 * standard_error, 'W')}`);
 }
 
 function courseOf(run: FreeHeat['runs'][number], name: string, state: PageState): HTMLElement {
