@@ -51,7 +51,9 @@ int fail(int code, std::string_view message) {
 }
 
 /// Ends the program with 2 when there is a mistake in one of the files.
-void print_checks(std::vector<std::filesystem::path> const& files) {
+void print_checks(std::vector<std::string> const& names) {
+  std::vector<std::filesystem::path> files;
+  for (auto const& name : names) files.push_back(file_to_check(name));
   auto const checks = check_files(files);
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (auto const& warning : checks[i].warnings) fmt::print("warning: {}\n", warning);
@@ -98,8 +100,11 @@ void add_other_commands(CLI::App& app) {
 
   auto* check_command =
       app.add_subcommand("check", "look for mistakes in the files that the program reads, of whatever kind");
-  auto files = std::make_shared<std::vector<std::filesystem::path>>();
-  check_command->add_option("files", *files, "files; an experiment is checked together with a machine among them")
+  auto files = std::make_shared<std::vector<std::string>>();
+  check_command
+      ->add_option("files", *files,
+                   "files, or names of what comes with the program; an experiment is checked together with a machine "
+                   "among them")
       ->required();
   check_command->callback([files] { print_checks(*files); });
 

@@ -283,6 +283,15 @@ std::vector<FileCheck> FileChecker::operator()() {
 
 }  // namespace
 
+std::filesystem::path file_to_check(std::string const& name_or_path) {
+  for (auto const& file_of : {machine_file, experiment_file, study_file, campaign_file}) try {
+      return file_of(name_or_path);
+    } catch (thermal::InputError const&) {
+      continue;  // no name of this kind
+    }
+  return name_or_path;
+}
+
 std::vector<FileCheck> check_files(std::vector<std::filesystem::path> const& files) { return FileChecker(files)(); }
 
 }  // namespace thermotwin::twin

@@ -13,6 +13,10 @@ struct FileCheck {
   std::string mistake;                ///< with its place; empty: none
 };
 
+/// A path, or the name of a machine, an experiment, a study or a campaign that comes with the program; what is neither
+/// comes back as it is.
+[[nodiscard]] std::filesystem::path file_to_check(std::string const& name_or_path);
+
 /// Whatever the program reads, known by its keys: machines, experiments (`duration`), error models (`predicts`),
 /// studies (`world`), campaigns (`experiments`), candidates of a placement (`site`), measurement files (`table`), and
 /// tables and data sets of runs by their suffix. An experiment is looked at together with the machine among the files

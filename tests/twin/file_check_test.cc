@@ -50,6 +50,16 @@ TEST(FileCheck, FindsNothingInWhatIsShipped) {
   }
 }
 
+TEST(FileCheck, KnowsTheNamesOfWhatIsShipped) {
+  fs::path const source = THERMOTWIN_SOURCE_DIR;
+  EXPECT_EQ(file_to_check("v450"), source / "twin/machines/v450.toml");
+  EXPECT_EQ(file_to_check("golden_b_4000"), source / "scenarios/catalogue/golden_b_4000.toml");
+  EXPECT_EQ(file_to_check("paper_004"), source / "scenarios/studies/paper_004.toml");
+  EXPECT_EQ(file_to_check("v450_small"), source / "scenarios/campaigns/v450_small.toml");
+  for (std::string const path : {"v450.toml", "some/v450", "v45"}) EXPECT_EQ(file_to_check(path), path);
+  EXPECT_THAT(check_files({file_to_check("v45")})[0].mistake, HasSubstr("v45: there is no such file"));
+}
+
 TEST(FileCheck, WarnsOfWhatIsNotPlausible) {
   TemporaryDirectory const folder;
   auto text = contents(machine_file("v450"));
