@@ -60,7 +60,7 @@ std::string words_of(Watts const& watts) {
 
 Json json_of(FreeHeat const& heat) {
   Json runs = Json::array();
-  for (std::size_t r = 0; r < heat.mean.size(); ++r) {
+  for (std::size_t r = 0; r < heat.heat.size(); ++r) {
     auto const error = heat.standard_error(r);
     runs.push_back({{"time_s", std::vector<double>(heat.knots[r].begin(), heat.knots[r].end())},
                     {"watts", std::vector<double>(heat.heat[r].begin(), heat.heat[r].end())},

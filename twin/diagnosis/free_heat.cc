@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
-#include <utility>
 
 #include "thermal/threaded_product.h"
 #include "twin/diagnosis/finding.h"
@@ -62,9 +62,10 @@ Eigen::VectorXd weights_of(Eigen::VectorXd const& knots) {
   return weights;
 }
 
-/// Mean over time of straight lines between knots.
-double mean(Eigen::VectorXd const& knots, Eigen::VectorXd const& values) {
-  return weights_of(knots).dot(values) / (knots[knots.size() - 1] - knots[0]);
+/// Where a run's knots begin among those of all runs.
+Eigen::Index first_knot(std::vector<Eigen::VectorXd> const& knots, std::size_t run) {
+  return std::accumulate(knots.begin(), knots.begin() + std::ptrdiff_t(run), Eigen::Index(0),
+                         [](Eigen::Index count, auto const& k) { return count + k.size(); });
 }
 
 /// Sites as shares of one watt [K/s]: node × site. The air has none here.
@@ -136,7 +137,7 @@ double log_determinant(Eigen::LLT<Eigen::MatrixXd> const& factor) {
 
 FreeHeat estimate(HeatSite const& site, std::vector<Eigen::VectorXd> const& knots, Eigen::MatrixXd const& information,
                   Eigen::VectorXd const& towards) {
-  FreeHeat best{site, 0.0, -INFINITY, knots, {}, {}, {}, {}};
+  FreeHeat best{site, 0.0, -INFINITY, knots, {}, {}, {}};
   auto const size = information.rows();
   double const unit = site.is_air() ? of_air : 1.0;
   Eigen::VectorXd heat;
@@ -155,7 +156,6 @@ FreeHeat estimate(HeatSite const& site, std::vector<Eigen::VectorXd> const& knot
   Eigen::Index at = 0;
   for (auto const& k : knots) {
     best.heat.emplace_back(heat.segment(at, k.size()));
-    best.mean.push_back(mean(k, heat.segment(at, k.size())));
     at += k.size();
   }
   return best;
@@ -216,17 +216,13 @@ void add_steady_air(FreeHeat& air, Estimation const& estimation, Eigen::VectorXd
   auto const knots = air.spread.rows(), parts = air.spread.cols(), unknowns = x.size();
   air.spread.conservativeResize(knots, parts + unknowns);
   air.spread.rightCols(unknowns).setZero();
-  Eigen::Index at = 0;
-  std::vector<Eigen::Index> first;
-  for (auto const& k : air.knots) first.push_back(std::exchange(at, at + k.size()));
   for (std::size_t u = 0; u < estimation.unknowns().size(); ++u) {
     auto const& unknown = estimation.unknowns()[u];
     if (unknown.kind != Unknown::Kind::air) continue;
     auto const r = std::size_t(unknown.run);
-    auto const i = Eigen::Index(u), count = air.knots[r].size();
+    auto const i = Eigen::Index(u);
     air.heat[r].array() += x[i];
-    air.mean[r] += x[i];
-    auto spread = air.spread.middleRows(first[r], count);
+    auto spread = air.spread.middleRows(first_knot(air.knots, r), air.knots[r].size());
     spread.leftCols(parts).rowwise() += follows.row(i);
     spread.rightCols(unknowns).rowwise() +=
         nuisance.matrixL().solve(Eigen::VectorXd::Unit(unknowns, i)).transpose().eval();
@@ -245,7 +241,6 @@ void tell_in_watts(FreeHeat& air, Machine const& machine, std::vector<BinnedRun>
   air.intensity *= most->second;
   air.spread *= most->second;
   for (auto& of_run : air.heat) of_run *= most->second;
-  for (double& mean : air.mean) mean *= most->second;
 }
 
 }  // namespace
@@ -257,16 +252,14 @@ std::map<std::string, double> FreeHeat::shares() const {
 }
 
 Eigen::VectorXd FreeHeat::standard_error(std::size_t run) const {
-  Eigen::Index first = 0;
-  for (std::size_t r = 0; r < run; ++r) first += knots[r].size();
-  return spread.middleRows(first, knots[run].size()).rowwise().norm();
+  return spread.middleRows(first_knot(knots, run), knots[run].size()).rowwise().norm();
 }
 
 Watts FreeHeat::mean_of_all() const {
   std::vector<Eigen::VectorXd> weights;
   for (auto const& k : knots) weights.push_back(weights_of(k));
-  Eigen::VectorXd const all = all_runs(weights) / all_runs(weights).sum();
-  return watts(*this, all);
+  Eigen::VectorXd const seconds = all_runs(weights);
+  return watts(*this, seconds / seconds.sum());
 }
 
 std::vector<HeatSite> heat_sites(Machine const& machine) {
@@ -355,7 +348,6 @@ FreeHeat heat_of_effects(Estimation const& amended, Fit const& fit, std::string 
     all.heat.emplace_back(each.rowwise().sum());
     all.spread.conservativeResize(all.spread.rows() + knots.size(), effects);
     all.spread.bottomRows(knots.size()) = per_unit * root;
-    all.mean.push_back(mean(knots, all.heat.back()));
   }
   return all;
 }
@@ -364,10 +356,10 @@ HeatBySpeed heat_by_speed(FreeHeat const& heat, std::vector<BinnedRun> const& da
   std::vector<std::string> names;
   std::map<std::string, Eigen::VectorXd> weights;  // of the knots in the sum over the rows of a regime
   std::map<std::string, double> rows, squares;
-  Eigen::Index first = 0;
   for (std::size_t r = 0; r < data.size(); ++r) {
     auto const regimes = speed_regimes(*data[r].run, data[r].time);
     auto const& knots = heat.knots[r];
+    auto const first = first_knot(heat.knots, r);
     for (Eigen::Index i = 0; i < data[r].time.size(); ++i) {
       auto const& name = regimes.names.empty() ? std::string() : regimes.names[regimes.of_row[std::size_t(i)]];
       auto const [weight, is_new] = weights.try_emplace(name, Eigen::VectorXd::Zero(heat.spread.rows()));
@@ -381,7 +373,6 @@ HeatBySpeed heat_by_speed(FreeHeat const& heat, std::vector<BinnedRun> const& da
       rows[name] += 1.0;
       squares[name] += q * q;
     }
-    first += knots.size();
   }
   HeatBySpeed result;
   double count = 0.0, square = 0.0;

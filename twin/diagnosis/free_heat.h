@@ -40,7 +40,6 @@ struct FreeHeat {
   std::vector<Eigen::VectorXd> heat;   ///< per run, at the knots [W]
   /// What is not known of it, as a sum of independent parts of deviation 1: (knots of all runs) × part [W].
   Eigen::MatrixXd spread;
-  std::vector<double> mean;  ///< per run [W]
   /// Of the air: what every body takes up per kelvin, a mean over all runs [W/K].
   std::map<std::string, double> per_kelvin;
   /// Bodies that receive it, in shares of what the site's does.

@@ -53,9 +53,8 @@ TEST(DiagnosisReport, WeighsHeatByTheTimeOfAllRuns) {
   FreeHeat heat;
   heat.site.body = "motor";
   heat.gain = 50.0;
-  heat.mean = {100.0, 20.0};
   for (double const hours : {1.0, 3.0}) heat.knots.push_back(Eigen::VectorXd::LinSpaced(2, 0.0, 3600.0 * hours));
-  for (double const watts : heat.mean) heat.heat.push_back(Eigen::VectorXd::Constant(2, watts));
+  for (double const watts : {100.0, 20.0}) heat.heat.push_back(Eigen::VectorXd::Constant(2, watts));
   heat.spread = Eigen::Vector4d::Constant(2.0);
   auto report = heat_in_the_bed();
   report.diagnosis.verdict = Diagnosis::Verdict::none_known;

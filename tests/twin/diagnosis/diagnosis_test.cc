@@ -93,7 +93,7 @@ TEST(Diagnosis, LetsARunHeldOutSpeakAgainstWhatItFound) {
   EXPECT_LT(*report.diagnosis.vote, 0.0);
   ASSERT_TRUE(report.diagnosis.unknown_heat);
   EXPECT_EQ(report.diagnosis.unknown_heat->site.body, "motor");
-  EXPECT_NEAR(report.diagnosis.unknown_heat->mean[0], 80.0, 20.0);
+  EXPECT_NEAR(report.diagnosis.unknown_heat->mean_of_all().mean, 80.0, 20.0);
   EXPECT_THAT(report_text(report), testing::HasSubstr("The runs held out speak against it"));
 }
 

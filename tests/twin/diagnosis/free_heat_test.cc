@@ -155,8 +155,8 @@ TEST(FreeHeat, IsFoundAboutTheNumbersOfTheFile) {
   auto const& estimation = asked.estimation;
   auto const best = scan_for_free_heat(estimation, estimation.fit(estimation.prior_mean(), 0)).front();
   EXPECT_EQ(best.site.body, "motor");
-  EXPECT_NEAR(best.mean[0], 150.0, 30.0);
   auto const [mean, error] = best.mean_of_all();
+  EXPECT_NEAR(mean, 150.0, 30.0);
   EXPECT_NEAR(mean, 150.0, 2.0 * error);
   EXPECT_LT(error, 30.0);
 }
@@ -187,7 +187,7 @@ TEST(FreeHeat, OfTwoEffectsIsWhatTheyBringTogether) {
   double const error = heat.standard_error(0).maxCoeff();
   EXPECT_NEAR(moving, 100.0, 3.0 * error);
   EXPECT_NEAR(standing, 60.0, 3.0 * error);
-  EXPECT_NEAR(heat.mean[0], moving - (moving - standing) * 50.0 / 240.0, 2.0);  // 50 min of 4 h it stands
+  EXPECT_NEAR(heat.mean_of_all().mean, moving - (moving - standing) * 50.0 / 240.0, 2.0);  // 50 min of 4 h it stands
   Eigen::Vector2d const each = fit.covariance.bottomRightCorner(2, 2).diagonal().cwiseSqrt() * both[0].largest;
   EXPECT_GT(error, 0.3 * each.maxCoeff());
   EXPECT_LT(error, each.sum());
