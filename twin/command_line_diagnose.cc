@@ -134,11 +134,13 @@ void add_challenge_command(CLI::App& app) {
   auto key = std::make_shared<bool>(false);
   auto* sealed = to->add_flag("--key", *key, "write nothing, and print what would be hidden");
   to->require_option(1);
-  command->add_option("--run", *further, "experiment file: one more run of the challenge that is in the folder")
+  command
+      ->add_option("--run", *further,
+                   "experiment file, or the name of a shipped one: one more run of the challenge that is in the folder")
       ->excludes(sealed);
   command->callback([options, folder, kind, further, key] {
     options->folder = *folder;
-    if (!further->empty()) options->further_run = *further;
+    if (!further->empty()) options->further_run = experiment_file(*further);
     if (!kind->empty()) options->kind = case_kind(*kind);
     fmt::print("{}", *key ? challenge_key(*options) : write_challenge(*options));
   });

@@ -21,8 +21,7 @@ namespace {
 constexpr int to_the_end = 50;
 constexpr double open_loop = 0.2;  // share of free growth
 constexpr std::size_t most_refits = 24, most_growths = 3;
-constexpr std::size_t most_alternatives = 3;
-constexpr double most_too_large = 2.0;  // a rough file is no reason to name nothing
+constexpr double most_squared_birge_ratio = 2.0;  // a rough file is no reason to name nothing
 // What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
 constexpr double hopeful_score = 0.3, hopeful_refit = 0.5;
 
@@ -79,8 +78,6 @@ void EffectSearch::operator()() {
   if (exchange()) drop_superfluous();
 }
 
-double EffectSearch::too_large() const { return std::min(squared_birge_ratio(*estimation_, fit_), most_too_large); }
-
 double EffectSearch::share_of_strongest() const {
   double strongest = 0.0;
   for (auto const& explanation : explanations_) strongest = std::max(strongest, explanation.alternatives[0].strength);
@@ -88,7 +85,8 @@ double EffectSearch::share_of_strongest() const {
 }
 
 double EffectSearch::evident_beside() const {
-  return std::max(too_large() * options_.further_threshold, share_of_strongest());
+  double const too_large = std::min(squared_birge_ratio(*estimation_, fit_), most_squared_birge_ratio);
+  return std::max(too_large * too_large * options_.threshold, share_of_strongest());
 }
 
 /// Lets displacements leave their structural loops where that is evident, and more so than any one effect on a
@@ -191,18 +189,14 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   return result;
 }
 
-/// One per name: the best site speaks for the effect.
 Explanation EffectSearch::explanation_of(std::vector<Refit> const& refits) const {
   Explanation explanation;
-  auto& told = explanation.alternatives;
   for (auto const& refit : refits) {
-    if (refits[0].strength - refit.strength > options_.indistinct || told.size() == most_alternatives) break;
-    auto const same = [&](Finding const& f) { return f.hypothesis.effect == refit.hypothesis.effect; };
-    if (std::any_of(told.begin(), told.end(), same)) continue;
-    told.push_back({.hypothesis = refit.hypothesis, .strength = refit.strength});
-    told.back().take(refit.amplitude, refit.standard_error, geometry_);
+    Finding finding{.hypothesis = refit.hypothesis, .strength = refit.strength};
+    finding.take(refit.amplitude, refit.standard_error, geometry_);
+    explanation.add(finding);
   }
-  explanation.weigh();
+  explanation.keep_the_likely();
   return explanation;
 }
 
@@ -228,7 +222,7 @@ std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& 
 /// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
 bool EffectSearch::add_effect(int round) {
   say(fmt::format("{} shapes of effects at their sites, round {}", hypotheses_.size(), round));
-  double const threshold = round == 1 ? options_.threshold : std::max(options_.further_threshold, share_of_strongest());
+  double const threshold = std::max(options_.threshold, share_of_strongest());
   auto const scores = Remainder(fit_, whitened_signatures()).scores(hypotheses_);
   if (round == 1)
     visible_ = std::size_t(std::count_if(scores.begin(), scores.end(), [](Score const& score) {
@@ -260,7 +254,7 @@ bool EffectSearch::add_effect(int round) {
     former_fit = fit_;
     best = Refit(*strongest);
   }
-  if (best.strength < (round == 1 ? too_large() * options_.threshold : evident_beside())) {
+  if (best.strength < evident_beside()) {
     estimation_ = before;
     fit_ = base;
     signatures_ = base_signatures;

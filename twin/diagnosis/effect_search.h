@@ -16,14 +16,12 @@ namespace thermotwin::twin {
 struct DiagnosisOptions {
   std::vector<std::string> without;  ///< effects that are not tried
   int most_effects = 8;
-  /// 2 ln of the evidence that the first effect must have, times the squared Birge ratio of the fit that has it, at
-  /// most twice; see docs/diagnosis.md for how often chance alone reaches it.
-  double threshold = 15.0;
-  /// What a further effect must have beside those found, and heat of free course, times the same; and its share of the
-  /// strongest: what is left of an effect whose shape is not quite right looks like others.
-  double further_threshold = 20.0;
+  /// 2 ln of the evidence that an effect must have, and heat of free course, times the fourth power of the Birge ratio
+  /// of the fit that has it, at most four; see docs/diagnosis.md for how often chance alone reaches it.
+  double threshold = 11.0;
+  /// What a further effect must have of the strongest one's evidence: what is left of an effect whose shape is not
+  /// quite right looks like others.
   double least_share = 0.02;
-  double indistinct = 9.0;  ///< alternatives within this of the best are told as well
   /// Seed of the numbers and lags that the first fit starts from, drawn from their priors; none: from their means.
   /// What is found must not depend on it.
   std::optional<std::uint64_t> start;
@@ -52,7 +50,7 @@ class EffectSearch {
   [[nodiscard]] Fit const& fit() const { return fit_; }
   /// Amplitudes as they were when each was found.
   [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
-  /// What is evident beside the effects found [2 ln].
+  /// What is evident, beside the effects found if there are any [2 ln].
   [[nodiscard]] double evident_beside() const;
   /// How much more model error than expected was heard in each channel; 1: no more.
   [[nodiscard]] std::vector<std::pair<std::string, double>> noise_heard() const;
@@ -65,8 +63,6 @@ class EffectSearch {
   void say(std::string const& what) const {
     if (options_.progress) options_.progress(what);
   }
-  /// How much too large evidence is: the squared Birge ratio, at most twice.
-  [[nodiscard]] double too_large() const;
   /// What a further effect needs of the strongest one's evidence.
   [[nodiscard]] double share_of_strongest() const;
   [[nodiscard]] bool add_effect(int round);

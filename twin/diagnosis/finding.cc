@@ -8,7 +8,8 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double credible = 0.975;
+constexpr double credible = 0.95;
+constexpr std::size_t most_alternatives = 3;
 constexpr double lump_limit = 0.1;     // Biot number
 constexpr double conductivity = 20.0;  // of a body of several parts [W/(m K)]
 
@@ -47,12 +48,28 @@ std::string Finding::interval_text(std::string const& unit) const {
   return written_interval(standard_error, unit) + (is_at_end() ? ", as much as is plausible here" : "");
 }
 
-void Explanation::weigh() {
+void Explanation::add(Finding const& finding) {
+  double const first = alternatives.empty() ? finding.strength : alternatives[0].strength;
+  double const weight = std::exp(0.5 * std::min(0.0, finding.strength - first));
+  auto const same = std::find_if(alternatives.begin(), alternatives.end(), [&](Finding const& other) {
+    return other.hypothesis.effect == finding.hypothesis.effect;
+  });
+  if (same != alternatives.end()) {
+    same->weight += weight;
+    return;
+  }
+  alternatives.push_back(finding);
+  alternatives.back().weight = weight;
+}
+
+void Explanation::keep_the_likely() {
+  std::stable_sort(alternatives.begin() + 1, alternatives.end(),
+                   [](Finding const& a, Finding const& b) { return a.weight > b.weight; });
   double sum = 0.0, held = 0.0;
-  for (auto& finding : alternatives)
-    sum += finding.weight = std::exp(0.5 * std::min(0.0, finding.strength - alternatives[0].strength));
+  for (auto const& finding : alternatives) sum += finding.weight;
   std::size_t told = 0;
-  while (told < alternatives.size() && held < credible * sum) held += alternatives[told++].weight;
+  while (told < std::min(alternatives.size(), most_alternatives) && held < credible * sum)
+    held += alternatives[told++].weight;
   alternatives.resize(told);
   for (auto& finding : alternatives) finding.weight /= held;
 }

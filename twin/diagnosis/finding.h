@@ -38,13 +38,17 @@ struct Finding {
   [[nodiscard]] std::string interval_text(std::string const& unit) const;
 };
 
-/// One thing that is missing: one effect, or several that the data cannot tell apart, best first.
+/// One thing that is missing: one effect, or several that the data cannot tell apart. The first is the one that was
+/// fitted, the others are the likeliest first.
 struct Explanation {
   std::vector<Finding> alternatives;
 
-  /// Weights by evidence, exp(strength/2), where none counts as stronger than the first; no more are kept than hold
-  /// what is missing with a probability of 97.5 %.
-  void weigh();
+  /// One more place of an effect. Its weight against the first, exp of half of what their strengths differ by and no
+  /// more than 1, goes to the name: the most evident place, to be added first, speaks for it.
+  void add(Finding const& finding);
+  /// Weights add up to 1, and no more names are kept than hold what is missing with a probability of 95 %; three at
+  /// most.
+  void keep_the_likely();
 };
 
 }  // namespace thermotwin::twin

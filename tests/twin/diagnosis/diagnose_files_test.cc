@@ -14,7 +14,7 @@
 namespace thermotwin::twin {
 namespace {
 
-using testing::Contains;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 using thermotwin::tests::contents;
@@ -58,12 +58,11 @@ class DiagnoseFilesTest : public testing::Test {
 std::unique_ptr<TemporaryDirectory> DiagnoseFilesTest::folder;
 DiagnosisReport DiagnoseFilesTest::report;
 
-TEST_F(DiagnoseFilesTest, HeatOfTheColumnIsAmongWhatMayBeMissing) {
-  ASSERT_FALSE(report.diagnosis.explanations.empty());
-  std::vector<std::string> labels;
+/// In eight hours it may as well be a neighbour that is always as hot.
+TEST_F(DiagnoseFilesTest, SteadyHeatOfTheColumnIsMissing) {
+  ASSERT_EQ(report.diagnosis.explanations.size(), 1);
   for (auto const& finding : report.diagnosis.explanations[0].alternatives)
-    labels.push_back(finding.hypothesis.label());
-  EXPECT_THAT(labels, Contains("heat at column_rear"));
+    EXPECT_THAT(finding.hypothesis.label(), AnyOf("heat at column_rear", "hot_neighbour at column_rear"));
 }
 
 TEST_F(DiagnoseFilesTest, AmendedFileIsTheMachineThatWasDiagnosed) {

@@ -16,7 +16,6 @@ Diagnosis diagnosed(std::string const& hidden) {
   auto run = tests::measured(tests::with_table(tests::v450(), hidden), tests::two_speeds());
   tests::add_noise(run, 0.02, 0.05e-6, 7);
   DiagnosisOptions options;
-  options.further_threshold = options.threshold;
   options.least_share = 0.0;
   return diagnose(tests::v450(), {bin(run, 300.0)}, options);
 }

@@ -43,23 +43,41 @@ TEST(Finding, OfAFilmThatALumpCannotShowHasNoUpperEnd) {
 }
 
 /// 12 W/(m² K): of the room's size, to which a lump is one temperature.
-/// 1 : e^-1 : e^-2.5 : e^-4, which are 0.68, 0.25, 0.06 and 0.01 of all.
-TEST(Explanation, HoldsWhatIsMissingWithThirtyNineOfForty) {
+Explanation explanation_of(std::vector<std::tuple<std::string, std::string, double>> const& findings) {
   Explanation explanation;
-  for (double const strength : {40.0, 38.0, 35.0, 32.0}) {
-    explanation.alternatives.push_back(half_of("heat", "bed"));
-    explanation.alternatives.back().strength = strength;
+  for (auto const& [effect, place, strength] : findings) {
+    Finding finding = half_of(effect, place);
+    finding.strength = strength;
+    explanation.add(finding);
   }
-  explanation.weigh();
-  ASSERT_EQ(explanation.alternatives.size(), 3);
+  explanation.keep_the_likely();
+  return explanation;
+}
+
+/// 1 : e^-1 : e^-2.5 : e^-4, which are 0.68, 0.25, 0.06 and 0.01 of all; and 1 : e^-3, the latter 4.7 % of both.
+TEST(Explanation, HoldsWhatIsMissingWithNineteenOfTwenty) {
+  auto const three = explanation_of({{"heat", "bed", 40.0},
+                                     {"draught", "head_front", 38.0},
+                                     {"fan_cooling", "head_front", 32.0},
+                                     {"flood_coolant", "head_front", 35.0}})
+                         .alternatives;
+  ASSERT_EQ(three.size(), 3);
   double const sum = 1.0 + std::exp(-1.0) + std::exp(-2.5);
-  EXPECT_NEAR(explanation.alternatives[0].weight, 1.0 / sum, 1e-12);
-  EXPECT_NEAR(explanation.alternatives[2].weight, std::exp(-2.5) / sum, 1e-12);
-  explanation.alternatives = {explanation.alternatives[0], explanation.alternatives[2]};
-  explanation.alternatives[1].strength = 32.5;  // 2.3 %
-  explanation.weigh();
-  ASSERT_EQ(explanation.alternatives.size(), 1);
-  EXPECT_EQ(explanation.alternatives[0].weight, 1.0);
+  EXPECT_NEAR(three[0].weight, 1.0 / sum, 1e-12);
+  EXPECT_EQ(three[2].hypothesis.effect->name, "flood_coolant");
+  EXPECT_NEAR(three[2].weight, std::exp(-2.5) / sum, 1e-12);
+  auto const one = explanation_of({{"heat", "bed", 40.0}, {"draught", "head_front", 34.0}}).alternatives;
+  ASSERT_EQ(one.size(), 1);
+  EXPECT_EQ(one[0].weight, 1.0);
+}
+
+/// A name is as likely as all its places together: here e^-1.5 (2 of 11) became 2 e^-1.5 (4 of 13).
+TEST(Explanation, OfANameCountsAllItsPlaces) {
+  auto const told =
+      explanation_of({{"heat", "bed", 40.0}, {"draught", "bed", 37.0}, {"draught", "head_front", 37.0}}).alternatives;
+  ASSERT_EQ(told.size(), 2);
+  EXPECT_EQ(told[1].hypothesis.body, "bed");
+  EXPECT_NEAR(told[1].weight, 2.0 / (2.0 + std::exp(1.5)), 1e-12);
 }
 
 TEST(Finding, OfAWeakFilmHasOne) { EXPECT_FALSE(half_of("draught", "head_front").at_least); }
