@@ -33,7 +33,7 @@ Effect const& sensor_contact_effect() {
        {29},
        {"fit", "sensor_lag", "sensor_drift"},
        "swap the sensor; a fit changes the heat that all sensors see, this one reading only"},
-      {{.amplitude = "air_share", .largest = 0.3, .ordinary = 0.03, .sites = {{"sensor", "sensor"}}}});
+      {{.amplitude = "air_share", .largest = 0.3, .ordinary = 0.05, .sites = {{"sensor", "sensor"}}}});
   return effect;
 }
 
