@@ -333,7 +333,7 @@ std::string report_json(DiagnosisReport const& report) {
     json["heat"]["swing"] = diagnosis.unknown_heat_by_speed.swing;
   }
   if (diagnosis.verdict == Diagnosis::Verdict::sensor)
-    json["sensor"] = {{"name", diagnosis.explanations.empty()
+    json["sensor"] = {{"name", diagnosis.faulty_sensor  // what no body does is certain
                                    ? diagnosis.faulty_sensor->name
                                    : diagnosis.explanations[0].alternatives[0].hypothesis.body}};
   if (auto const& sensor = diagnosis.faulty_sensor)
