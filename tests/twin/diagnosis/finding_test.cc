@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace thermotwin::twin {
 namespace {
@@ -43,6 +46,8 @@ TEST(Finding, OfAFilmThatALumpCannotShowHasNoUpperEnd) {
 }
 
 /// 12 W/(m² K): of the room's size, to which a lump is one temperature.
+TEST(Finding, OfAWeakFilmHasOne) { EXPECT_FALSE(half_of("draught", "head_front").at_least); }
+
 Explanation explanation_of(std::vector<std::tuple<std::string, std::string, double>> const& findings) {
   Explanation explanation;
   for (auto const& [effect, place, strength] : findings) {
@@ -79,8 +84,6 @@ TEST(Explanation, OfANameCountsAllItsPlaces) {
   EXPECT_EQ(told[1].hypothesis.body, "bed");
   EXPECT_NEAR(told[1].weight, 2.0 / (2.0 + std::exp(1.5)), 1e-12);
 }
-
-TEST(Finding, OfAWeakFilmHasOne) { EXPECT_FALSE(half_of("draught", "head_front").at_least); }
 
 }  // namespace
 }  // namespace thermotwin::twin
