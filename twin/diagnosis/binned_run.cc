@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "scenarios/course.h"
 
@@ -70,6 +72,36 @@ void add_sample(BinStep& step, double t) {
   step.samples.push_back(t - step.begin);
 }
 
+/// A channel's readings, with straight lines between them.
+class ReadingCourse {
+ public:
+  ReadingCourse(Eigen::VectorXd const& time, Eigen::VectorXd const& values) {
+    for (Eigen::Index i = 0; i < time.size(); ++i)
+      if (!std::isnan(values[i])) readings_.emplace_back(time[i], values[i]);
+  }
+
+  /// Over those of the times that lie between its first reading and its last; there must be one.
+  [[nodiscard]] double mean(std::vector<double> const& times) const {
+    double sum = 0.0, count = 0.0;
+    for (double const t : times) {
+      if (t < readings_.front().first || t > readings_.back().first) continue;
+      sum += at(t);
+      count += 1.0;
+    }
+    return sum / count;
+  }
+
+ private:
+  [[nodiscard]] double at(double t) const {
+    auto const after = std::lower_bound(readings_.begin(), readings_.end(), std::pair(t, -double(INFINITY)));
+    if (after->first == t) return after->second;
+    auto const before = std::prev(after);
+    return std::lerp(before->second, after->second, (t - before->first) / (after->first - before->first));
+  }
+
+  std::vector<std::pair<double, double>> readings_;
+};
+
 void divide(BinStep& step, int samples) {
   for (double* weight : {&step.at_begin, &step.at_end, &step.bend_at_begin, &step.bend_at_end}) *weight /= samples;
   step.share = 1.0 / samples;
@@ -84,18 +116,20 @@ BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
   binned.time.setZero(Eigen::Index(rows.size()));
   binned.values.setZero(Eigen::Index(rows.size()), channels);
   binned.samples.setZero(Eigen::Index(rows.size()), channels);
+  std::vector<ReadingCourse> courses;
+  for (auto const& channel : run.channels) courses.emplace_back(run.time, channel.values);
   Eigen::Index sample = 0;
   std::size_t first_of_row = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     add_steps(binned, rows[r], int(r), first_step);
     auto const row = Eigen::Index(r);
     bool const last = r + 1 == rows.size();
-    int count = 0;
+    std::vector<double> times;
     std::size_t step = first_of_row;
     for (; sample < run.time.size() && (run.time[sample] < rows[r].end || last); ++sample) {
       double const t = run.time[sample];
       if (is_doubtful(run, t)) continue;
-      ++count;
+      times.push_back(t);
       while (step + 1 < binned.steps.size() && binned.steps[step].end <= t) ++step;
       add_sample(binned.steps[step], t);
       binned.time[row] += t;
@@ -105,11 +139,14 @@ BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
           binned.samples(row, c) += 1.0;
         }
     }
-    if (count == 0) {  // between two samples: the row has no data
+    for (Eigen::Index c = 0; c < channels; ++c)
+      if (double const own = binned.samples(row, c); own > 0.0 && own < double(times.size()))
+        binned.values(row, c) = own * courses[std::size_t(c)].mean(times);
+    if (times.empty()) {  // between two samples: the row has no data
       add_sample(binned.steps[first_of_row], rows[r].begin);
       binned.time[row] = rows[r].begin;
-      count = 1;
     }
+    int const count = std::max(1, int(times.size()));
     for (std::size_t s = first_of_row; s < binned.steps.size(); ++s) divide(binned.steps[s], count);
     binned.time[row] /= count;
     first_of_row = binned.steps.size();

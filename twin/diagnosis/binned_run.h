@@ -26,7 +26,8 @@ struct BinStep {
 /// A measured run averaged to rows of some minutes, none of which crosses a jump of the input, or of what may have been
 /// given instead. What differs within such a row is noise; and a row in place of its samples makes a diagnosis ten
 /// times as fast. Samples that may have been taken between a change of the input and the sample that shows it are left
-/// out.
+/// out. A channel that was read at some of a row's times only, as by a slower logger, has there the mean over all of
+/// them of the straight lines between its readings, for that is when the twin's prediction is of.
 struct BinnedRun {
   MeasuredRun const* run = nullptr;
   std::vector<BinStep> steps;

@@ -149,6 +149,23 @@ TEST(BinnedRun, MissingSamplesAreNotAveraged) {
   EXPECT_DOUBLE_EQ(binned.values(2, 1), -720.0);
 }
 
+/// A thermometer that is read every five minutes beside a probe that is read every ten seconds: its one reading of a
+/// row may be minutes from the row's mean time, of which the prediction is.
+TEST(BinnedRun, ReadingsOfASlowerLoggerAreThoseOfTheRowsMeanTime) {
+  auto run = run_of(4 * 3600.0, 10.0, {4000.0}, line);
+  for (Index i = 0; i < run.time.size(); ++i)
+    if (i % 30 != 7) run.channels[1].values[i] = std::nan("");
+  auto const binned = bin(run, 300.0);
+  int rows = 0;
+  for (Index r = 1; r + 1 < binned.time.size(); ++r) {  // the first reading and the last lie within a row
+    if (binned.samples(r, 1) == 0.0) continue;
+    EXPECT_EQ(binned.samples(r, 1), 1.0);
+    EXPECT_NEAR(binned.values(r, 1), -line(binned.time[r]), 1e-9) << r;
+    ++rows;
+  }
+  EXPECT_GT(rows, 40);
+}
+
 /// The response to what may have been given instead is as exact as that to what was.
 TEST(BinnedRun, RowsDoNotCrossAJumpOfAnAlternative) {
   auto run = run_of(1800.0, 60.0, {900.0}, line);
