@@ -47,6 +47,17 @@ bool changes_heat(thermal::NetworkDerivative const& d) {
          std::any_of(d.boundary_weights.begin(), d.boundary_weights.end(), any);
 }
 
+/// By more than a hundredth in a group.
+bool differs(std::vector<std::vector<double>> const& one, std::vector<std::vector<double>> const& other) {
+  for (std::size_t g = 0; g < one.size() && g < other.size(); ++g) {
+    if (one[g].empty() || one[g].size() != other[g].size()) continue;
+    Eigen::Map<Eigen::VectorXd const> const a(one[g].data(), Eigen::Index(one[g].size()));
+    Eigen::Map<Eigen::VectorXd const> const b(other[g].data(), a.size());
+    if ((a - b).norm() > 0.01 * b.norm()) return true;
+  }
+  return false;
+}
+
 /// Every sensor one second slower.
 Machine later(Machine machine) {
   for (auto& sensor : machine.sensors) sensor.description.lag = sensor.description.lag.value_or(0.0) + 1.0;
@@ -93,7 +104,7 @@ Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::
                        std::vector<ChannelNoise> const& noise)
     : document_(std::move(document)), data_(&data), channels_(channels) {
   numbers_ = uncertain_numbers(document_);
-  for (auto const& number : numbers_) number_derivatives_.push_back(differentiate(document_, number.path));
+  differentiate_numbers();
   for (auto const& run : data) {
     first_rows_.push_back(rows_);
     rows_ += run.values.size();
@@ -103,6 +114,31 @@ Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::
   first_linear_ = Eigen::Index(unknowns_.size());
   unknowns_.insert(unknowns_.end(), linear_->all().begin(), linear_->all().end());
   hear(noise);
+}
+
+void Estimation::differentiate_numbers() {
+  number_derivatives_.resize(numbers_.size());
+  is_bent_.assign(numbers_.size(), 0);
+  in_parallel(numbers_.size(), [&](std::size_t i) {
+    auto const& number = numbers_[i];
+    number_derivatives_[i] = differentiate(document_, number.path);
+    Value moved = document_;
+    double const x = std::clamp(0.5 * number.deviation, number.lower, number.upper);
+    set_number(moved, {number.path, number.nominal, number.dimension, false}, number.value(x));
+    try {
+      auto const there = differentiate(moved, number.path).network;
+      is_bent_[i] = differs(there.coefficients, number_derivatives_[i].network.coefficients) ? 1 : 0;
+    } catch (thermal::InputError const&) {  // so much of it no machine may have
+    }
+  });
+}
+
+/// How the network changes with x of a number at these estimates.
+thermal::NetworkDerivative Estimation::network_derivative(std::size_t number, Value const& at, double x) const {
+  auto const& own = numbers_[number];
+  auto derivative = is_bent_[number] ? differentiate(at, own.path).network : number_derivatives_[number].network;
+  scale(derivative, own.slope(x));
+  return derivative;
 }
 
 void Estimation::add_numbers_and_lags() {
@@ -370,17 +406,17 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const
   if (!linearised) return true;
   auto const& network = traced->machine.network();
   auto const unknowns = searched();
+  Value const document = document_at(x);
   auto const amplitudes = amplitude_derivatives(x);
   std::vector<thermal::NetworkDerivative> heat;
   std::vector<Eigen::Index> heated;
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
     auto const& unknown = unknowns_[std::size_t(unknowns[k])];
     if (unknown.kind == Unknown::Kind::lag) continue;
-    bool const number = unknown.kind == Unknown::Kind::number;
-    auto const& own = number ? number_derivatives_[unknown.index].network : amplitudes[unknown.index].network;
+    auto own = unknown.kind == Unknown::Kind::number ? network_derivative(unknown.index, document, x[unknowns[k]])
+                                                     : amplitudes[unknown.index].network;
     if (!changes_heat(own)) continue;
-    heat.push_back(thermal::lengthened(own, network));
-    if (number) scale(heat.back(), numbers_[unknown.index].slope(x[unknowns[k]]));
+    heat.push_back(thermal::lengthened(std::move(own), network));
     heated.push_back(Eigen::Index(k));
   }
   std::vector<thermal::NetworkDerivative const*> pointers;

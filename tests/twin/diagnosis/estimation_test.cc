@@ -155,6 +155,36 @@ TEST(Estimation, JacobianAgreesWithDifferences) {
   }
 }
 
+/// 30 % more of a film in series with another conductance is not 30 % more of what both conduct, and less the more it is.
+TEST(Estimation, JacobianOfAJointInSeriesIsThatOfWhereTheFitIs) {
+  Value const g200 = read_toml(machine_file("g200"));
+  auto const run = tests::measured(g200, tests::experiment(R"(
+    duration = "3 h"
+    [spindle]
+    blocks = [{duration = "3 h", speed = "3000 rpm"}])"));
+  std::vector<BinnedRun> const data = {bin(run, 300.0)};
+  Estimation const estimation(g200, data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+  auto const& unknowns = estimation.unknowns();
+  Index const seat = std::find_if(unknowns.begin(), unknowns.end(),
+                                  [](auto const& u) { return u.name == "joint.front_seat.coefficient"; }) -
+                     unknowns.begin();
+  ASSERT_LT(seat, Index(unknowns.size()));
+  VectorXd x = estimation.prior_mean();
+  x[seat] = 0.4;
+  Fit const fit = estimation.fit(x, 0);
+  auto const whitened = [&](double step) {
+    VectorXd there = fit.x;
+    there[seat] += step;
+    VectorXd residual = estimation.residuals_at(there)[0].reshaped();
+    estimation.whiten(residual);
+    return residual;
+  };
+  VectorXd const expected = (whitened(0.05) - whitened(-0.05)) / 0.1;
+  EXPECT_NEAR(fit.x[seat], 0.4, 1e-12);
+  EXPECT_GT(expected.norm(), 0.0);
+  EXPECT_LT((fit.jacobian.col(seat).head(estimation.rows()) - expected).norm(), 0.05 * expected.norm());
+}
+
 /// The logger is off while the spindle goes from 5000 to 2500 rpm. With what it was given there among the unknowns, the
 /// numbers are found; with the last speed held, the machine is made to fit heat that it never had.
 TEST(Estimation, FindsTheNumbersThoughTheSpeedChangedInAGap) {
