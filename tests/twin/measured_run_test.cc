@@ -245,6 +245,16 @@ TEST(MeasuredRun, OfAnAxisOnlyWhatWasNotRecordedMayHaveBeenOtherwise) {
   EXPECT_EQ(run.time.size(), dataset.time_s.size() - 35);
 }
 
+/// A mean speed that was recorded is that of an axis that moves for a part of the time only.
+TEST(MeasuredRun, TheFeedOfAScrewIsThatWhileItMoves) {
+  auto dataset = simulated();
+  keep_inputs(dataset, {"spindle.speed", "ambient.temperature", "z.speed", "z.duty"});
+  double const feed = value_at(*measured_run(dataset, machine(), "all the time").course, "z.feed", 2400.0);
+  for (auto const* name : {"z.speed", "z.duty"}) channel(dataset.inputs, name).values *= 0.5;
+  EXPECT_GT(feed, 0.0);
+  EXPECT_NEAR(value_at(*measured_run(dataset, machine(), "half").course, "z.feed", 2400.0), feed, 1e-12);
+}
+
 TEST(MeasuredRun, ALoggerThatWasOffBecomesOneRemarkOnInputsAndOneOnReadings) {
   auto dataset = tests::without_rows(simulated(), 54.0 * 60.0, 74.0 * 60.0);
   keep_inputs(dataset, {"spindle.speed", "ambient.temperature"});

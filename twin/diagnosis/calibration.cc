@@ -59,7 +59,7 @@ std::vector<std::vector<std::string>> inseparable(std::vector<Unknown> const& un
       auto const i = Eigen::Index(a), j = Eigen::Index(b);
       double const covariance = fit.covariance(i, j);
       if (std::abs(covariance) > tied * std::sqrt(fit.covariance(i, i) * fit.covariance(j, j)))
-        std::replace(group.begin(), group.end(), group[b], group[a]);
+        std::replace(group.begin(), group.end(), std::size_t(group[b]), std::size_t(group[a]));
     }
   std::vector<std::vector<std::string>> groups;
   for (std::size_t g = 0; g < unknowns.size(); ++g) {
@@ -100,8 +100,9 @@ double gap_of_noise(Machine const& machine, std::vector<BinnedRun> const& runs) 
       auto const noise = expected_noise(machine, channel.name, runs);
       Eigen::VectorXd const values = run.values.col(Eigen::Index(c));
       if (values.array().isNaN().all()) continue;
-      double const slow = noise.slow_along(run.time, values)[0];
-      double const deviation = std::hypot(noise.fast, std::hypot(noise.white, noise.rounding), slow);
+      double const slow = noise.slow_along(run.time, values)[0], samples = run.samples.col(Eigen::Index(c)).mean();
+      double const white = noise.white / std::sqrt(std::max(1.0, samples));
+      double const deviation = std::hypot(noise.fast, std::hypot(white, noise.rounding), slow);
       noises.push_back({run.run->name, channel.name, channel.displacement, "", deviation, deviation});
     }
   return whole(noises).after;

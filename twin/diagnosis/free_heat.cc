@@ -119,7 +119,7 @@ Eigen::MatrixXd walk_precision(std::vector<Eigen::VectorXd> const& knots, double
     precision(at, at) += 1.0 / (first_deviation * first_deviation);
     for (Eigen::Index i = 0; i + 1 < k.size(); ++i) {
       double const step = k[i + 1] - k[i];
-      bool const jump = step < 1.5 * jump_time;  // other knots are 14 min apart at least
+      bool const jump = step < 1.5 * jump_time;  // other knots are 7 min apart at least
       double const p = 1.0 / (intensity * intensity * (jump ? jump_worth : step));
       precision(at + i, at + i) += p;
       precision(at + i + 1, at + i + 1) += p;

@@ -75,7 +75,9 @@ void complete_axis(std::vector<SampledInput>& inputs, scenarios::AxisLimits cons
     SampledInput derived = *speed;
     derived.name = axis.name + ".feed";
     derived.unit = "m/s";
-    for (double& value : derived.values) value /= turns;
+    bool const part_time = duty && duty->times == speed->times;
+    for (std::size_t i = 0; i < derived.values.size(); ++i)
+      derived.values[i] /= turns * (part_time && duty->values[i] > 0.0 ? duty->values[i] : 1.0);
     inputs.push_back(derived);
   } else if (feed && duty && !speed && duty->times == feed->times) {
     SampledInput derived = *feed;

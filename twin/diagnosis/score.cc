@@ -113,6 +113,11 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
   }
 }
 
+/// Of an amplitude, with its prior.
+double precision_of(Score const& score) {
+  return score.information + 1.0 / (amplitude_deviation * amplitude_deviation);
+}
+
 }  // namespace
 
 Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::vector<Hypothesis> const& hypotheses) {
@@ -183,14 +188,18 @@ Eigen::VectorXd Remainder::cosines(Eigen::Index of) const {
   return product.cwiseQuotient((squares * squares[of]).cwiseSqrt());
 }
 
+double probable_amplitude(Score const& score) {
+  double const amplitude = score.amplitude * score.information / precision_of(score);
+  return std::clamp(amplitude, -most_of_largest, most_of_largest);
+}
+
+double probable_error(Score const& score) { return 1.0 / std::sqrt(precision_of(score)); }
+
 double evidence_of(Score const& score, Hypothesis const& hypothesis) {
-  if (score.statistic <= 0.0) return -hypothesis.choice;
-  double const a = score.information, b = score.amplitude * a;
-  double const variance = amplitude_deviation * amplitude_deviation;
-  double const precision = a + 1.0 / variance;
-  if (hypothesis.is_ordinary(b / precision, 1.0 / std::sqrt(precision))) return -hypothesis.choice;
-  double const amplitude = std::clamp(b / precision, -most_of_largest, most_of_largest);
-  double const gain = (2.0 * b - precision * amplitude) * amplitude - std::log1p(a * variance) - hypothesis.choice;
+  double const a = score.information, b = score.amplitude * a, amplitude = probable_amplitude(score);
+  if (score.statistic <= 0.0 || hypothesis.is_ordinary(amplitude, probable_error(score))) return -hypothesis.choice;
+  double const gain = (2.0 * b - precision_of(score) * amplitude) * amplitude -
+                      std::log1p(a * amplitude_deviation * amplitude_deviation) - hypothesis.choice;
   return hypothesis.trial->either_sign ? gain : gain + 2.0 * std::log(2.0);
 }
 

@@ -42,8 +42,12 @@ class Remainder {
   Eigen::MatrixXd shared_, taken_;           ///< Jᵀs, (JᵀJ)⁻¹ Jᵀs
 };
 
-/// 2 ln of the evidence for an effect from its score alone, at the most probable ψ that is plausible: T less what the
-/// prior of ψ and the choice of a site cost. Only the latter where ψ is ordinary.
+/// The most probable ψ that is plausible, b/(a + 1/σ²) with σ the deviation of its prior, and its standard error.
+[[nodiscard]] double probable_amplitude(Score const& score);
+[[nodiscard]] double probable_error(Score const& score);
+
+/// 2 ln of the evidence for an effect from its score alone, at the most probable ψ: T less what the prior of ψ and the
+/// choice of a site cost. Only the latter where ψ is ordinary.
 [[nodiscard]] double evidence_of(Score const& score, Hypothesis const& hypothesis);
 
 }  // namespace thermotwin::twin

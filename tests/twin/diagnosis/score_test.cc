@@ -225,5 +225,15 @@ TEST(Score, SignaturesAreDifferencesOfWholeRuns) {
   EXPECT_GT(felt, 15);
 }
 
+/// What is told of an effect is what its evidence was computed for: with its prior, and no more than is plausible.
+TEST(Score, ProbableAmplitudeHasItsPriorAndIsPlausible) {
+  Score const weak{.statistic = 1.0, .amplitude = 1.0, .information = 1.0};
+  double const precision = 1.0 + 1.0 / (amplitude_deviation * amplitude_deviation);
+  EXPECT_DOUBLE_EQ(probable_amplitude(weak), 1.0 / precision);
+  EXPECT_DOUBLE_EQ(probable_error(weak), 1.0 / std::sqrt(precision));
+  Score const large{.statistic = 30.0, .amplitude = 2.75, .information = 4.0};
+  EXPECT_DOUBLE_EQ(probable_amplitude(large), most_of_largest);
+}
+
 }  // namespace
 }  // namespace thermotwin::twin
