@@ -8,6 +8,7 @@
 #include "twin/diagnosis/drifting_sensor.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/excitation.h"
+#include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/seen_form.h"
 #include "twin/diagnosis/verdict.h"
 #include "twin/parallel.h"
@@ -43,6 +44,7 @@ class Diagnostician {
   using HeatAt = std::map<std::pair<std::string, std::string>, double>;  ///< body and regime, watts
   void tell_where(HeatAt const& heat);
   void propose();
+  [[nodiscard]] Explanation const* unsettled() const;
   [[nodiscard]] bool is_heat_left() const;
   [[nodiscard]] std::optional<std::string> first_warmed() const;
 
@@ -95,7 +97,8 @@ Diagnosis Diagnostician::operator()() {
   d.disagreement = disagreements(search_.plain().with(amended.noise()), d.calibrated.x, machine_);
   if (!d.effects.empty()) d.disagreement_left = disagreements(amended, d.amended.x, machine_);
   find_where();
-  if (d.verdict == Diagnosis::Verdict::either) propose();
+  if (d.verdict == Diagnosis::Verdict::nothing) d.suspicion = search_.suspicion();
+  propose();
   return d;
 }
 
@@ -138,11 +141,19 @@ void Diagnostician::write_down() {
   }
 }
 
-/// Of runs that had no say so far: what is linear is at its best for either machine, all else as it was fitted.
+/// Of runs that had no say so far: what is linear is at its best for either machine, all else as it was fitted. A
+/// channel that the fitted runs lack has the noise that is expected of it.
 double Diagnostician::vote() const {
   auto const& amended = search_.estimation();
+  auto channels = amended.channels();
+  auto noise = amended.noise();
+  for (auto const& channel : channels_of(held_out_)) {
+    if (std::find(channels.begin(), channels.end(), channel) != channels.end()) continue;
+    channels.push_back(channel);
+    noise.push_back(expected_noise(machine_, channel, held_out_));
+  }
   auto const cost = [&](Value const& document) {
-    Estimation const unseen(document, held_out_, amended.channels(), amended.noise());
+    Estimation const unseen(document, held_out_, channels, noise);
     return unseen.fit(unseen.prior_mean(), 0).cost;
   };
   double costs[2];
@@ -161,10 +172,14 @@ bool is_about_heat(Hypothesis const& effect) {
   return effect.is_about("source") || effect.is_about("film") || effect.is_about("boundary");
 }
 
-/// On which an effect acts that is about heat.
+/// On which an effect acts that is about heat; what acts on the machine as a whole warms no one body.
 std::optional<std::string> Diagnostician::first_warmed() const {
+  auto const bodies = machine_.network().ranges();
   for (auto const& effect : diagnosis_.effects)
-    if (is_about_heat(effect)) return effect.body;
+    if (is_about_heat(effect) && std::any_of(bodies.begin(), bodies.end(), [&](auto const& range) {
+          return range.name == effect.body;
+        }))
+      return effect.body;
   return std::nullopt;
 }
 
@@ -212,19 +227,25 @@ void Diagnostician::tell_where(HeatAt const& heat) {
     if (watts > 0.2 * largest) diagnosis_.where.push_back(place);
 }
 
-/// What would tell the first of the either/ors apart.
+/// What would settle the first of the either/ors, or a suspicion.
 void Diagnostician::propose() {
-  say("looking for an experiment that would tell them apart");
-  for (auto const& explanation : diagnosis_.explanations) {
-    if (explanation.alternatives.size() < 2) continue;
-    Rivals rivals;
-    for (auto const& finding : explanation.alternatives) {
-      rivals.hypotheses.push_back(finding.hypothesis);
-      rivals.amplitudes.push_back(finding.amplitude / finding.hypothesis.largest);
-    }
-    diagnosis_.proposals = remedies(document_, runs_, {rivals})[0];
-    return;
+  auto const* open = unsettled();
+  if (!open) return;
+  say("looking for an experiment that would tell");
+  Rivals rivals;
+  for (auto const& finding : open->alternatives) {
+    rivals.hypotheses.push_back(finding.hypothesis);
+    rivals.amplitudes.push_back(finding.amplitude / finding.hypothesis.largest);
   }
+  diagnosis_.proposals = remedies(document_, runs_, {rivals})[0];
+}
+
+Explanation const* Diagnostician::unsettled() const {
+  auto const& d = diagnosis_;
+  if (d.suspicion) return &d.suspicion->explanation;
+  if (d.verdict != Diagnosis::Verdict::either) return nullptr;
+  auto const several = [](Explanation const& explanation) { return explanation.alternatives.size() > 1; };
+  return &*std::find_if(d.explanations.begin(), d.explanations.end(), several);
 }
 
 }  // namespace

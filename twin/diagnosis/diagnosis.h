@@ -31,7 +31,9 @@ struct Diagnosis {
   std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`, where it is heat
   HeatBySpeed unknown_heat_by_speed;
-  std::vector<Remedy> proposals;  ///< of `either`: experiments that would tell the first one apart, best first
+  std::optional<Suspicion> suspicion;  ///< of `nothing`
+  /// Experiments that would tell the first either/or apart, or what is suspected; best first.
+  std::vector<Remedy> proposals;
   std::optional<FaultySensor> faulty_sensor;
   std::vector<FreeHeat> scan;          ///< before any effect was added, best first
   std::vector<FreeHeat> left;          ///< with the effects, best first

@@ -199,12 +199,27 @@ std::string words_of_proposal(Diagnosis const& diagnosis) {
   if (!proposal) return "";
   auto const& best = diagnosis.proposals[0];
   bool const tells = proposal->distance >= wanted_distance;
-  std::string text = fmt::format("Experiment that would {}tell them apart: {} ({:.0f} h), {:.1f} σ{}.",
-                                 tells ? "" : "best ", proposal->schedule, proposal->hours, proposal->distance,
+  std::string text = fmt::format("Experiment that would {}{}: {} ({:.0f} h), {:.1f} σ{}.", tells ? "" : "best ",
+                                 diagnosis.suspicion ? "show it" : "tell them apart", proposal->schedule,
+                                 proposal->hours, proposal->distance,
                                  tells ? "" : fmt::format(" of {:g} that are wanted", wanted_distance));
   if (!best.sensor.empty() && best.distance > 1.5 * proposal->distance)
     text += fmt::format(" With one more sensor on {}: {}, {:.1f} σ.", best.sensor, best.schedule, best.distance);
   return text + "\n\n";
+}
+
+/// What comes nearest, and what the data could not have shown.
+std::string words_of_silence(Diagnosis const& diagnosis) {
+  if (diagnosis.verdict != Diagnosis::Verdict::nothing) return "";
+  std::string text;
+  if (auto const& suspicion = diagnosis.suspicion)
+    text += fmt::format("Suspected, of 2 ln evidence {:.1f} where {:.1f} is asked for:\n{}\n",
+                        suspicion->explanation.alternatives[0].strength, suspicion->asked,
+                        words_of(suspicion->explanation));
+  return text + fmt::format(
+                    "Of {} shapes of effects at their sites, {} would have been seen at half of their largest "
+                    "size.\n\n",
+                    diagnosis.hypotheses.size(), diagnosis.visible);
 }
 
 /// Where they speak against what was found.
@@ -325,6 +340,11 @@ std::string report_json(DiagnosisReport const& report) {
                {"effects", Json::array()}};
   for (std::size_t g = 0; g < diagnosis.explanations.size(); ++g)
     for (auto const& finding : diagnosis.explanations[g].alternatives) json["effects"].push_back(json_of(finding, g));
+  if (auto const& suspicion = diagnosis.suspicion) {
+    json["suspicion"] = {{"asked", suspicion->asked}, {"effects", Json::array()}};
+    for (auto const& finding : suspicion->explanation.alternatives)
+      json["suspicion"]["effects"].push_back(json_of(finding, 0));
+  }
   if (diagnosis.unknown_heat) {
     json["heat"] = json_of(*diagnosis.unknown_heat);
     for (auto const& [name, watts] : diagnosis.unknown_heat_by_speed.mean)
@@ -384,10 +404,7 @@ std::string report_text(DiagnosisReport const& report) {
   std::string text = doubt_lines(report.doubts) + "\n" +
                      headline(diagnosis.verdict, diagnosis.explanations.size(), disagrees(diagnosis)) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
-  if (diagnosis.verdict == Diagnosis::Verdict::nothing)
-    text += fmt::format(
-        "Of {} shapes of effects at their sites, {} would have been seen at half of their largest size.\n\n",
-        diagnosis.hypotheses.size(), diagnosis.visible);
+  text += words_of_silence(diagnosis);
   if (auto const loudest = loud_channels(diagnosis); !loudest.empty())
     text += fmt::format("More error than expected was taken for noise at {}.\n\n", loudest);
   text += words_of_numbers(diagnosis) + words_of_loop(diagnosis);

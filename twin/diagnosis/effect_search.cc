@@ -42,6 +42,11 @@ std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector
   return chosen;
 }
 
+/// Of an amplitude as it was fitted: no fault of a sensor, for instance, which good ones have as well.
+bool is_ordinary(Hypothesis const& hypothesis, Fit const& fit, Eigen::Index unknown) {
+  return hypothesis.is_ordinary(fit.x[unknown], std::sqrt(fit.covariance(unknown, unknown)));
+}
+
 Eigen::VectorXd shorter(Eigen::VectorXd const& x, Eigen::Index gone) {
   Eigen::VectorXd rest(x.size() - 1);
   rest << x.head(gone), x.tail(x.size() - gone - 1);
@@ -49,6 +54,12 @@ Eigen::VectorXd shorter(Eigen::VectorXd const& x, Eigen::Index gone) {
 }
 
 }  // namespace
+
+/// What may join the effects found, or stand in the place of one of them.
+struct EffectSearch::Candidates {
+  std::vector<Hypothesis> hypotheses;
+  Eigen::MatrixXd columns;  ///< their signatures, whitened
+};
 
 /// A fit with one effect more.
 struct EffectSearch::Refit {
@@ -74,7 +85,8 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
 void EffectSearch::operator()() {
   linearise();
   for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
-  if (drop_superfluous() && estimation_->effects().size() > 1) linearise();
+  if (estimation_->effects().size() < 2) return;  // what was found alone was held against all others then
+  if (drop_superfluous()) linearise();
   if (exchange()) drop_superfluous();
 }
 
@@ -103,11 +115,12 @@ void EffectSearch::open_loops() {
 /// 2 ln of the evidence for the strongest effect on a displacement, about the present fit.
 double EffectSearch::gain_of_one_growth() {
   linearise();
-  auto const scores = Remainder(fit_, whitened_signatures()).scores(hypotheses_);
+  auto const all = candidates();
+  auto const scores = Remainder(fit_, all.columns).scores(all.hypotheses);
   std::vector<std::size_t> chosen;
-  for (std::size_t const k : promising(scores, hypotheses_, 0.0, INFINITY))
-    if (hypotheses_[k].is_about("deformation") && chosen.size() < most_growths) chosen.push_back(k);
-  auto const found = refits(fit_, chosen, scores);
+  for (std::size_t const k : promising(scores, all.hypotheses, 0.0, INFINITY))
+    if (all.hypotheses[k].is_about("deformation") && chosen.size() < most_growths) chosen.push_back(k);
+  auto const found = refits(fit_, chosen, all, scores);
   return found.empty() ? 0.0 : found[0].strength;
 }
 
@@ -129,19 +142,36 @@ std::vector<std::pair<std::string, double>> EffectSearch::noise_heard() const {
 
 void EffectSearch::linearise() { signatures_ = signatures(*estimation_, fit_, hypotheses_); }
 
-Eigen::MatrixXd EffectSearch::whitened_signatures() const {
-  Eigen::MatrixXd columns = signatures_;
-  estimation_->whiten(columns);
-  return columns;
+/// All that is not there yet, in whatever shape.
+EffectSearch::Candidates EffectSearch::candidates(std::optional<std::size_t> in_place_of) const {
+  auto const& effects = estimation_->effects();
+  auto const is_there = [&](Hypothesis const& tried) {
+    for (std::size_t e = 0; e < effects.size(); ++e)
+      if (e != in_place_of && effects[e].label() == tried.label() &&
+          effects[e].trial->amplitude == tried.trial->amplitude)
+        return true;
+    return false;
+  };
+  std::vector<Eigen::Index> open;
+  Candidates result;
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
+    if (is_there(hypotheses_[k])) continue;
+    open.push_back(Eigen::Index(k));
+    result.hypotheses.push_back(hypotheses_[k]);
+  }
+  result.columns = signatures_(Eigen::all, open);
+  estimation_->whiten(result.columns);
+  return result;
 }
 
 /// One effect more, each of those chosen, about a fit without it.
 std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vector<std::size_t> const& chosen,
+                                                      Candidates const& candidates,
                                                       std::vector<Score> const& scores) const {
   std::vector<Refit> result(chosen.size());
   in_parallel(chosen.size(), [&](std::size_t i) {
     auto& refit = result[i];
-    refit.hypothesis = hypotheses_[chosen[i]];
+    refit.hypothesis = candidates.hypotheses[chosen[i]];
     Eigen::VectorXd start(about.x.size() + 1);
     start << about.x, scores[chosen[i]].amplitude;
     auto const last = about.x.size();
@@ -152,8 +182,7 @@ std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vec
       refit.x = fit.x;
       refit.amplitude = fit.x[last];
       refit.standard_error = std::sqrt(fit.covariance(last, last));
-      bool const ordinary = refit.hypothesis.is_ordinary(refit.amplitude, refit.standard_error);
-      refit.strength = ordinary ? -INFINITY : fit_.evidence - fit.evidence;
+      refit.strength = is_ordinary(refit.hypothesis, fit, last) ? -INFINITY : fit_.evidence - fit.evidence;
     } catch (std::exception const&) {
       refit.strength = -INFINITY;
     }
@@ -168,9 +197,8 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   auto const own_place = Eigen::Index(estimation_->unknowns().size() - estimation_->effects().size() + effect);
   Hypothesis const& own = estimation_->effects()[effect];
   Fit const about = without(fit_, own_place);
-  std::vector<Hypothesis> tried = hypotheses_;
+  auto [tried, columns] = candidates(effect);
   tried.push_back(own);
-  Eigen::MatrixXd columns = whitened_signatures();
   columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
   columns.rightCols(1) = -fit_.jacobian.col(own_place).head(columns.rows());
   Remainder const remainder(about, columns);
@@ -181,7 +209,7 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
       {own, fit_.x[own_place], std::sqrt(fit_.covariance(own_place, own_place)), fit_.x, strength}};
   for (std::size_t const k : promising(scores, tried, 0.0, INFINITY)) {
     if (tried[k].label() == own.label() || std::abs(alike[Eigen::Index(k)]) < confusable_cosine) continue;
-    Refit refit{tried[k], scores[k].amplitude, 1.0 / std::sqrt(scores[k].information), fit_.x,
+    Refit refit{tried[k], probable_amplitude(scores[k]), probable_error(scores[k]), fit_.x,
                 strength + evidence_of(scores[k], tried[k]) - own_evidence};
     refit.x[own_place] = refit.amplitude;
     result.push_back(std::move(refit));
@@ -202,14 +230,15 @@ Explanation EffectSearch::explanation_of(std::vector<Refit> const& refits) const
 
 /// By the score: the strongest of each of the three strongest effects, and of two more bodies. The linearisation
 /// underrates an effect beside which other numbers change their meaning: a joint through which no heat flowed before.
-std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& scores, double threshold) const {
+std::vector<std::size_t> EffectSearch::most_promising(Candidates const& candidates, std::vector<Score> const& scores,
+                                                      double threshold) const {
   std::vector<std::size_t> chosen;
   std::set<Effect const*> effects;
   std::set<std::string> bodies;
   int elsewhere = 0;
   double const least = std::max(0.6 * options_.threshold, hopeful_score * threshold);
-  for (std::size_t const k : promising(scores, hypotheses_, least, INFINITY)) {
-    auto const& hypothesis = hypotheses_[k];
+  for (std::size_t const k : promising(scores, candidates.hypotheses, least, INFINITY)) {
+    auto const& hypothesis = candidates.hypotheses[k];
     bool const one_more_effect = effects.size() < 3 && !effects.contains(hypothesis.effect);
     if (!one_more_effect && (bodies.contains(hypothesis.body) || ++elsewhere > 2)) continue;
     effects.insert(hypothesis.effect);
@@ -223,12 +252,13 @@ std::vector<std::size_t> EffectSearch::most_promising(std::vector<Score> const& 
 bool EffectSearch::add_effect(int round) {
   say(fmt::format("{} shapes of effects at their sites, round {}", hypotheses_.size(), round));
   double const threshold = std::max(options_.threshold, share_of_strongest());
-  auto const scores = Remainder(fit_, whitened_signatures()).scores(hypotheses_);
+  auto const all_others = candidates();
+  auto const scores = Remainder(fit_, all_others.columns).scores(all_others.hypotheses);
   if (round == 1)
     visible_ = std::size_t(std::count_if(scores.begin(), scores.end(), [](Score const& score) {
       return usual_amplitude * std::sqrt(score.information) > wanted_distance;
     }));
-  auto const first = refits(fit_, most_promising(scores, threshold), scores);
+  auto const first = refits(fit_, most_promising(all_others, scores, threshold), all_others, scores);
   if (first.empty() || first[0].strength < hopeful_refit * threshold) return false;
   Estimation const before = *estimation_;
   Fit const base = fit_;
@@ -239,7 +269,8 @@ bool EffectSearch::add_effect(int round) {
   for (int attempt = 0; attempt < 2; ++attempt) {
     estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
     fit_ = estimation_->fit(best.x, to_the_end);
-    best.strength = base.evidence - fit_.evidence;
+    bool const ordinary = is_ordinary(best.hypothesis, fit_, fit_.x.size() - 1);
+    best.strength = ordinary ? -INFINITY : base.evidence - fit_.evidence;
     if (attempt == 1 && best.strength < former.strength) {  // it only seemed better
       best = former;
       fit_ = former_fit;
@@ -254,29 +285,16 @@ bool EffectSearch::add_effect(int round) {
     former_fit = fit_;
     best = Refit(*strongest);
   }
-  if (best.strength < evident_beside()) {
+  if (double const asked = evident_beside(); best.strength < asked) {
+    if (explanations_.empty() && best.strength >= hopeful_refit * asked) suspicion_ = {explanation_of(all), asked};
     estimation_ = before;
     fit_ = base;
     signatures_ = base_signatures;
     return false;
   }
   explanations_.push_back(explanation_of(all));
-  forget(best.hypothesis);
   listen_to_noise();
   return true;
-}
-
-/// No longer tried, nor any other shape of it there.
-void EffectSearch::forget(Hypothesis const& found) {
-  std::vector<Hypothesis> others;
-  for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
-    auto const& own = hypotheses_[k];
-    if (own.label() == found.label() && own.trial->amplitude == found.trial->amplitude) continue;
-    signatures_.col(Eigen::Index(others.size())) = signatures_.col(Eigen::Index(k));
-    others.push_back(own);
-  }
-  hypotheses_ = std::move(others);
-  signatures_.conservativeResize(Eigen::NoChange, Eigen::Index(hypotheses_.size()));
 }
 
 /// The machine without any effect found, with these instead, and with the noise heard last.
@@ -284,12 +302,13 @@ Estimation EffectSearch::with_effects(std::vector<Hypothesis> const& effects) co
   return plain_->with(estimation_->noise()).with(effects);
 }
 
-/// 2 ln of the evidence for each effect found, beside all the others.
+/// 2 ln of the evidence for each effect found, beside all the others; what is ordinary has none.
 std::vector<double> EffectSearch::strengths_beside_others() const {
   auto const effects = estimation_->effects();
   auto const first = fit_.x.size() - Eigen::Index(effects.size());
-  std::vector<double> strengths(effects.size());
+  std::vector<double> strengths(effects.size(), -INFINITY);
   in_parallel(effects.size(), [&](std::size_t e) {
+    if (is_ordinary(effects[e], fit_, first + Eigen::Index(e))) return;
     auto others = effects;
     others.erase(others.begin() + std::ptrdiff_t(e));
     strengths[e] = with_effects(others).fit(shorter(fit_.x, first + Eigen::Index(e)), 10).evidence - fit_.evidence;
@@ -301,7 +320,7 @@ std::vector<double> EffectSearch::strengths_beside_others() const {
 /// Whether any did.
 bool EffectSearch::drop_superfluous() {
   bool dropped = false;
-  while (estimation_->effects().size() > 1) {
+  while (!estimation_->effects().empty()) {
     auto const strengths = strengths_beside_others();
     auto const weakest = std::min_element(strengths.begin(), strengths.end()) - strengths.begin();
     for (std::size_t e = 0; e < strengths.size(); ++e) {
@@ -324,7 +343,7 @@ bool EffectSearch::drop_superfluous() {
 /// Whether any was exchanged.
 bool EffectSearch::exchange() {
   bool exchanged = false;
-  for (std::size_t e = 0; estimation_->effects().size() > 1 && e < estimation_->effects().size(); ++e) {
+  for (std::size_t e = 0; e < estimation_->effects().size(); ++e) {
     auto const& explanation = explanations_[e];
     double strength = explanation.alternatives[0].strength;
     auto all = instead_of(e, strength);
@@ -335,7 +354,8 @@ bool EffectSearch::exchange() {
       effects[e] = best.hypothesis;
       Estimation const changed = with_effects(effects);
       Fit const fit = changed.fit(best.x, 10);
-      if (fit.evidence < fit_.evidence - 2.0) {
+      auto const place = fit.x.size() - Eigen::Index(effects.size() - e);
+      if (fit.evidence < fit_.evidence - 2.0 && !is_ordinary(best.hypothesis, fit, place)) {
         strength += fit_.evidence - fit.evidence;
         estimation_ = changed;
         fit_ = fit;

@@ -28,6 +28,12 @@ struct DiagnosisOptions {
   std::function<void(std::string const&)> progress;
 };
 
+/// What comes nearest where no effect is evident.
+struct Suspicion {
+  Explanation explanation;
+  double asked = 0.0;  ///< what it would need to be evident [2 ln]
+};
+
 /// Which effects a machine lacks, beside all its uncertain numbers: forward selection by evidence, with a backward
 /// check and an exchange of each for what could stand in its place (physics.md 8.5, 8.6).
 class EffectSearch {
@@ -50,6 +56,8 @@ class EffectSearch {
   [[nodiscard]] Fit const& fit() const { return fit_; }
   /// Amplitudes as they were when each was found.
   [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
+  /// Where none was found: what has half of the evidence that it would need, or more.
+  [[nodiscard]] std::optional<Suspicion> const& suspicion() const { return suspicion_; }
   /// What is evident, beside the effects found if there are any [2 ln].
   [[nodiscard]] double evident_beside() const;
   /// How much more model error than expected was heard in each channel; 1: no more.
@@ -66,17 +74,18 @@ class EffectSearch {
   /// What a further effect needs of the strongest one's evidence.
   [[nodiscard]] double share_of_strongest() const;
   [[nodiscard]] bool add_effect(int round);
+  struct Candidates;
+  [[nodiscard]] Candidates candidates(std::optional<std::size_t> in_place_of = std::nullopt) const;
   [[nodiscard]] std::vector<Refit> refits(Fit const& about, std::vector<std::size_t> const& chosen,
-                                          std::vector<Score> const& scores) const;
-  [[nodiscard]] std::vector<std::size_t> most_promising(std::vector<Score> const& scores, double threshold) const;
+                                          Candidates const& candidates, std::vector<Score> const& scores) const;
+  [[nodiscard]] std::vector<std::size_t> most_promising(Candidates const& candidates, std::vector<Score> const& scores,
+                                                        double threshold) const;
   [[nodiscard]] std::vector<Refit> instead_of(std::size_t effect, double strength) const;
   void linearise();
-  [[nodiscard]] Eigen::MatrixXd whitened_signatures() const;
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
   void open_loops();
   [[nodiscard]] double gain_of_one_growth();
   void listen_to_noise();
-  void forget(Hypothesis const& found);
   [[nodiscard]] std::vector<double> strengths_beside_others() const;
   [[nodiscard]] Estimation with_effects(std::vector<Hypothesis> const& effects) const;
   bool drop_superfluous();
@@ -92,6 +101,7 @@ class EffectSearch {
   std::size_t visible_ = 0;
   Fit calibrated_, fit_;
   std::vector<Explanation> explanations_;
+  std::optional<Suspicion> suspicion_;
 };
 
 }  // namespace thermotwin::twin

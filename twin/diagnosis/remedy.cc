@@ -29,9 +29,12 @@ Value with_added_sensors(Value document, Machine const& machine) {
 double least_distance(Eigen::MatrixXd const& products, Eigen::Index first, Rivals const& rivals) {
   double least = INFINITY;
   auto const count = Eigen::Index(rivals.hypotheses.size());
-  for (Eigen::Index i = 0; i < count; ++i)
+  for (Eigen::Index i = 0; i < count; ++i) {
+    double const amplitude = rivals.amplitudes[std::size_t(i)];
+    least = std::min(least, seen(products, first + i, amplitude));
     for (Eigen::Index j = 0; j < count; ++j)
-      if (i != j) least = std::min(least, apart(products, first + i, first + j, rivals.amplitudes[std::size_t(i)]));
+      if (i != j) least = std::min(least, apart(products, first + i, first + j, amplitude));
+  }
   return least;
 }
 

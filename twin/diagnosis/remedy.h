@@ -16,7 +16,7 @@ struct Remedy {
   std::filesystem::path file;  ///< of the schedule
   double hours = 0.0;          ///< of the schedule
   std::string sensor;          ///< where it would sit; empty: none
-  double distance = 0.0;       ///< least d_ij among the rivals, in units of the noise
+  double distance = 0.0;       ///< least d_ij among the rivals, of one alone its d_i, in units of the noise
 };
 
 /// Effects as somebody may look for them: an amplitude each [units of the trial's largest].
@@ -25,7 +25,7 @@ struct Rivals {
   std::vector<double> amplitudes;
 };
 
-/// What tells rivals apart that the runs so far do not: every separating schedule of the catalogue, and one more sensor
+/// What tells rivals apart, or shows one that is alone, that the runs so far do not: every separating schedule of the catalogue, and one more sensor
 /// on every body in it (physics.md 8.10, the linear version of T-optimality). A list for each, best first; all from one
 /// linearisation.
 ///

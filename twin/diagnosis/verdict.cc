@@ -48,8 +48,9 @@ Diagnosis::Verdict verdict_on(Diagnosis const& diagnosis, bool heat_left) {
   if (diagnosis.faulty_sensor && found.empty()) return Verdict::sensor;
   if (heat_left || stands_in(diagnosis)) return Verdict::none_known;
   if (found.empty()) return Verdict::nothing;
-  if (only_sensors(diagnosis)) return Verdict::sensor;
-  if (diagnosis.is_refuted()) return Verdict::none_known;
+  bool const sensors = only_sensors(diagnosis);
+  if (diagnosis.is_refuted() && !(sensors && diagnosis.faulty_sensor)) return Verdict::none_known;
+  if (sensors) return Verdict::sensor;
   bool const single =
       std::all_of(found.begin(), found.end(), [](auto const& one) { return one.alternatives.size() == 1; });
   return single ? Verdict::effect : Verdict::either;

@@ -99,6 +99,8 @@ std::string sentence(Json const& diagnosis) {
 
 Json diagnosis_json(Json diagnosis, std::string const& name) {
   for (auto& finding : diagnosis["effects"]) explain(finding);
+  if (diagnosis.contains("suspicion"))
+    for (auto& finding : diagnosis["suspicion"]["effects"]) explain(finding);
   diagnosis["name"] = name;
   diagnosis["sentence"] = sentence(diagnosis);
   return diagnosis;

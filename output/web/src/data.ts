@@ -141,13 +141,15 @@ export interface DiagnosisSection {
   sentence: string;
   verdict: string;
   effects: Finding[];
+  /** Of nothing evident: what has half or more of the evidence that is asked for. */
+  suspicion?: {asked: number; effects: Finding[]};
   heat?: FreeHeat;
   where: {body: string; regime: string}[];
   gap: {before: number; after: number};
   gaps: {fitted: Gap[]; held_out: Gap[]};
   disagreement?: {before: Disagreement[]; after: Disagreement[]};
   unaccounted_heat: FreeHeat[];
-  /** Of an either/or: a schedule's file, by how many σ it tells the names apart, and by how many it should. */
+  /** Of an either/or or a suspicion: a schedule's file, by how many σ it tells, and by how many it should. */
   experiment?: string;
   experiment_distance?: number;
   experiment_wanted_distance?: number;

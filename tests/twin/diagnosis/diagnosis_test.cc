@@ -8,14 +8,14 @@
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "twin/diagnosis/diagnosis_report.h"
+#include "twin/diagnosis/separation.h"
 
 namespace thermotwin::twin {
 namespace {
 
-Diagnosis diagnosed(std::string const& hidden) {
+Diagnosis diagnosed(std::string const& hidden, DiagnosisOptions options = {}) {
   auto run = tests::measured(tests::with_table(tests::v450(), hidden), tests::two_speeds());
   tests::add_noise(run, 0.02, 0.05e-6, 7);
-  DiagnosisOptions options;
   options.least_share = 0.0;
   return diagnose(tests::v450(), {bin(run, 300.0)}, options);
 }
@@ -38,6 +38,37 @@ TEST(Diagnosis, NamesWhatMovesADisplacement) {
   EXPECT_EQ(name_of(diagnosis.verdict), "effect");
   ASSERT_EQ(diagnosis.effects.size(), 1);
   EXPECT_EQ(diagnosis.effects[0].effect->name, "centrifugal_growth");
+}
+
+/// The same growth where more evidence is asked for than there is: not named, but told with an experiment that would
+/// show it; and where less than half of that is there, not even told.
+TEST(Diagnosis, SuspectsWhatIsNotEvidentEnough) {
+  double const evidence = diagnosed(growth).explanations.at(0).alternatives[0].strength;
+  auto const asking = [&](double threshold) {
+    DiagnosisOptions options;
+    options.threshold = threshold;
+    DiagnosisReport report;
+    report.diagnosis = diagnosed(growth, options);
+    return report;
+  };
+  auto const report = asking(1.5 * evidence);
+  auto const& diagnosis = report.diagnosis;
+  EXPECT_EQ(name_of(diagnosis.verdict), "nothing");
+  EXPECT_TRUE(diagnosis.effects.empty());
+  ASSERT_TRUE(diagnosis.suspicion);
+  auto const& suspect = diagnosis.suspicion->explanation.alternatives.at(0);
+  EXPECT_EQ(suspect.hypothesis.effect->name, "centrifugal_growth");
+  EXPECT_NEAR(suspect.amplitude, -12e-6, 1.5 * suspect.standard_error);
+  EXPECT_GE(diagnosis.suspicion->asked, 1.5 * evidence);
+  ASSERT_FALSE(diagnosis.proposals.empty());
+  EXPECT_GT(diagnosis.proposals[0].distance, wanted_distance);
+  EXPECT_THAT(report_text(report), testing::AllOf(testing::HasSubstr("Suspected"), testing::HasSubstr("show it")));
+  EXPECT_THAT(report_json(report), testing::HasSubstr("\"suspicion\""));
+  auto const deaf = asking(2.5 * evidence);
+  EXPECT_EQ(name_of(deaf.diagnosis.verdict), "nothing");
+  EXPECT_FALSE(deaf.diagnosis.suspicion);
+  EXPECT_TRUE(deaf.diagnosis.proposals.empty());
+  EXPECT_THAT(report_text(deaf), testing::Not(testing::HasSubstr("Suspected")));
 }
 
 /// In a room where nothing happens a sensor that lags reads a smooth version of a noisy record.
@@ -94,6 +125,47 @@ TEST(Diagnosis, LetsARunHeldOutSpeakAgainstWhatItFound) {
   EXPECT_EQ(report.diagnosis.unknown_heat->site.body, "motor");
   EXPECT_NEAR(report.diagnosis.unknown_heat->mean_of_all().mean, 80.0, 20.0);
   EXPECT_THAT(report_text(report), testing::HasSubstr("The runs held out speak against it"));
+}
+
+/// A thermometer that was mounted after the runs that were fitted has its say, too.
+TEST(Diagnosis, ARunHeldOutMayHaveAChannelMore) {
+  Value const hot = tests::with_table(tests::v450(), R"(
+    [[heat]]
+    name = "hidden"
+    at = "motor"
+    power = "80 W")");
+  auto fitted = tests::measured(hot, tests::two_speeds());
+  auto unseen = tests::measured(hot, tests::two_speeds("50 min", "80 min", "1 h", "50 min"));
+  tests::add_noise(fitted, 0.02, 0.05e-6, 7);
+  tests::add_noise(unseen, 0.02, 0.05e-6, 8);
+  std::erase_if(fitted.channels, [](auto const& channel) { return channel.name == "T8"; });
+  auto const diagnosis = diagnose(tests::v450(), {bin(fitted, 300.0)}, {}, {bin(unseen, 300.0)});
+  EXPECT_EQ(diagnosis.effects.size(), 1);
+  ASSERT_TRUE(diagnosis.vote);
+  EXPECT_GT(*diagnosis.vote, 10.0);
+}
+
+/// A cycle of the room's air warms no one body: refuted, it leaves no body to tell the watts of.
+TEST(Diagnosis, KnowsNoneWhereARunHeldOutSpeaksAgainstTheAir) {
+  auto const on_a_day = [](std::string const& sine, unsigned seed) {
+    auto run = tests::measured(tests::with_table(tests::v450(), R"(
+      [[ambient_cycle]]
+      name = "hidden"
+      sine = ")" + sine + "\""),
+                               tests::experiment(R"(
+      duration = "24 h"
+      ambient.mean = "22 degC"
+      [spindle]
+      blocks = [{duration = "6 h", speed = "3000 rpm"}, {duration = "18 h", speed = "0 rpm"}])"));
+    tests::add_noise(run, 0.02, 0.05e-6, seed);
+    return run;
+  };
+  auto const fitted = on_a_day("0.6 K", 7), other = on_a_day("-3 K", 8);
+  auto const diagnosis = diagnose(tests::v450(), {bin(fitted, 300.0)}, {}, {bin(other, 300.0)});
+  EXPECT_EQ(name_of(diagnosis.verdict), "none_known");
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].effect->name, "ambient_cycle");
+  EXPECT_TRUE(diagnosis.is_refuted());
 }
 
 /// Two effects may act on one displacement.

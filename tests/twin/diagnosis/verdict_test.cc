@@ -73,6 +73,10 @@ TEST(Verdict, IsRefutedByRunsHeldOutThatOutweighTheOthers) {
   EXPECT_EQ(name_of(verdict_on(diagnosis, false)), "effect");
   diagnosis.vote = -121.0;
   EXPECT_EQ(name_of(verdict_on(diagnosis, false)), "none_known");
+  diagnosis.explanations = {contact};
+  EXPECT_EQ(name_of(verdict_on(diagnosis, false)), "none_known");
+  diagnosis.faulty_sensor = FaultySensor{"T6", "jumps"};  // as everybody sees
+  EXPECT_EQ(name_of(verdict_on(diagnosis, false)), "sensor");
 }
 
 }  // namespace

@@ -18,7 +18,9 @@ const tagOf = ({verdict, heat}: DiagnosisSection): string => (heat ? 'Unknown he
 export function diagnosisSection(section: DiagnosisSection, state: PageState): HTMLElement {
   const {before, after} = section.gap;
   const panels = [
-    section.effects.length > 0 && candidatesPanel(section),
+    section.effects.length > 0 && candidatesPanel('Candidates and their evidence', 'candidates', section.effects, section),
+    section.suspicion && candidatesPanel(`Suspected: evidence below the ${section.suspicion.asked.toFixed(0)} that is asked for`,
+      'suspected', section.suspicion.effects, section),
     section.gaps.held_out.length > 0 && gapPanel('Gap on data held out', 'gap_held_out', section.gaps.held_out),
     section.gaps.fitted.length > 0 && gapPanel('Gap on the fitted data', 'gap_fitted', section.gaps.fitted),
     section.disagreement && disagreementPanel(section.disagreement.before, section.disagreement.after),
@@ -63,8 +65,8 @@ function figure(label: string, value: string): HTMLElement {
   return make('div', {}, make('dt', {}, label), make('dd', {}, value));
 }
 
-function candidatesPanel(
-    {effects, experiment, experiment_distance, experiment_wanted_distance: wanted}: DiagnosisSection): HTMLElement {
+function candidatesPanel(title: string, file: string, effects: Finding[],
+    {experiment, experiment_distance, experiment_wanted_distance: wanted}: DiagnosisSection): HTMLElement {
   const groups = [...new Set(effects.map((e) => e.group))];
   const lists = groups.map((group) => {
     const all = effects.filter((e) => e.group === group);
@@ -73,14 +75,14 @@ function candidatesPanel(
     return make('div', {}, all.length > 1 && make('p', {class: 'words'}, `One of ${all.length}; these data do not tell them apart:`),
       list, all.length > 1 && apart && make('p', {class: 'words'}, `What would tell them apart: ${apart}.`));
   });
-  return panel('Candidates and their evidence', 'candidates', () => [
+  return panel(title, file, () => [
     {name: 'effect', values: effects.map((e) => e.effect)}, {name: 'site', values: effects.map((e) => e.site)},
     {name: 'parameter', values: effects.map((e) => e.parameter)}, {name: 'unit', values: effects.map((e) => e.unit)},
     {name: 'amplitude', values: effects.map((e) => e.amplitude)}, {name: 'low', values: effects.map((e) => e.low)},
     {name: 'high', values: effects.map((e) => e.high)}, {name: 'weight', values: effects.map((e) => e.weight)},
     {name: 'two_ln_evidence', values: effects.map((e) => e.strength)},
   ], ...lists, experiment && experiment_distance !== undefined && make('p', {class: 'words'}, `Of the schedules that come with the program, ${
-    stem(experiment)} does it best: they lie ${size(experiment_distance)} σ apart there${wanted !== undefined && experiment_distance < wanted ? `, of ${wanted} that are wanted` : ''}.`));
+    stem(experiment)} ${effects.length > 1 ? 'does it best: they lie' : 'would show it best:'} ${size(experiment_distance)} σ ${effects.length > 1 ? 'apart there' : 'from nothing'}${wanted !== undefined && experiment_distance < wanted ? `, of ${wanted} that are wanted` : ''}.`));
 }
 
 function candidate(effect: Finding): HTMLElement {
