@@ -2,14 +2,17 @@
 
 #include <atomic>
 #include <cerrno>
-#include <csignal>
+#include <charconv>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <optional>
 #include <string>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <vector>
 
+#include "output/descriptor.h"
 #include "output/error.h"
 
 namespace thermotwin::output {
@@ -17,53 +20,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file beyond RLIMIT_FSIZE raises SIGXFSZ, which kills; while this lives, write() reports EFBIG instead.
-class SizeLimitAsError {
- public:
-  SizeLimitAsError() {
-    struct sigaction ignore {};
-    ignore.sa_handler = SIG_IGN;
-    sigaction(SIGXFSZ, &ignore, &before_);
-  }
-  ~SizeLimitAsError() { sigaction(SIGXFSZ, &before_, nullptr); }
-  SizeLimitAsError(SizeLimitAsError const&) = delete;
-  SizeLimitAsError& operator=(SizeLimitAsError const&) = delete;
-
- private:
-  struct sigaction before_ {};
-};
-
-class Descriptor {
- public:
-  Descriptor(fs::path const& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(Descriptor const&) = delete;
-  Descriptor& operator=(Descriptor const&) = delete;
-
-  [[nodiscard]] bool is_open() const { return fd_ >= 0; }
-  [[nodiscard]] bool write(std::string_view bytes) const {
-    if (fd_ < 0) return false;
-    SizeLimitAsError const guard;
-    while (!bytes.empty()) {
-      ssize_t const written = ::write(fd_, bytes.data(), bytes.size());
-      if (written < 0 && errno != EINTR) return false;
-      if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return true;
-  }
-  [[nodiscard]] bool synchronise() const { return ::fsync(fd_) == 0; }
-
- private:
-  int fd_;
-};
+constexpr int most_links = 40;  ///< one behind the other, as the system has it
 
 [[noreturn]] void fail(fs::path const& path, std::string const& reason) {
+  throw OutputError(fmt::format("cannot write '{}': {}", path.string(), reason));
+}
+
+/// Which open file of this process a path means: /dev/stdout is 1. Whatever it was opened as is not to be replaced.
+std::optional<int> open_number(fs::path const& path) {
+  std::error_code error;
+  auto const folder = fs::canonical(path.parent_path(), error);
+  if (error || folder != fs::canonical("/proc/self/fd", error)) return std::nullopt;
+  std::string const name = path.filename();
+  int number = 0;
+  bool const numeric = std::from_chars(name.data(), name.data() + name.size(), number).ec == std::errc();
+  return numeric ? std::optional(number) : std::nullopt;
+}
+
+/// Where symbolic links lead, also to what is not there yet.
+fs::path target_of(fs::path const& path) {
+  fs::path target = path;
   std::error_code ignored;
-  bool const old = fs::is_regular_file(path, ignored);
-  throw OutputError(
-      fmt::format("cannot write '{}': {}{}", path.string(), reason, old ? " (the old file is as it was)" : ""));
+  for (int links = 0; fs::is_symlink(target, ignored) && !open_number(target); ++links) {
+    if (links == most_links) fail(path, std::strerror(ELOOP));
+    target = target.parent_path() / fs::read_symlink(target);
+  }
+  return target;
 }
 
 /// A name that no other writer of this process has, nor one of another process at this time.
@@ -73,22 +55,30 @@ fs::path temporary_beside(fs::path const& path) {
   return temporary += fmt::format(".{}-{}.tmp", ::getpid(), number++);
 }
 
+/// With the permissions of the old file.
 void replace(fs::path const& path, std::string_view contents) {
+  struct stat old {};
+  bool const there = ::stat(path.c_str(), &old) == 0;
   fs::path const temporary = temporary_beside(path);
   Descriptor const file(temporary, O_WRONLY | O_CREAT | O_EXCL);
   if (!file.is_open() && errno == EEXIST) return replace(path, contents);  // somebody's, to be left alone
+  if (file.is_open() && there) ::fchmod(file.number(), old.st_mode & 07777);
   if (file.write(contents) && file.synchronise() && ::rename(temporary.c_str(), path.c_str()) == 0) return;
   std::string const reason = std::strerror(errno);
   if (file.is_open()) ::unlink(temporary.c_str());
-  fail(path, reason);
+  fail(path, there ? reason + " (the old file is as it was)" : reason);
 }
 
 }  // namespace
 
 void write_atomically(fs::path const& path, std::string_view contents) {
+  fs::path const target = target_of(path);
   std::error_code ignored;
-  fs::path const target = fs::exists(path, ignored) ? fs::canonical(path) : path;
   if (fs::is_directory(target, ignored)) fail(path, "it is a directory");
+  if (auto const number = open_number(target)) {
+    if (!Descriptor::of(*number).write(contents)) fail(path, std::strerror(errno));
+    return;
+  }
   if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
     if (!Descriptor(target, O_WRONLY).write(contents)) fail(path, std::strerror(errno));
     return;

@@ -9,8 +9,10 @@ namespace thermotwin::output {
 /// it held before. The bytes go to a new file `<path>.<process>-<number>.tmp` in the same directory, are synchronised
 /// to the disk, and renamed; no file that is there already is touched, and two processes may write one `path`.
 ///
-/// A symbolic link is followed. A device or a pipe (`/dev/stdout`) is written straight through. Throws OutputError and
-/// leaves no `.tmp` behind when the directory is missing or not writable, the disk is full or a size limit is met.
+/// A symbolic link is followed, also to a file that is not there yet; a file that is keeps its permissions. A device, a
+/// pipe, and a file that this process has open (`/dev/stdout`, wherever that was redirected to) are written straight
+/// through. Throws OutputError and leaves no `.tmp` behind when the directory is missing or not writable, the disk is
+/// full or a size limit is met.
 void write_atomically(std::filesystem::path const& path, std::string_view contents);
 
 /// Removes the `.tmp` of processes that were killed while they wrote `path`. Nobody may be writing it.

@@ -99,6 +99,15 @@ struct Extent {
   }
 };
 
+constexpr double largest = 1e300;  ///< that has round numbers around it
+
+/// One that is a point gets room on both sides.
+Extent opened(Extent const& extent) {
+  if (extent.low < extent.high) return extent;
+  double const room = std::max(1.0, 1e-8 * std::abs(extent.low));
+  return {extent.low - room, extent.high + room};
+}
+
 void check(Figure const& figure) {
   for (auto const& line : figure.lines)
     if (line.x.size() != line.y.size())
@@ -124,8 +133,10 @@ FigureFrame scales_of(Figure const& figure) {
     y = {0.0, double(figure.rows.size())};
   }
   if (x.low > x.high || y.low > y.high) throw thermal::InputError("a figure of no values cannot be drawn");
-  if (y.low == y.high) y = {y.low - 1.0, y.high + 1.0};
-  if (x.low == x.high) x = {x.low - 1.0, x.high + 1.0};
+  if (std::max({-x.low, x.high, -y.low, y.high}) > largest)
+    throw thermal::InputError(fmt::format("a figure has no scale for numbers beyond {:g}", largest));
+  x = opened(x);
+  y = opened(y);
   FigureFrame frame{};
   frame.x_ticks = tick_places(x.low, x.high);
   if (figure.rows.empty()) {

@@ -38,6 +38,8 @@ void refuse_foreign(std::filesystem::path const& partial) {
 
 void write(Dataset const& dataset, std::filesystem::path const& path) { write_atomically(path, to_hdf5(dataset)); }
 
+std::filesystem::path partial_of(std::filesystem::path path) { return path += ".partial"; }
+
 DatasetWriter::DatasetWriter(std::filesystem::path path, Dataset head,
                              std::chrono::duration<double> between_checkpoints)
     : path_(std::move(path)), dataset_(std::move(head)), between_checkpoints_(between_checkpoints) {
@@ -56,12 +58,6 @@ DatasetWriter::~DatasetWriter() {
   }
   std::error_code ignored;
   if (rows_saved_ == 0) std::filesystem::remove(partial_path(), ignored);
-}
-
-std::filesystem::path DatasetWriter::partial_path() const {
-  auto partial = path_;
-  partial += ".partial";
-  return partial;
 }
 
 void DatasetWriter::append(Row const& row) {

@@ -43,6 +43,9 @@ struct Row {
   Eigen::VectorXf node_temperatures;
 };
 
+/// Where the rows of a data set stand while it grows: `<path>.partial`.
+[[nodiscard]] std::filesystem::path partial_of(std::filesystem::path path);
+
 /// A data set that grows while a run goes on.
 ///
 /// The rows so far stand in `<path>.partial`, a whole data set with `complete` = 0, replaced atomically every few
@@ -73,7 +76,7 @@ class DatasetWriter {
   /// Writes the file with what became known at the end (solver summary, energy balance) and gives the data set back.
   Dataset finish(std::map<std::string, std::string> const& provenance = {});
 
-  [[nodiscard]] std::filesystem::path partial_path() const;
+  [[nodiscard]] std::filesystem::path partial_path() const { return partial_of(path_); }
 
  private:
   void checkpoint();

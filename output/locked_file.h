@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "output/descriptor.h"
+
 namespace thermotwin::output {
 
 /// A file that this process alone may use while the object lives; the system frees it when the process ends, however
@@ -14,15 +16,12 @@ class LockedFile {
 
   /// Opens the file, or makes it. OutputError when it cannot be opened, or is in use and `busy` says refuse.
   LockedFile(std::filesystem::path path, Busy busy);
-  ~LockedFile();
-  LockedFile(LockedFile const&) = delete;
-  LockedFile& operator=(LockedFile const&) = delete;
 
   [[nodiscard]] std::filesystem::path const& path() const { return path_; }
   [[nodiscard]] std::string contents() const;
   /// Cuts everything behind the first `size` bytes.
   void shorten(std::size_t size);
-  /// In one piece, at the end.
+  /// In one piece, at the end. OutputError when the disk is full, or at a size limit; the file is as it was, then.
   void append(std::string_view bytes);
   void remove() const;
 
@@ -30,7 +29,7 @@ class LockedFile {
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
-  int descriptor_;
+  Descriptor descriptor_;
 };
 
 }  // namespace thermotwin::output

@@ -7,7 +7,8 @@
 namespace thermotwin::output {
 namespace {
 
-constexpr double tolerance = 1e-9;  // of a step, against numbers that are round only nearly
+constexpr double tolerance = 1e-9;   // of a step, against numbers that are round only nearly
+constexpr double told_apart = 1e-8;  // of a number, by the ten digits of a tick
 
 }  // namespace
 
@@ -19,8 +20,8 @@ double round_down(double x) {
 }
 
 Ticks round_ticks(double low, double high, double smallest_span) {
-  double const middle = 0.5 * (low + high);
-  double const half = 0.5 * std::max(high - low, smallest_span);
+  double const middle = 0.5 * low + 0.5 * high;
+  double const half = 0.5 * std::max({high - low, smallest_span, told_apart * std::abs(middle)});
   double const step = round_down(2 * half / 4);
   double const first = std::floor((middle - half) / step + tolerance);
   double const last = std::ceil((middle + half) / step - tolerance);

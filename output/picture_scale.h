@@ -12,7 +12,8 @@ struct Ticks {
   int count;
   int decimals;  ///< that the numbers need
 };
-/// A span below the smallest is shown as one of that size: what differs by less is one colour, not noise [K].
+/// A span below the smallest is shown as one of that size: what differs by less is one colour, not noise [K]. So is one
+/// below 1e-8 of the numbers themselves: its ticks would read the same.
 [[nodiscard]] Ticks round_ticks(double low, double high, double smallest_span = 0.4);
 
 /// Displacement as it is shown at most, of the machine's diagonal.

@@ -11,7 +11,12 @@
 namespace thermotwin::twin {
 namespace {
 
-std::string text_of(Checkpoint::Identity const& identity) { return nlohmann::json(identity).dump(); }
+/// Byte for byte, unlike JSON: a recorded table may be in any encoding.
+std::string record_of(Checkpoint::Identity const& identity) {
+  std::string record;
+  nlohmann::json::to_msgpack(nlohmann::json(identity), record);
+  return record;
+}
 
 /// The first thing in which two runs differ.
 std::string difference(Checkpoint::Identity const& a, Checkpoint::Identity const& b) {
@@ -21,7 +26,7 @@ std::string difference(Checkpoint::Identity const& a, Checkpoint::Identity const
 }
 
 Checkpoint::Identity identity_in(std::string const& record, std::filesystem::path const& path) {
-  auto const json = nlohmann::json::parse(record, nullptr, false);
+  auto const json = nlohmann::json::from_msgpack(record, true, false);
   if (!json.is_object()) throw thermal::InputError(fmt::format("'{}' is no checkpoint of a run", path.string()));
   return json.get<Checkpoint::Identity>();
 }
@@ -31,13 +36,13 @@ Checkpoint::Identity identity_in(std::string const& record, std::filesystem::pat
 Checkpoint::Checkpoint(std::filesystem::path const& path, Identity const& identity, bool resume)
     : journal_(path), records_(journal_.take_records()) {
   if (records_.empty()) {
-    journal_.append(text_of(identity));
+    journal_.append(record_of(identity));
     return;
   }
   if (!resume)
     throw thermal::InputError(
         fmt::format("'{}' holds a run that was not finished; go on with --resume, or delete it", path.string()));
-  if (records_.front() != text_of(identity))
+  if (records_.front() != record_of(identity))
     throw thermal::InputError(fmt::format("'{}' is of another run: '{}' is not the same", path.string(),
                                           difference(identity, identity_in(records_.front(), path))));
   records_.erase(records_.begin());
@@ -104,7 +109,7 @@ std::vector<std::size_t> stretches(std::span<double const> times, double interva
 double checkpoint_interval(std::filesystem::path const& path) {
   if (!std::filesystem::exists(path))
     throw thermal::InputError(fmt::format("there is no checkpoint '{}' to go on from", path.string()));
-  auto const records = output::Journal(path).take_records();
+  auto const records = output::Journal::read(path);
   if (records.empty()) throw thermal::InputError(fmt::format("'{}' holds no run", path.string()));
   return std::stod(identity_in(records.front(), path)["checkpoint_s"]);
 }

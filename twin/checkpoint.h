@@ -19,8 +19,8 @@ class Checkpoint {
  public:
   using Identity = std::map<std::string, std::string>;
 
-  /// Opens or makes the file. InputError when it is of a run of another `identity`, and says in what; or when it holds
-  /// a run and `resume` is not asked for.
+  /// Opens or makes the file. InputError when it is of a run of another `identity`, and says in what; when it holds a
+  /// run and `resume` is not asked for; or when it is no journal (output/journal.h), and is left as it is.
   Checkpoint(std::filesystem::path const& path, Identity const& identity, bool resume);
 
   /// Shows every sample that is in the file and sets the state to the last; returns how many they were.
@@ -44,7 +44,7 @@ class Checkpoint {
 /// the first time at or after a multiple of `interval` (0: one stretch). The last is all of them.
 [[nodiscard]] std::vector<std::size_t> stretches(std::span<double const> times, double interval);
 
-/// The interval of the run that a checkpoint is of [s]; InputError when there is none.
+/// The interval of the run that a checkpoint is of [s]; it is read only. InputError when there is none.
 [[nodiscard]] double checkpoint_interval(std::filesystem::path const& path);
 
 }  // namespace thermotwin::twin

@@ -1,13 +1,15 @@
 #include "output/atomic_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <string>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "output/descriptor.h"
 #include "output/error.h"
+#include "tests/output/small_disk.h"
 #include "tests/output/temporary_directory.h"
 
 namespace thermotwin::output {
@@ -19,23 +21,8 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 using tests::contents;
 using tests::put;
+using tests::SmallDisk;
 using tests::TemporaryDirectory;
-
-/// While this lives no file may grow beyond `bytes`: the disk is full.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit const small{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~SmallDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
-  SmallDisk(SmallDisk const&) = delete;
-  SmallDisk& operator=(SmallDisk const&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 /// Permissions do not hold for root, so be somebody else for a while.
 class WithoutPrivileges {
@@ -116,6 +103,38 @@ TEST(AtomicFile, FollowsALink) {
   write_atomically(directory / "latest.csv", "new");
   EXPECT_EQ(contents(directory / "run_7.csv"), "new");
   EXPECT_TRUE(std::filesystem::is_symlink(directory / "latest.csv"));
+}
+
+TEST(AtomicFile, FollowsLinksToAFileThatIsNotThereYet) {
+  TemporaryDirectory const directory;
+  std::filesystem::create_symlink("run_8.csv", directory / "newest.csv");
+  std::filesystem::create_symlink(directory / "newest.csv", directory / "latest.csv");
+  write_atomically(directory / "latest.csv", "new");
+  EXPECT_EQ(contents(directory / "run_8.csv"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(directory / "latest.csv"));
+  std::filesystem::create_symlink("ring.csv", directory / "ring.csv");
+  EXPECT_THAT([&] { write_atomically(directory / "ring.csv", "x"); },
+              ThrowsMessage<OutputError>(HasSubstr("ring.csv': Too many levels of symbolic links")));
+}
+
+/// As /dev/stdout is, wherever a shell has sent it.
+TEST(AtomicFile, WritesThroughWhatIsOpenAlready) {
+  TemporaryDirectory const directory;
+  put(directory / "log", "earlier, ");
+  Descriptor const log(directory / "log", O_WRONLY | O_APPEND);
+  write_atomically("/dev/fd/" + std::to_string(log.number()), "now, ");
+  ASSERT_TRUE(log.write("later"));
+  EXPECT_EQ(contents(directory / "log"), "earlier, now, later");
+}
+
+TEST(AtomicFile, KeepsTheOldFilesPermissions) {
+  TemporaryDirectory const directory;
+  for (auto const mode : {0600, 0664}) {
+    put(directory / "a.csv", "old");
+    std::filesystem::permissions(directory / "a.csv", std::filesystem::perms(mode));
+    write_atomically(directory / "a.csv", "new");
+    EXPECT_EQ(std::filesystem::status(directory / "a.csv").permissions(), std::filesystem::perms(mode));
+  }
 }
 
 TEST(AtomicFile, LeavesTheOldFileWhenTheDiskIsFull) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <regex>
@@ -131,6 +132,20 @@ TEST(Figure, ASpanThatIsSmallForAMachineHasItsOwnTicks) {
   EXPECT_NEAR(ticks.step, 0.0005, 1e-12);
 }
 
+TEST(Figure, AConstantHasRoomAboutItHoweverLarge) {
+  TemporaryDirectory const folder;
+  for (double const value : {0.0, 20.0, 2e16, -1e17, 1e300}) {
+    Figure figure;
+    figure.lines = {{"", Eigen::VectorXd::Constant(1, value), Eigen::VectorXd::Constant(1, value)}};
+    auto const f = write_figure(figure, folder / "constant.svg");
+    EXPECT_LT(f.y_low, value);
+    EXPECT_GT(f.y_high, value);
+    EXPECT_LT(f.x_low, value);
+    EXPECT_GT(f.x_high, value);
+    EXPECT_TRUE(std::adjacent_find(f.y_ticks.begin(), f.y_ticks.end(), std::greater_equal<>()) == f.y_ticks.end());
+  }
+}
+
 TEST(Figure, RowsStandWithTheirIntervals) {
   TemporaryDirectory const folder;
   Figure figure;
@@ -163,6 +178,9 @@ TEST(Figure, RefusesWhatItCannotDraw) {
   };
   EXPECT_THAT(refusal(two_waves(), "two.png"), HasSubstr(".svg or .pdf"));
   EXPECT_THAT(refusal({}, "none.svg"), HasSubstr("no values"));
+  auto huge = two_waves();
+  huge.lines[0].y[7] = 1e301;
+  EXPECT_THAT(refusal(huge, "huge.svg"), HasSubstr("no scale for numbers beyond 1e+300"));
   auto uneven = two_waves();
   uneven.lines[1].y.conservativeResize(7);
   EXPECT_THAT(refusal(uneven, "uneven.svg"), HasSubstr("'wave' has 241 places and 7 values"));

@@ -33,6 +33,16 @@ TEST(PictureScale, TicksAroundOneTemperatureLeaveItInTheMiddle) {
   EXPECT_EQ(ticks.decimals, 1);
 }
 
+TEST(PictureScale, TicksOfHugeNumbersAreStillApart) {
+  for (double const value : {3e16, -1e17, 1e300}) {
+    Ticks const ticks = round_ticks(value, value, 0.0);
+    EXPECT_GE(ticks.count, 4);
+    EXPECT_LE(ticks.count, 12);
+    EXPECT_LT(ticks.first, value);
+    EXPECT_GT(ticks.first + (ticks.count - 1) * ticks.step, value);
+  }
+}
+
 TEST(PictureScale, RoundsDownToOneTwoFive) {
   EXPECT_DOUBLE_EQ(round_down(1.0), 1.0);
   EXPECT_DOUBLE_EQ(round_down(1.99), 1.0);

@@ -119,6 +119,23 @@ TEST(Checkpoint, OfAnotherRunOrUnasked) {
   EXPECT_THROW(static_cast<void>(checkpoint_interval(directory / "none")), thermal::InputError);
 }
 
+/// A recorded table stands in the identity as it is.
+TEST(Checkpoint, TellsTablesInAnyEncodingApart) {
+  tests::TemporaryDirectory const directory;
+  std::string const latin_1 = "time_s,D\xfcse\n", another = "time_s,D\xf6se\n";
+  EXPECT_NO_THROW(Checkpoint(directory / "run", {{"recorded.0", latin_1}}, false));
+  EXPECT_NO_THROW(Checkpoint(directory / "run", {{"recorded.0", latin_1}}, true));
+  EXPECT_THROW(Checkpoint(directory / "run", {{"recorded.0", another}}, true), thermal::InputError);
+}
+
+TEST(Checkpoint, LeavesAFileOfSomethingElseAlone) {
+  tests::TemporaryDirectory const directory;
+  tests::put(directory / "notes", "what the user wrote");
+  EXPECT_THROW(static_cast<void>(checkpoint_interval(directory / "notes")), thermal::InputError);
+  EXPECT_THROW(Checkpoint(directory / "notes", {}, true), thermal::InputError);
+  EXPECT_EQ(tests::contents(directory / "notes"), "what the user wrote");
+}
+
 TEST(Checkpoint, StretchesEndAtTheFirstTimeAfterEachMultiple) {
   std::vector<double> times(11);
   std::iota(times.begin(), times.end(), 0.0);
