@@ -114,7 +114,7 @@ LiveModel CompensateCommand::live_model() const {
   if (!machine.empty()) return TwinObserver(Machine::read(machine_file(machine)), displacement());
   auto const saved = read_error_model(model);
   check_error(saved);
-  fmt::print(stderr, "{}", error_model_text(saved));
+  tell(error_model_text(saved));
   auto const& first = saved.parts.front();
   if (saved.parts.size() == 1 && !first.beside_twin) return SavedModel(first.model, first.ranges);
   return MeanModel(saved);
@@ -154,16 +154,16 @@ void CompensateCommand::operator()(std::atomic<bool> const& stop) const {
   options.broker.client = fmt::format("thermotwin-compensate-{}-{}", topics.prefix, axis);
   options.loop = {parse_value(cycle, dimension::time), speed, 0.5 * set.watch.stale_time,
                   parse_value(start, dimension::time)};
-  options.say = [](std::string const& line) { fmt::print(stderr, "{}\n", line); };
+  options.say = [](std::string const& line) { tell(line + "\n"); };
   Compensator compensator(live_model(), set);
   std::optional<CompensationRecord> recorded;
   if (!record.empty()) {
-    recorded.emplace(record, compensator.inputs(), axis);
+    recorded.emplace(record, compensator.inputs(), axis, options.say);
     options.record = [&](Decision const& decision, Compensator const& now) { recorded->add(decision, now); };
   }
   auto const summary = compensate(std::move(compensator), options, stop);
-  if (recorded) recorded->finish();
   fmt::print("{}", summary_text(summary));
+  if (recorded) recorded->finish();
 }
 
 struct PlayCommand : ConnectionArguments {
@@ -192,7 +192,7 @@ void PlayCommand::operator()(std::atomic<bool> const& stop) const {
   settings.limits.slew = um_per_m * parse_value(slew, dimension::speed);
   PlayOptions options{broker, topics, speed, 10.0, {}, {}};
   options.broker.client = fmt::format("thermotwin-play-{}-{}-{}", topics.prefix, axis, ::getpid());
-  options.say = [](std::string const& line) { fmt::print(stderr, "{}\n", line); };
+  options.say = [](std::string const& line) { tell(line + "\n"); };
   std::optional<Progress> bar;
   if (!quiet) {
     bar.emplace(run);

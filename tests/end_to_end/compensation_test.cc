@@ -193,6 +193,10 @@ TEST_F(LiveCompensation, LeavesALastWill) {
 TEST_F(LiveCompensation, RefusesWhatItCannotDo) {
   std::string const compensate = program + " compensate --broker " + broker_.url();
   EXPECT_THAT(answer(compensate, 2), HasSubstr("compensate needs --model FILE or --observer MACHINE"));
+  tests::put(at("earlier.h5"), "of yesterday");
+  EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --record " + at("earlier.h5"), 2),
+              HasSubstr("earlier.h5' is there already"));
+  EXPECT_EQ(tests::contents(at("earlier.h5")), "of yesterday");
   EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --resolution 1", 2), HasSubstr("1 has no unit"));
   EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --highest '120 K'", 2),
               HasSubstr("-20 degC at least and -153.15 degC at most: the highest must be above the lowest"));

@@ -93,6 +93,9 @@ void Session::report(Decision const& decision) {
 
 /// Of each input once.
 void Session::warn(Decision const& decision) {
+  if (decision.anew)
+    say(fmt::format("t = {:.0f} s: after so long a silence the twin begins anew; errors count from now",
+                    decision.time));
   for (auto const& [input, sentence] : decision.extrapolated)
     if (said_extrapolations_.insert(input).second)
       say(fmt::format("t = {:.0f} s: extrapolation: {}", decision.time, sentence));

@@ -1,7 +1,11 @@
 #include "twin/compensation/compensation_record.h"
 
+#include <exception>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
+
+#include "thermal/error.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -16,15 +20,25 @@ output::Dataset head_of(std::vector<ModelInput> const& inputs, std::string const
   return head;
 }
 
+std::filesystem::path const& new_record(std::filesystem::path const& path) {
+  for (auto const& there : {path, output::partial_of(path)})
+    if (std::filesystem::exists(there))
+      throw thermal::InputError(
+          fmt::format("'{}' is there already, and what was measured cannot be made again; move it, or name another "
+                      "record",
+                      there.string()));
+  return path;
+}
+
 }  // namespace
 
 CompensationRecord::CompensationRecord(std::filesystem::path const& path, std::vector<ModelInput> const& inputs,
-                                       std::string const& axis)
-    : writer_(path, head_of(inputs, axis)) {}
+                                       std::string const& axis, std::function<void(std::string const&)> say,
+                                       std::chrono::duration<double> between_checkpoints)
+    : writer_(new_record(path), head_of(inputs, axis), between_checkpoints), say_(std::move(say)) {}
 
-void CompensationRecord::add(Decision const& decision, Compensator const& compensator) {
-  if (rows_ > 0 && decision.time <= last_) return;
-  if (rows_ == 0) first_ = decision.time;
+/// Readings that are not believed are missing.
+output::Row CompensationRecord::row_of(Decision const& decision, Compensator const& compensator) const {
   auto const& inputs = compensator.inputs();
   std::vector<double> sensors, others;
   for (std::size_t i = 0; i < inputs.size(); ++i)
@@ -37,13 +51,24 @@ void CompensationRecord::add(Decision const& decision, Compensator const& compen
   row.readings = Eigen::Map<Eigen::VectorXd>(sensors.data(), Eigen::Index(sensors.size()));
   row.inputs = Eigen::Map<Eigen::VectorXd>(others.data(), Eigen::Index(others.size()));
   row.displacements = Eigen::Vector2d(decision.error, decision.offset);
-  writer_.append(row);
+  return row;
+}
+
+void CompensationRecord::add(Decision const& decision, Compensator const& compensator) {
+  if (failed_ || (rows_ > 0 && decision.time <= last_)) return;
+  if (rows_ == 0) first_ = decision.time;
   last_ = decision.time;
   ++rows_;
+  try {
+    writer_.append(row_of(decision, compensator));
+  } catch (std::exception const& error) {
+    failed_ = true;
+    say_(fmt::format("{}; compensation goes on without a record", error.what()));
+  }
 }
 
 void CompensationRecord::finish() {
-  if (rows_ > 0) (void)writer_.finish({{"start_s", fmt::format("{}", first_)}});
+  if (rows_ > 0 && !failed_) (void)writer_.finish({{"start_s", fmt::format("{}", first_)}});
 }
 
 }  // namespace thermotwin::twin

@@ -19,6 +19,11 @@ std::string unknown_input(std::string const& name, std::vector<ModelInput> const
   return fmt::format("the model has no input '{}'; {}", name, thermal::did_you_mean(name, known));
 }
 
+bool runs_a_twin(LiveModel const& model) {
+  auto const* mean = std::get_if<MeanModel>(&model);
+  return std::holds_alternative<TwinObserver>(model) || (mean && mean->runs_a_twin());
+}
+
 }  // namespace
 
 std::string_view name_of(Support support) {
@@ -28,6 +33,7 @@ std::string_view name_of(Support support) {
 
 Compensator::Compensator(LiveModel model, CompensationSettings const& settings)
     : model_(std::move(model)), settings_(settings), shift_(settings.shift) {
+  if (runs_a_twin(model_)) fresh_ = model_;
   for (auto const& input : inputs())
     watches_.emplace_back(input.sensor ? settings.watch : WatchSettings::for_inputs(settings.watch.stale_time));
 }
@@ -64,7 +70,13 @@ void Compensator::find_faults(double time, Decision& decision) {
       decision.faults[inputs()[i].name] = fault;
 }
 
+/// Whether what the model knows is older than an input is believed and an offset lasts without it.
+bool Compensator::outlived(double time) const {
+  return asked_ && time - *asked_ > settings_.watch.stale_time + settings_.fallback.hold + settings_.fallback.fade;
+}
+
 double Compensator::estimate(double time) {
+  asked_ = time;
   std::vector<double> values;
   for (auto const& watch : watches_)
     values.push_back(watch.fault(time) == SensorFault::none ? watch.value() : std::numeric_limits<double>::quiet_NaN());
@@ -102,6 +114,10 @@ std::optional<double> Compensator::failing_since(double time) const {
 
 double Compensator::supported_target(double time, Decision& decision) {
   auto const since = failing_since(time);
+  if (!since && fresh_ && outlived(time)) {
+    model_ = *fresh_;
+    decision.anew = true;
+  }
   double const error = since ? std::numeric_limits<double>::quiet_NaN() : estimate(time);
   if (!std::isfinite(error)) {
     if (!failed_) fail_since(since.value_or(time));
@@ -118,7 +134,7 @@ double Compensator::supported_target(double time, Decision& decision) {
 }
 
 Decision Compensator::step(double time, std::span<Reading const> readings, double elapsed) {
-  Decision decision{time, shift_.offset(), error_, Support::waiting, {}, {}, {}};
+  Decision decision{time, shift_.offset(), error_, Support::waiting, {}, {}, {}, false};
   for (auto const& reading : readings) take(reading, time, decision);
   find_faults(time, decision);
   if (!started_ && unread().empty()) started_ = true;

@@ -45,6 +45,7 @@ struct Decision {
   std::map<std::string, SensorFault> faults;  ///< inputs that are not believed, whether the model needs them or not
   std::vector<std::string> refused;           ///< sentences: readings that were not taken, and why
   std::map<std::string, std::string> extrapolated;  ///< inputs beyond what a model was fitted on, and by how much
+  bool anew = false;                                ///< a twin was too long without inputs: errors count from now
 };
 
 /// Decides the origin shift of one axis: offset = −Ê(t), within the limits of AxisShift. It knows no clock and no
@@ -52,6 +53,9 @@ struct Decision {
 ///
 /// While an input that the model needs is not believed, the last good target is held, then faded (FadingHold). A sensor
 /// turns out to be stuck only after a while: then the target from before it stood still is the good one.
+///
+/// A twin goes on with its last inputs for as long as an offset outlives them. When they come back later than that,
+/// nobody knows what the machine did meanwhile, and model and twin begin anew as at the first decision.
 class Compensator {
  public:
   Compensator(LiveModel model, CompensationSettings const& settings);
@@ -77,11 +81,14 @@ class Compensator {
   [[nodiscard]] std::optional<double> failing_since(double time) const;
   [[nodiscard]] double supported_target(double time, Decision& decision);
   [[nodiscard]] double fallen_back(double time, Decision& decision) const;
+  [[nodiscard]] bool outlived(double time) const;
   [[nodiscard]] double estimate(double time);
   [[nodiscard]] std::map<std::string, std::string> extrapolated() const;
   void fail_since(double since);
 
   LiveModel model_;
+  std::optional<LiveModel> fresh_;  ///< as before the first decision, of one that runs a twin
+  std::optional<double> asked_;     ///< when the model was last [s]
   CompensationSettings settings_;
   std::vector<SensorWatch> watches_;
   AxisShift shift_;

@@ -30,6 +30,7 @@ class MeanModel {
   /// Thermal error [µm] at `time` [s], which never goes back; `values` in the order of the inputs, all finite.
   [[nodiscard]] double error(double time, std::span<double const> values);
   [[nodiscard]] std::map<std::string, std::string> extrapolated() const;
+  [[nodiscard]] bool runs_a_twin() const { return twin_.has_value(); }
 
  private:
   [[nodiscard]] double said(double time, std::span<double const> values);

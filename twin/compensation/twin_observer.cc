@@ -19,6 +19,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_nodes = 400;
+constexpr double most_steps = 1000.0;  ///< between two decisions; beyond, steps are longer, which ROS2 survives
 constexpr double gamma_of_ros2 = 1.0 - 0.70710678118654752;
 constexpr char const* floor_temperature = "ambient.floor_temperature";
 constexpr double um_per_m = 1e6;
@@ -180,7 +181,7 @@ void TwinObserver::step(double h) {
 }
 
 void TwinObserver::advance(double time) {
-  double const steps = std::ceil((time - time_) / options_.longest_step);
+  double const steps = std::min(std::ceil((time - time_) / options_.longest_step), most_steps);
   for (int i = 0; i < int(steps); ++i) step((time - time_) / steps);
   time_ = time;
 }

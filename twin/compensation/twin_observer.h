@@ -15,7 +15,7 @@ namespace thermotwin::twin {
 struct ObserverOptions {
   double heat_noise = 5e-3;    ///< of the twin: deviation of each node's temperature after one second [K/√s]
   double sensor_noise = 0.05;  ///< of a reading, with what its place differs from its node [K]
-  double longest_step = 10.0;  ///< of the integration [s]
+  double longest_step = 10.0;  ///< of the integration, up to a thousand of them between two decisions [s]
 };
 
 /// The twin running beside the machine, driven by its inputs and corrected by its sensors: an extended Kalman filter

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "output/dataset_file.h"
 #include "output/report_page.h"
 #include "thermal/error.h"
 #include "twin/report/campaign_progress.h"
@@ -18,12 +19,10 @@ namespace fs = std::filesystem;
 /// Of the clock that file systems stamp with.
 constexpr std::chrono::milliseconds longest_tick(20);
 
-fs::path partial_of(fs::path path) { return path += ".partial"; }
-
 /// Where the newer of a data set and its unfinished successor lies; empty: neither is there.
 fs::path newest(fs::path const& path) {
   std::error_code ignored;
-  auto const partial = partial_of(path);
+  auto const partial = output::partial_of(path);
   bool const here = fs::exists(path, ignored), begun = fs::exists(partial, ignored);
   if (here && begun) return fs::last_write_time(partial, ignored) > fs::last_write_time(path, ignored) ? partial : path;
   return here ? path : begun ? partial : fs::path();

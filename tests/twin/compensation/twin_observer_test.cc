@@ -107,6 +107,46 @@ TEST(TwinObserver, GoesOnWithoutASensorAndNotWithoutAnInput) {
   }
 }
 
+/// What a run showed in a row, as told at a time.
+std::vector<Reading> readings_of(output::Dataset const& data, Eigen::Index row, double time,
+                                 std::vector<ModelInput> const& inputs) {
+  std::vector<Reading> readings;
+  for (auto const* channels : {&data.inputs, &data.readings})
+    for (auto const& channel : *channels)
+      if (std::any_of(inputs.begin(), inputs.end(), [&](auto const& input) { return input.name == channel.name; }))
+        readings.push_back({channel.name, channel.values[row], channel.unit, time, "good"});
+  return readings;
+}
+
+/// What the machine did in a night nobody knows; for a minute or two it did what it had done before.
+TEST(TwinObserver, BeginsAnewAfterANightAndNotAfterAMinute) {
+  auto const data = simulated("duty_003", 10.0);
+  CompensationSettings settings;
+  settings.watch.fastest = 0.5;
+  settings.shift.slew = 1000.0;
+  Compensator compensator(TwinObserver(g200(), "E_X"), settings);
+  Decision decision;
+  auto const hear = [&](Eigen::Index row, double time) {
+    decision = compensator.step(time, readings_of(data, row, time, compensator.inputs()), 10.0);
+  };
+  Eigen::Index const half = data.time_s.size() / 2;
+  for (Eigen::Index row = 0; row < half; ++row) hear(row, data.time_s[row]);
+  double const warm = decision.error;
+  ASSERT_GT(std::abs(warm), 5.0);
+  double const soon = data.time_s[half] + 100.0, tomorrow = soon + 12.0 * 3600.0;
+  hear(half, soon);
+  EXPECT_FALSE(decision.anew);
+  EXPECT_NEAR(decision.error, warm, 0.2 * std::abs(warm));
+  hear(half + 1, tomorrow);
+  EXPECT_TRUE(decision.anew);
+  EXPECT_EQ(decision.error, 0.0);
+  EXPECT_EQ(decision.offset, 0.0);
+  hear(half + 2, tomorrow + 10.0);
+  EXPECT_FALSE(decision.anew);
+  EXPECT_EQ(decision.support, Support::good);
+  EXPECT_LT(std::abs(decision.error), 1.0);
+}
+
 TEST(TwinObserver, RefusesWhatItCannotObserve) {
   try {
     TwinObserver const observer(g200(), "E_x");
