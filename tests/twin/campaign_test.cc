@@ -8,10 +8,12 @@
 #include "output/campaign_file.h"
 #include "output/error.h"
 #include "output/locked_file.h"
+#include "tests/end_to_end/program.h"
 #include "tests/output/temporary_directory.h"
 #include "thermal/error.h"
 #include "twin/campaign/latin_hypercube.h"
 #include "twin/campaign/run_campaign.h"
+#include "twin/experiment_file.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -316,6 +318,48 @@ TEST(Campaign, AFolderWithOtherFilesIsRefusedAndLeftAsItIs) {
   EXPECT_EQ(directory.files(), std::vector<std::string>{"campaign.toml"});
   fs::create_directories(directory / "begun/parts");  // by another process, which has not named its campaign yet
   EXPECT_NO_THROW(static_cast<void>(run_campaign(campaign, {directory / "begun", {0, 100}, {}, nullptr})));
+}
+
+/// Two days of one name in two folders: the first one changes behind the campaign's back.
+TEST(Campaign, AChangedExperimentIsAnotherCampaignWhateverItsName) {
+  TemporaryDirectory const directory;
+  auto const day = contents(experiment_file("golden_b_2000"));
+  for (std::string const folder : {"a", "b"}) {
+    fs::create_directory(directory / folder);
+    tests::put(directory / folder / "warm.toml", day);
+  }
+  std::string const text =
+      "experiments = [\"a/warm.toml\", \"b/warm.toml\"]\nmachine = \"v450\"\nset = [\"experiment.duration=2 h\"]\n";
+  CampaignOptions const nothing{directory / "out", {99, 100}, {}, nullptr};
+  EXPECT_EQ(run_campaign(read(directory, text), nothing).made, 0);
+  EXPECT_NO_THROW(static_cast<void>(run_campaign(read(directory, text), nothing)));
+  tests::put(directory / "a/warm.toml", day + "\n# warmer\n");
+  EXPECT_THROW(static_cast<void>(run_campaign(read(directory, text), nothing)), thermal::InputError);
+}
+
+TEST(Campaign, NothingIsMadeBesideTheManifestOfSomethingElse) {
+  TemporaryDirectory const directory;
+  fs::create_directory(directory / "site");
+  tests::put(directory / "site/manifest.json", R"({"name": "a web page"})");
+  auto const campaign = read(directory, example);
+  EXPECT_THROW(static_cast<void>(run_campaign(campaign, {directory / "site", {}, {}, nullptr})), thermal::InputError);
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory / "site"), {}), 1);
+}
+
+TEST(Campaign, TheCommandOfARunIsWordsForAShell) {
+  TemporaryDirectory const directory;
+  auto const folder = directory / "Monday's $runs & more";
+  fs::create_directory(folder);
+  tests::put(folder / "it's.toml", contents(experiment_file("golden_b_2000")));
+  tests::put(folder / "campaign.toml",
+             "experiments = [\"it's.toml\"]\nmachine = \"v450\"\n"
+             "set = [\"experiment.duration=2 h\"]\n");
+  auto const campaign = Campaign::read(folder / "campaign.toml");
+  auto const command = campaign.command(campaign.run(0));
+  ASSERT_EQ(command.find("thermotwin run "), 0U);
+  auto const words = thermotwin::tests::answer("printf '<%s>' " + command.substr(15));
+  EXPECT_EQ(words.find("<" + (folder / "it's.toml").string() + "><-m><"), 0U) << words;
+  EXPECT_NE(words.find("<--set><experiment.duration=2 h>"), std::string::npos) << words;
 }
 
 TEST(Campaign, MistakesAreToldWithTheirPlace) {

@@ -17,6 +17,15 @@ void add(CampaignRun& run, CampaignParameter const& parameter, Setting setting, 
   run.settings.push_back(std::move(setting));
 }
 
+/// As a shell takes it for one word.
+std::string shell_word(std::string const& text) {
+  constexpr auto plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,+-";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string word = "'";
+  for (char const c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 }  // namespace
 
 bool Campaign::samples_leave_machine() const {
@@ -103,13 +112,16 @@ Value Campaign::machine(CampaignRun const& run) const {
 }
 
 std::string Campaign::command(CampaignRun const& run) const {
-  std::string text = fmt::format("thermotwin run {} -m {} --tolerance {} --set experiment.seed={}",
-                                 experiments[run.experiment].file.string(), machine_file.string(),
-                                 thermal::format_number(description.tolerance), run.seed);
+  std::string text =
+      fmt::format("thermotwin run {} -m {} --tolerance {} --set experiment.seed={}",
+                  shell_word(experiments[run.experiment].file.string()), shell_word(machine_file.string()),
+                  thermal::format_number(description.tolerance), run.seed);
+  auto const set = [&](std::string const& path, std::string const& value) {
+    text += " --set " + shell_word(path + "=" + value);
+  };
   if (description.every)
-    text += fmt::format(" --set 'experiment.sampling={}'",
-                        thermal::format_quantity(*description.every, thermal::dimension::time));
-  for (auto const& setting : run.settings) text += fmt::format(" --set '{}={}'", setting.path, setting.value);
+    set("experiment.sampling", thermal::format_quantity(*description.every, thermal::dimension::time));
+  for (auto const& setting : run.settings) set(setting.path, setting.value);
   return text;
 }
 

@@ -78,7 +78,7 @@ class Campaign {
   [[nodiscard]] scenarios::Experiment experiment(CampaignRun const& run) const;
   /// The machine's document with the run's settings.
   [[nodiscard]] Value machine(CampaignRun const& run) const;
-  /// The command that makes this run alone, with all that a campaign leaves out.
+  /// The command that makes this run alone, with all that a campaign leaves out, as a shell takes it.
   [[nodiscard]] std::string command(CampaignRun const& run) const;
 
  private:

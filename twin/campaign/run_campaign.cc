@@ -35,19 +35,25 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 std::string checksum(std::string const& text) { return fmt::format("CRC-32 {:08x}", output::crc_32(text)); }
 
-/// What the results are made of, by name; of long files the checksum.
+/// What the results are made of, by name; of long files the checksum. Experiments by their place in the campaign, too:
+/// files in two folders may have one name.
 std::map<std::string, std::string> sources_of(Campaign const& campaign) {
   std::map<std::string, std::string> texts = {
       {"campaign.file", campaign.text},          {"machine.file", campaign.machine_text},
       {"runs", std::to_string(campaign.runs())}, {"runs_per_part", std::to_string(campaign.runs_per_part())},
       {"version", std::string(version())},       {"commit", std::string(commit())}};
   Value const machine = campaign.machine(campaign.nominal(0));
-  for (auto const& experiment : campaign.experiments)
+  for (std::size_t i = 0; i < campaign.experiments.size(); ++i) {
+    auto const& experiment = campaign.experiments[i];
+    auto const name = fmt::format("experiment.{}.{}", i, experiment.name);
     for (auto const& [key, text] : origin(campaign.machine_file, machine, experiment.file, "", experiment.nominal))
       if (key == "experiment.file")
-        texts["experiment." + experiment.name] = text;
-      else if (key.starts_with("recorded.") || key == "machine.weights")
-        texts[key.starts_with("recorded.") ? experiment.name + "." + key : key] = checksum(text);
+        texts[name] = text;
+      else if (key.starts_with("recorded."))
+        texts[name + "." + key] = checksum(text);
+      else if (key == "machine.weights")
+        texts[key] = checksum(text);
+  }
   return texts;
 }
 
@@ -62,24 +68,32 @@ void refuse_foreign_folder(fs::path const& folder) {
   if (!ours && !fs::exists(folder / "manifest.json")) output::require_empty(folder);
 }
 
-/// The folder is this campaign's, or becomes it.
-void claim(Campaign const& campaign, fs::path const& folder) {
-  refuse_foreign_folder(folder);
-  output::make_directory(folder / "parts");
-  auto const sources = sources_of(campaign);  // others need not wait for it
-  output::LockedFile const lock(folder / "lock", output::LockedFile::Busy::wait);
+/// False without a manifest; InputError when there is that of another campaign, or of something else.
+bool holds(fs::path const& folder, std::map<std::string, std::string> const& sources) {
   auto const path = folder / "manifest.json";
-  if (!fs::exists(path)) {
-    output::remove_leftovers(path);
-    output::write_atomically(path, nlohmann::ordered_json(sources).dump(2) + "\n");
-    return;
-  }
+  if (!fs::exists(path)) return false;
   auto const there = nlohmann::json::parse(text_of_file(path), nullptr, false);
+  if (!there.is_object() || !there.contains("campaign.file"))
+    throw thermal::InputError(fmt::format("'{}' is not that of a campaign; name another folder", path.string()));
   for (auto const& [key, text] : sources)
-    if (!there.is_object() || !there.contains(key) || there.at(key) != text)
+    if (!there.contains(key) || there.at(key) != text)
       throw thermal::InputError(
           fmt::format("'{}' holds another campaign: '{}' is not the same; name another folder, or delete it",
                       folder.string(), key));
+  return true;
+}
+
+/// The folder is this campaign's, or becomes it. Nothing is made in that of another one.
+void claim(Campaign const& campaign, fs::path const& folder) {
+  refuse_foreign_folder(folder);
+  auto const sources = sources_of(campaign);  // others need not wait for it
+  static_cast<void>(holds(folder, sources));
+  output::make_directory(folder / "parts");
+  output::LockedFile const lock(folder / "lock", output::LockedFile::Busy::wait);
+  if (holds(folder, sources)) return;
+  auto const path = folder / "manifest.json";
+  output::remove_leftovers(path);
+  output::write_atomically(path, nlohmann::ordered_json(sources).dump(2) + "\n");
 }
 
 /// Settings of the machine, not of the experiment.
