@@ -5,6 +5,7 @@
 #include <atomic>
 #include <charconv>
 #include <csignal>
+#include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
 
@@ -35,6 +36,7 @@
 #include "twin/known_names.h"
 #include "twin/needed_solution.h"
 #include "twin/placement/candidate_sites.h"
+#include "twin/progress.h"
 #include "twin/report/report_files.h"
 #include "twin/run.h"
 #include "twin/study/study_description.h"
@@ -46,8 +48,15 @@ namespace {
 std::atomic<bool> stop_requested = false;
 
 int fail(int code, std::string_view message) {
-  fmt::print(stderr, "thermotwin: {}\n", message);
+  tell(fmt::format("thermotwin: {}\n", message));
   return code;
+}
+
+/// The exit code of a command that has done its work: 2 when what it printed did not all get out.
+int printed() {
+  std::cout.flush();
+  bool const whole = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+  return whole ? 0 : fail(2, "cannot write to standard output; not all of it is there");
 }
 
 /// Ends the program with 2 when there is a mistake in one of the files.
@@ -233,9 +242,12 @@ int command_line(int argc, char** argv) {
   refuse_empty_words(app);
   try {
     app.parse(reversed_words(argc, argv));
-    return 0;
+    return printed();
   } catch (CLI::ParseError const& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
+    if (error.get_exit_code() == 0) {
+      app.exit(error);  // help, or the version
+      return printed();
+    }
     if (dynamic_cast<CLI::RuntimeError const*>(&error)) return error.get_exit_code();  // all is said
     return fail(2, command_line_mistake(app, error));
   } catch (Interrupted const& error) {
@@ -247,6 +259,7 @@ int command_line(int argc, char** argv) {
   } catch (std::filesystem::filesystem_error const& error) {
     return fail(2, fmt::format("'{}': {}", error.path1().string(), error.code().message()));
   } catch (std::exception const& error) {
+    if (std::ferror(stdout) != 0) return printed();
     return fail(1, error.what());
   }
 }

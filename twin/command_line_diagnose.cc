@@ -15,6 +15,7 @@
 #include "twin/experiment_file.h"
 #include "twin/file/output_path.h"
 #include "twin/machine.h"
+#include "twin/progress.h"
 #include "twin/progress_file.h"
 #include "twin/report/report_files.h"
 
@@ -84,12 +85,11 @@ void add_diagnose_command(CLI::App& app) {
     files->machine = machine_file(*machine);
     check_machine_suffix(files->output);
     for (auto const& name : files->without) static_cast<void>(effect(name));
-    if (!*json) files->progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
+    if (!*json) files->progress = [](std::string const& what) { tell(what + " …\n"); };
     if (!planned->empty()) return print_plan(*files, *planned, *json);
     if (data->empty()) throw thermal::InputError("diagnose needs measured runs, or --plan with experiments");
     std::optional<ProgressFile> onlookers;
     if (!folder->empty()) {
-      output::require_empty(*folder);
       onlookers.emplace(*folder, fmt::format("Diagnosis of {}", files->machine.stem().string()));
       files->progress = [&onlookers, told = files->progress](std::string const& what) {
         onlookers->show(what);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "output/atomic_file.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
 #include "twin/machine.h"
@@ -23,6 +24,7 @@ void DifferenceCommand::operator()() {
   if (!machine.empty()) files.machine = machine_file(machine);
   files.interval = thermal::parse_value(interval, thermal::dimension::time);
   if (!(files.interval > 0.0)) throw thermal::InputError("--interval is a time above 0");
+  output::require_empty(files.folder);
   fmt::print("{}", write_difference(files));
 }
 
@@ -36,7 +38,7 @@ void add_difference_command(CLI::App& app) {
   added->add_option("first", files.first, "data set .h5, .csv, or a measurement file .toml")->required();
   added->add_option("second", files.second, "what is taken off: data set .h5 or .csv, or a machine, file or name")
       ->required();
-  added->add_option("--output,-o", files.folder, "folder for the fields")->required();
+  added->add_option("--output,-o", files.folder, "folder for the fields; it must be empty or absent")->required();
   added->add_option("--interval", command->interval, "time between two frames, at least")->capture_default_str();
   added->add_option("--machine,-m", command->machine, "machine to draw, file or name; default: the one in a data set");
   added->callback([command] { (*command)(); });

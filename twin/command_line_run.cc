@@ -1,9 +1,11 @@
 #include "twin/command_line_run.h"
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <fmt/format.h>
 #include <memory>
 
+#include "output/atomic_file.h"
 #include "output/dataset_file.h"
 #include "thermal/error.h"
 #include "twin/checkpoint.h"
@@ -41,7 +43,8 @@ void RunCommand::add_to(CLI::App& command) {
   command.add_option("experiment", experiment, "experiment file, or the name of one of the catalogue")->required();
   command.add_option("--machine,-m", machine, "machine file or name; default: the one that the experiment names");
   command.add_option("--output,-o", dataset, "data set to write (HDF5)");
-  command.add_option("--fields", fields, "folder for the fields (VTK), one frame per --field-interval");
+  command.add_option("--fields", fields,
+                     "folder for the fields (VTK), empty or absent; one frame per --field-interval");
   command.add_option("--field-interval", field_interval, "time between two frames")->capture_default_str();
   command.add_option("--picture", picture, "PNG of the last frame; needs a display, or xvfb-run");
   command.add_option("--set", settings,
@@ -64,6 +67,7 @@ void RunCommand::check_outputs(std::filesystem::path const& machine_path, std::f
     read.push_back(scenarios::resolved_path(recording.file, programme.directory));
   for (auto const& output : {dataset, picture}) refuse_to_overwrite(output, machine_path, read, fields);
   check_picture(picture);
+  if (!fields.empty() && !resume) output::require_empty(fields);
 }
 
 void RunCommand::set_checkpoint(RunOptions& options) const {
@@ -81,12 +85,22 @@ void RunCommand::run_reduced(Machine const& machine, scenarios::Experiment const
   if (options.fields || options.picture || options.node_temperatures || options.checkpoint)
     throw thermal::InputError("--reduced gives readings and displacements: no fields, picture, nodes or checkpoint");
   std::function<void(std::string const&)> progress;
-  if (!quiet) progress = [](std::string const& what) { fmt::print(stderr, "{} …\n", what); };
+  if (!quiet) progress = [](std::string const& what) { tell(what + " …\n"); };
   ReducedTwin const twin(machine, {}, cache_folder(), progress);
   auto result = twin.run(programme);
   for (auto const& [key, text] : options.provenance) result.dataset.provenance[key] = text;
   if (options.dataset) output::write(result.dataset, *options.dataset);
-  if (!quiet) fmt::print("{}", reduced_table(twin, result));
+  if (json)
+    fmt::print("{}", reduced_json(twin, result));
+  else if (!quiet)
+    fmt::print("{}", reduced_table(twin, result));
+}
+
+/// For what is whole or not there at all, and looks at no flag on its way.
+void let_signals_end_it(std::atomic<bool> const& stop) {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  if (stop) throw Interrupted("stopped; nothing was written");
 }
 
 /// What a run complains of gets its place in the experiment's file.
@@ -119,7 +133,7 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   if (!quiet) {
     auto const remarks =
         in_experiment(experiment_document, [&] { return experiment_remarks(experiment_document, programme, built); });
-    for (auto const& remark : remarks) fmt::print(stderr, "warning: {}\n", remark);
+    for (auto const& remark : remarks) tell(fmt::format("warning: {}\n", remark));
   }
 
   RunOptions options;
@@ -135,7 +149,10 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   options.provenance =
       origin(path, machine_document, experiment_path, fmt::format("{}", fmt::join(settings, "\n")), programme);
   set_checkpoint(options);
-  if (reduced) return in_experiment(experiment_document, [&] { run_reduced(built, programme, options); });
+  if (reduced) {
+    let_signals_end_it(stop);
+    return in_experiment(experiment_document, [&] { run_reduced(built, programme, options); });
+  }
   options.stop = &stop;
   std::optional<Progress> progress;
   if (!quiet) {

@@ -43,7 +43,6 @@ void StudyCommand::operator()(std::atomic<bool> const& stop) const {
   auto const file = study_file(study);
   auto const read = read_study(file);
   std::filesystem::path const target = folder;
-  output::require_empty(target);
   std::optional<ProgressFile> onlookers(std::in_place, target, fmt::format("Study {}", file.stem().string()));
   auto stages = std::make_shared<Stages>();
   StudyOptions options{{}, &stop};

@@ -34,7 +34,8 @@ void add_options(CLI::App& command, VolumetricArguments& arguments) {
   command.add_option("--at", arguments.at, "instant of that run at which the machine is measured")
       ->capture_default_str()
       ->needs(run);
-  command.add_option("--output,-o", arguments.files.output, "folder for tables (CSV), compensation and field (VTK)");
+  command.add_option("--output,-o", arguments.files.output,
+                     "folder for tables (CSV), compensation and field (VTK); it must be empty or absent");
   command.add_option("--picture", arguments.files.picture, "PNG of the error field; needs a display, or xvfb-run");
   command.add_flag("--json", arguments.json, "print everything as JSON");
 }

@@ -20,7 +20,13 @@ void in_parallel(std::size_t count, std::function<void(double)> const& progress,
       thrown[i] = std::current_exception();
     }
 #pragma omp critical(thermotwin_progress)
-    if (progress) progress(double(++done) / double(count));
+    {
+      try {
+        if (progress) progress(double(++done) / double(count));
+      } catch (...) {
+        if (!thrown[i]) thrown[i] = std::current_exception();
+      }
+    }
   };
   auto const tasks = [&] {
     for (std::size_t i = 0; i < count; ++i) {

@@ -8,7 +8,7 @@ namespace thermotwin::twin {
 
 /// `work` for 0, 1, … count − 1, on all threads in any order; each must touch nothing but its own. Within such work, a
 /// thread that has run out of its own takes up what the others still have. The first exception by number is thrown
-/// again when all are done. `progress` gets the share done; Interrupted when `stop` is set.
+/// again when all are done, one of `progress` too, which gets the share done. Interrupted when `stop` is set.
 void in_parallel(std::size_t count, std::function<void(double)> const& progress, std::atomic<bool> const* stop,
                  std::function<void(std::size_t)> const& work);
 inline void in_parallel(std::size_t count, std::function<void(std::size_t)> const& work) {

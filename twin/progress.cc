@@ -19,12 +19,14 @@ std::string time_left(double elapsed, double share) {
 
 }  // namespace
 
+void tell(std::string const& text) { std::fputs(text.c_str(), stderr); }
+
 Progress::Progress(std::string title) : title_(std::move(title)), terminal_(isatty(STDERR_FILENO) == 1) {
   if (!terminal_) next_ = start_ + between_lines;
 }
 
 Progress::~Progress() {
-  if (terminal_ && drawn_) fmt::print(stderr, "\r\033[K");
+  if (terminal_ && drawn_) tell("\r\033[K");
 }
 
 void Progress::show(double share) {
@@ -34,13 +36,12 @@ void Progress::show(double share) {
   if (terminal_) {
     constexpr int width = 40;
     auto const filled = int(share * width);
-    fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %  {}", title_, std::string(std::size_t(filled), '#'),
-               std::string(std::size_t(width - filled), '.'), 100.0 * share, time_left(elapsed, share));
-    std::fflush(stderr);
+    tell(fmt::format("\r\033[K{} [{}{}] {:3.0f} %  {}", title_, std::string(std::size_t(filled), '#'),
+                     std::string(std::size_t(width - filled), '.'), 100.0 * share, time_left(elapsed, share)));
     drawn_ = true;
     next_ = now + between_frames;
   } else {
-    fmt::print(stderr, "{}: {:.0f} %, {}\n", title_, 100.0 * share, time_left(elapsed, share));
+    tell(fmt::format("{}: {:.0f} %, {}\n", title_, 100.0 * share, time_left(elapsed, share)));
     next_ = now + between_lines;
   }
 }

@@ -5,7 +5,10 @@
 
 namespace thermotwin::twin {
 
-/// Tells on standard error how far a long job is: a bar with the time left on a terminal, else a line now and then.
+/// Says something to people on standard error. Where it cannot be written, the work goes on.
+void tell(std::string const& text);
+
+/// Tells how far a long job is: a bar with the time left on a terminal, else a line now and then.
 class Progress {
  public:
   explicit Progress(std::string title);

@@ -1,15 +1,40 @@
 #include "twin/progress_file.h"
 
+#include <algorithm>
+#include <cerrno>
+#include <exception>
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
 
 #include "output/atomic_file.h"
 #include "output/error.h"
 
 namespace thermotwin::twin {
+namespace {
 
-ProgressFile::ProgressFile(std::filesystem::path const& folder, std::string title)
-    : path_(folder / "progress.json"), title_(std::move(title)) {
+namespace fs = std::filesystem;
+
+bool holds_progress_alone(fs::path const& folder) {
+  return std::all_of(fs::directory_iterator(folder), {},
+                     [](auto const& entry) { return entry.path().filename().string().starts_with("progress.json"); });
+}
+
+fs::path made(fs::path const& folder) {
+  if (!fs::is_directory(folder)) output::require_empty(folder);
   output::make_directory(folder);
+  return folder;
+}
+
+}  // namespace
+
+ProgressFile::ProgressFile(fs::path const& folder, std::string title)
+    : path_(folder / "progress.json"), folder_(made(folder), O_RDONLY | O_DIRECTORY), title_(std::move(title)) {
+  if (::flock(folder_.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw output::OutputError(fmt::format("another process is filling '{}'; name another folder", folder.string()));
+  if (!holds_progress_alone(folder)) output::require_empty(folder);
+  output::remove_leftovers(path_);
   write();
 }
 
@@ -35,8 +60,9 @@ void ProgressFile::write() const {
     if (share) json["steps"].back()["share"] = *share;
   }
   try {
-    output::write_atomically(path_, json.dump() + "\n");
-  } catch (output::OutputError const&) {  // the work goes on
+    auto const text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    output::write_atomically(path_, text + "\n");
+  } catch (std::exception const&) {  // the work goes on
   }
 }
 

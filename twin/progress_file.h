@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "output/descriptor.h"
+
 namespace thermotwin::twin {
 
 /// What a long command has done so far, for those who look on: `progress.json` in the folder that it will fill,
@@ -13,7 +15,8 @@ namespace thermotwin::twin {
 /// shows it. A file that cannot be written is no reason to stop: onlookers see less.
 class ProgressFile {
  public:
-  /// Makes the folder; OutputError when that cannot be.
+  /// Makes the folder. What a job that was killed left of its progress goes; OutputError when the folder holds anything
+  /// else, another job is filling it, or it cannot be made.
   ProgressFile(std::filesystem::path const& folder, std::string title);
   ~ProgressFile();
   ProgressFile(ProgressFile const&) = delete;
@@ -34,6 +37,7 @@ class ProgressFile {
   void write() const;
 
   std::filesystem::path path_;
+  output::Descriptor folder_;  ///< locked (flock): the system frees it however this process ends
   std::string title_;
   std::vector<Step> steps_;
   Clock::time_point start_ = Clock::now(), next_ = start_;

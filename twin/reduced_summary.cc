@@ -1,6 +1,9 @@
 #include "twin/reduced_summary.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "twin/summary.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -28,6 +31,23 @@ std::string reduced_table(ReducedTwin const& twin, ReducedResult const& result) 
   text += fmt::format("\n  solver     {} steps, {} right-hand sides, of both models\n", result.steps,
                       result.rate_evaluations);
   return text;
+}
+
+std::string reduced_json(ReducedTwin const& twin, ReducedResult const& result) {
+  auto const& data = result.dataset;
+  nlohmann::ordered_json json;
+  json["title"] = data.title;
+  json["nodes"] = twin.machine().network().nodes();
+  json["shapes"] = twin.network().size();
+  json["laws"] = twin.network().elements().size();
+  json["duration_s"] = data.time_s[data.time_s.size() - 1];
+  json["readings"] = extremes_json(data.readings);
+  for (std::size_t s = 0; s < data.readings.size(); ++s) json["readings"][s]["bound"] = result.bound.readings[s];
+  json["displacements"] = extremes_json(data.displacements);
+  for (std::size_t c = 0; c < data.displacements.size(); ++c)
+    json["displacements"][c]["bound"] = result.bound.displacements[Eigen::Index(c)];
+  json["solver"] = {{"steps", result.steps}, {"rate_evaluations", result.rate_evaluations}};
+  return json.dump(2) + "\n";
 }
 
 }  // namespace thermotwin::twin

@@ -53,6 +53,20 @@ std::string in_table(double value, int width) {
 
 }  // namespace
 
+nlohmann::ordered_json extremes_json(std::vector<output::Channel> const& channels) {
+  auto json = nlohmann::ordered_json::array();
+  for (auto const& channel : channels) {
+    auto const e = extremes(channel.values);
+    json.push_back({{"name", channel.name},
+                    {"unit", channel.unit},
+                    {"start", e.first},
+                    {"end", e.last},
+                    {"lowest", e.lowest},
+                    {"highest", e.highest}});
+  }
+  return json;
+}
+
 std::string summary_table(Machine const& machine, RunResult const& result) {
   auto const& data = result.dataset;
   auto const& s = result.summary;
@@ -88,25 +102,12 @@ std::string summary_json(Machine const& machine, RunResult const& result) {
   using Json = nlohmann::ordered_json;
   auto const& data = result.dataset;
   auto const& s = result.summary;
-  auto const channels = [](std::vector<output::Channel> const& list) {
-    Json json = Json::array();
-    for (auto const& channel : list) {
-      auto const e = extremes(channel.values);
-      json.push_back({{"name", channel.name},
-                      {"unit", channel.unit},
-                      {"start", e.first},
-                      {"end", e.last},
-                      {"lowest", e.lowest},
-                      {"highest", e.highest}});
-    }
-    return json;
-  };
   Json json;
   json["title"] = data.title;
   json["nodes"] = machine.network().nodes();
   json["duration_s"] = data.time_s[data.time_s.size() - 1];
-  json["readings"] = channels(data.readings);
-  json["displacements"] = channels(data.displacements);
+  json["readings"] = extremes_json(data.readings);
+  json["displacements"] = extremes_json(data.displacements);
   if (auto const test = drift_test(data)) json["drift_test"] = drift_json(*test);
   json["energy"] = {{"supplied_J", s.energy.supplied},
                     {"withdrawn_J", s.energy.withdrawn},

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "twin/machine.h"
 #include "twin/run.h"
@@ -12,5 +14,8 @@ namespace thermotwin::twin {
 
 /// The same for programs, as JSON.
 [[nodiscard]] std::string summary_json(Machine const& machine, RunResult const& result);
+
+/// Its part about channels: each one's name, unit, start, end, lowest and highest, null where nothing was read.
+[[nodiscard]] nlohmann::ordered_json extremes_json(std::vector<output::Channel> const& channels);
 
 }  // namespace thermotwin::twin

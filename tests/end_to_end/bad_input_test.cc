@@ -366,6 +366,33 @@ TEST(BadInput, FilesThatAreReadAreNeverWritten) {
   }
 }
 
+TEST(BadInput, FoldersThatHoldSomethingAreNotWrittenInto) {
+  tests::TemporaryDirectory const directory;
+  write_text(directory / "diagonals.csv", "of another day");
+  std::string const folder = directory.path().string();
+  for (std::string const& arguments : {"run golden_b_2000 -q --fields " + folder, "volumetric mill200 -o " + folder,
+                                       "difference " + folder + "/a.h5 " + folder + "/b.h5 -o " + folder}) {
+    auto const answer = program(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find("is not empty; what is there is not overwritten"), std::string::npos) << answer.text;
+    EXPECT_EQ(directory.files(), std::vector<std::string>{"diagonals.csv"}) << arguments;
+    EXPECT_EQ(read_text(directory / "diagonals.csv"), "of another day") << arguments;
+  }
+}
+
+/// What is printed through either of the two streams of the library.
+TEST(BadInput, StandardOutputThatIsFull) {
+  for (std::string const arguments : {"describe channels", "effects", "--version", "run --help"}) {
+    auto const answer = tests::run_command(std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1 >/dev/full");
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find("cannot write to standard output"), std::string::npos) << arguments << answer.text;
+  }
+}
+
+TEST(BadInput, StandardErrorThatIsFullChangesNothing) {
+  EXPECT_EQ(tests::run_command(std::string(THERMOTWIN_PROGRAM) + " run none 2>/dev/full").code, 2);
+}
+
 TEST(BadInput, SuffixesOfOtherFormats) {
   for (auto const& [arguments, message] :
        std::map<std::string, std::string>{{"run golden_b_2000 -o out.txt", "out.txt: a data set is written as .h5"},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -6,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <sys/wait.h>
 #include <thread>
@@ -122,15 +124,14 @@ TEST(Run, JsonSummaryForPrograms) {
   EXPECT_NE(text.find("\"imbalance\""), std::string::npos);
 }
 
-/// How the program ends (waitpid) that gets Ctrl-C as soon as something holds, or after a minute.
+/// How a command ends (waitpid) that gets Ctrl-C as soon as something holds, or after a minute.
 int stopped_when(std::function<bool()> const& holds, std::vector<std::string> words) {
-  words.insert(words.begin(), program);
   pid_t const child = fork();
   if (child == 0) {
     std::vector<char*> arguments;
     for (auto& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    execv(program.c_str(), arguments.data());
+    execvp(arguments[0], arguments.data());
     _exit(127);
   }
   for (int i = 0; i < 6000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -143,13 +144,36 @@ int stopped_when(std::function<bool()> const& holds, std::vector<std::string> wo
 TEST(Run, StoppedByTheUserKeepsThePartialFileAndTheOldOne) {
   TemporaryDirectory const directory;
   std::ofstream(directory / "run.h5") << "what the user had";
-  int const status = stopped_when(
-      [&] { return fs::exists(directory / "run.h5.partial"); },
-      {"run", "etve", "-q", "-m", "v450", "--set", "experiment.sampling=0.1 s", "-o", (directory / "run.h5").string()});
+  int const status = stopped_when([&] { return fs::exists(directory / "run.h5.partial"); },
+                                  {program, "run", "etve", "-q", "-m", "v450", "--set", "experiment.sampling=0.1 s",
+                                   "-o", (directory / "run.h5").string()});
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_TRUE(tests::contents(directory / "run.h5") == "what the user had");
   EXPECT_FALSE(output::read(directory / "run.h5.partial").complete);
+}
+
+TEST(Run, JsonOfAReducedModelHasItsBounds) {
+  auto const text = answer(program + " run golden_b_2000 --reduced --json --quiet");
+  auto const json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["duration_s"], 8 * 3600.0);
+  for (auto const* group : {"readings", "displacements"}) {
+    double largest = 0.0;
+    for (auto const& channel : json[group]) largest = std::max(largest, double(channel["bound"]));
+    EXPECT_GT(largest, 0.0) << group;
+  }
+}
+
+/// While it finds its shapes, which takes seconds.
+TEST(Run, AReducedRunIsStoppedAtOnce) {
+  TemporaryDirectory const directory;
+  int const status =
+      stopped_when([&] { return fs::exists(directory / "cache"); },
+                   {"env", "THERMOTWIN_CACHE=" + (directory / "cache").string(), program, "run", "spindle_random", "-q",
+                    "-m", "v450_fine", "--reduced", "-o", (directory / "run.h5").string()});
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGINT);
+  EXPECT_FALSE(fs::exists(directory / "run.h5"));
 }
 
 /// What reads measurements writes nothing before its end, and may be stopped at any time.
@@ -162,7 +186,7 @@ TEST(Commands, DiagnosisIsStoppedAtOnce) {
     auto const soon = std::chrono::steady_clock::now() + std::chrono::milliseconds(wait);
     fs::remove(amended);
     status = stopped_when([&] { return std::chrono::steady_clock::now() > soon; },
-                          {"diagnose", "v450", data, "-o", amended});
+                          {program, "diagnose", "v450", data, "-o", amended});
   }
   ASSERT_TRUE(WIFSIGNALED(status));
   EXPECT_EQ(WTERMSIG(status), SIGINT);

@@ -63,6 +63,13 @@ TEST(InParallel, ThrowsTheFirstExceptionByNumberWhenAllAreDone) {
   EXPECT_EQ(std::accumulate(done.begin(), done.end(), 0), 20);
 }
 
+TEST(InParallel, ThrowsWhatProgressThrows) {
+  std::vector<int> done(20, 0);
+  auto const full = [](double) { throw std::runtime_error("nobody can be told"); };
+  EXPECT_THROW(in_parallel(done.size(), full, nullptr, [&](std::size_t i) { done[i] = 1; }), std::runtime_error);
+  EXPECT_EQ(std::accumulate(done.begin(), done.end(), 0), 20);
+}
+
 TEST(InParallel, LeavesOutTheRestWhenStopped) {
   std::atomic<bool> stop = false;
   std::atomic<int> done = 0;

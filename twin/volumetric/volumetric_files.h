@@ -19,7 +19,7 @@ struct VolumetricFiles {
   VolumetricOptions options;
 };
 
-/// Reads, studies, and writes into the folder:
+/// Reads, studies, and writes into the folder; OutputError when it holds something already:
 ///
 /// | file | holds |
 /// |---|---|
