@@ -199,10 +199,10 @@ std::string words_of_proposal(Diagnosis const& diagnosis) {
   if (!proposal) return "";
   auto const& best = diagnosis.proposals[0];
   bool const tells = proposal->distance >= wanted_distance;
-  std::string text = fmt::format("Experiment that would {}{}: {} ({:.0f} h), {:.1f} σ{}.", tells ? "" : "best ",
-                                 diagnosis.suspicion ? "show it" : "tell them apart", proposal->schedule,
-                                 proposal->hours, proposal->distance,
-                                 tells ? "" : fmt::format(" of {:g} that are wanted", wanted_distance));
+  std::string text =
+      fmt::format("Experiment that would {}{}: {} ({:.0f} h), {:.1f} σ{}.", tells ? "" : "best ",
+                  diagnosis.suspicion ? "show it" : "tell them apart", proposal->schedule, proposal->hours,
+                  proposal->distance, tells ? "" : fmt::format(" of {:g} that are wanted", wanted_distance));
   if (!best.sensor.empty() && best.distance > 1.5 * proposal->distance)
     text += fmt::format(" With one more sensor on {}: {}, {:.1f} σ.", best.sensor, best.schedule, best.distance);
   return text + "\n\n";
@@ -314,11 +314,15 @@ bool disagrees(Diagnosis const& diagnosis) {
                      [](Disagreement const& cell) { return cell.significant; });
 }
 
+/// That are missing, or suspected.
+std::size_t things(Diagnosis const& diagnosis) { return diagnosis.suspicion ? 1 : diagnosis.explanations.size(); }
+
 }  // namespace
 
 std::string headline(Diagnosis::Verdict verdict, std::size_t things, bool disagrees) {
   switch (verdict) {
     case Diagnosis::Verdict::nothing:
+      if (things > 0) return "No effect is evident, but one is suspected.";
       return disagrees ? "No effect is evident, though the machine leaves more than noise in parts of the data."
                        : "Nothing is missing: the machine explains these data to within their noise.";
     case Diagnosis::Verdict::none_known:
@@ -336,7 +340,7 @@ std::string headline(Diagnosis::Verdict verdict, std::size_t things, bool disagr
 std::string report_json(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
   Json json = {{"verdict", name_of(diagnosis.verdict)},
-               {"headline", headline(diagnosis.verdict, diagnosis.explanations.size(), disagrees(diagnosis))},
+               {"headline", headline(diagnosis.verdict, things(diagnosis), disagrees(diagnosis))},
                {"effects", Json::array()}};
   for (std::size_t g = 0; g < diagnosis.explanations.size(); ++g)
     for (auto const& finding : diagnosis.explanations[g].alternatives) json["effects"].push_back(json_of(finding, g));
@@ -401,8 +405,8 @@ std::string report_json(DiagnosisReport const& report) {
 
 std::string report_text(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
-  std::string text = doubt_lines(report.doubts) + "\n" +
-                     headline(diagnosis.verdict, diagnosis.explanations.size(), disagrees(diagnosis)) + "\n\n";
+  std::string text =
+      doubt_lines(report.doubts) + "\n" + headline(diagnosis.verdict, things(diagnosis), disagrees(diagnosis)) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
   text += words_of_silence(diagnosis);
   if (auto const loudest = loud_channels(diagnosis); !loudest.empty())

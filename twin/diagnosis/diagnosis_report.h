@@ -17,8 +17,8 @@ struct DiagnosisReport {
   std::vector<std::string> remarks;  ///< the same, of less weight
 };
 
-/// A verdict in one sentence; what stands in for something unknown follows a colon. `things`: how many are missing, or
-/// stand in; `disagrees`: somewhere the calibrated machine leaves more than noise.
+/// A verdict in one sentence; what stands in for something unknown follows a colon. `things`: how many are missing,
+/// stand in, or are suspected; `disagrees`: somewhere the calibrated machine leaves more than noise.
 [[nodiscard]] std::string headline(Diagnosis::Verdict verdict, std::size_t things, bool disagrees);
 
 /// Verdict, effects with their intervals and weights, unaccounted heat, gaps per channel, estimates: everything, for

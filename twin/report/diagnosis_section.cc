@@ -78,7 +78,8 @@ std::string sentence(Json const& diagnosis) {
   using Verdict = Diagnosis::Verdict;
   auto const verdict = diagnosis["verdict"].get<std::string>();
   auto const& effects = diagnosis["effects"];
-  if (verdict == "nothing") return headline(Verdict::nothing, 0, disagrees(diagnosis));
+  if (verdict == "nothing")
+    return headline(Verdict::nothing, diagnosis.contains("suspicion") ? 1 : 0, disagrees(diagnosis));
   if (verdict == "sensor" && diagnosis.contains("sensor"))
     return fmt::format("The sensor {} is at fault, not the machine.", diagnosis["sensor"]["name"].get<std::string>());
   if (verdict == "none_known" && diagnosis.contains("heat") && diagnosis["heat"].contains("watts_per_kelvin_of_air"))

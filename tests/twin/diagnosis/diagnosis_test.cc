@@ -62,7 +62,8 @@ TEST(Diagnosis, SuspectsWhatIsNotEvidentEnough) {
   EXPECT_GE(diagnosis.suspicion->asked, 1.5 * evidence);
   ASSERT_FALSE(diagnosis.proposals.empty());
   EXPECT_GT(diagnosis.proposals[0].distance, wanted_distance);
-  EXPECT_THAT(report_text(report), testing::AllOf(testing::HasSubstr("Suspected"), testing::HasSubstr("show it")));
+  EXPECT_THAT(report_text(report),
+              testing::AllOf(testing::HasSubstr("one is suspected"), testing::HasSubstr("show it")));
   EXPECT_THAT(report_json(report), testing::HasSubstr("\"suspicion\""));
   auto const deaf = asking(2.5 * evidence);
   EXPECT_EQ(name_of(deaf.diagnosis.verdict), "nothing");
