@@ -49,7 +49,7 @@ VectorXd random_parameters(Eigen::Index count, std::uint64_t seed) {
 ErrorModel fit_back_propagation(std::span<Batch const> batches, FitOptions const& options) {
   NetworkSamples const samples(batches);
   auto loss = samples.loss();
-  auto const found = descend(loss, random_parameters(loss.parameters(), options.seed));
+  auto const found = descend(loss, random_parameters(loss.parameters(), options.seed), {.epochs = network_epochs});
   return samples.model(
       "back_propagation", found.parameters,
       fmt::format("{} hidden nodes, {} epochs", hidden_nodes(samples.set.regressors.cols()), found.epochs));

@@ -18,7 +18,7 @@ namespace thermotwin::models {
 struct DescentOptions {
   double rate = 0.05;     ///< η at the start
   double momentum = 0.9;  ///< μ
-  int epochs = 2000;      ///< at most
+  int epochs = 2000;      ///< at most (methods.md §6.3)
   double goal = 1e-6;     ///< stop below this E/N of a target between −1 and 1
 };
 
@@ -30,10 +30,13 @@ struct Descent {
 
 Descent descend(NetworkLoss& loss, Eigen::VectorXd const& start, DescentOptions const& options = {});
 
+/// What a network's descent may cost, whatever it starts from: only so do starts compare.
+constexpr int network_epochs = 5'000;
+
 /// Even in [−1, 1).
 Eigen::VectorXd random_parameters(Eigen::Index count, std::uint64_t seed);
 
-/// The network M-(2M+1)-1 by back-propagation from one random start (paper 003; methods.md §6.2).
+/// The network M-(2M+1)-1 by back-propagation from one random start, for `network_epochs` (paper 003; methods.md §6.2).
 ErrorModel fit_back_propagation(std::span<Batch const> batches, FitOptions const& options);
 
 }  // namespace thermotwin::models

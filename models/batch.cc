@@ -27,6 +27,10 @@ void check(Batch const& batch) {
   if (batch.sensors.size() != columns || batch.components.size() != columns)
     refuse(batch, fmt::format("{} columns of temperatures, {} sensor names and {} components; all three must agree",
                               columns, batch.sensors.size(), batch.components.size()));
+  if (batch.before.rows() > 0 && batch.before.cols() != batch.temperature_rise.cols())
+    refuse(batch, fmt::format("{} columns of temperatures, {} of those before it; they must agree", columns,
+                              batch.before.cols()));
+  if (!batch.before.allFinite()) refuse(batch, "a reading before it is no number");
   std::set<std::string> seen;
   for (auto const& name : batch.sensors)
     if (!seen.insert(name).second) refuse(batch, fmt::format("sensor '{}' occurs twice", name));
@@ -50,6 +54,7 @@ Batch stacked(std::span<Batch const> batches) {
                                 all.name, fmt::join(all.sensors, ", ")));
     rows += batch.time.size();
   }
+  all.before.resize(0, 0);
   all.time.resize(rows);
   all.error.resize(rows);
   all.temperature_rise.resize(rows, batches.front().temperature_rise.cols());
@@ -67,13 +72,28 @@ Batch stacked(std::span<Batch const> batches) {
 Batch with_sensors(Batch const& batch, std::span<Eigen::Index const> sensors) {
   Batch chosen{batch.name, batch.time, {}, {}, {batch.time.size(), static_cast<Eigen::Index>(sensors.size())},
                batch.error};
+  chosen.before.resize(batch.before.rows(), chosen.temperature_rise.cols());
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     auto const column = static_cast<std::size_t>(sensors[i]);
     chosen.sensors.push_back(batch.sensors.at(column));
     chosen.components.push_back(batch.components.at(column));
     chosen.temperature_rise.col(static_cast<Eigen::Index>(i)) = batch.temperature_rise.col(sensors[i]);
+    if (batch.before.rows() > 0) chosen.before.col(static_cast<Eigen::Index>(i)) = batch.before.col(sensors[i]);
   }
   return chosen;
+}
+
+void add_rows(std::vector<Eigen::Index>& run_lengths, Batch const& batch, Eigen::Index rows) {
+  if (batch.before.rows() > 0 && !run_lengths.empty())
+    run_lengths.back() += rows;
+  else
+    run_lengths.push_back(rows);
+}
+
+std::vector<Eigen::Index> run_lengths(std::span<Batch const> batches) {
+  std::vector<Eigen::Index> lengths;
+  for (auto const& batch : batches) add_rows(lengths, batch, batch.time.size());
+  return lengths;
 }
 
 std::vector<Eigen::Index> columns_of(Batch const& batch, std::span<std::string const> names) {

@@ -16,6 +16,8 @@ struct Batch {
   std::vector<std::string> components;  ///< p: the machine's component on which each sensor sits
   Eigen::MatrixXd temperature_rise;     ///< N × p: change since the first instant [K]
   Eigen::VectorXd error;                ///< N: thermal error [µm]
+  Eigen::MatrixXd before{};             ///< of a batch cut out of a run: the readings before it, in the same steps;
+                                        ///< none: before the first instant the machine rested
 };
 
 /// Throws std::invalid_argument with a sentence that names the batch, unless sizes agree, names are unique,
@@ -27,6 +29,12 @@ Batch stacked(std::span<Batch const> batches);
 
 /// The batch with only these columns, in this order.
 Batch with_sensors(Batch const& batch, std::span<Eigen::Index const> sensors);
+
+/// Adds rows of a batch as a run of their own, or to the last run if the batch was cut out of one.
+void add_rows(std::vector<Eigen::Index>& run_lengths, Batch const& batch, Eigen::Index rows);
+
+/// Rows of each run of these batches, one below the other.
+std::vector<Eigen::Index> run_lengths(std::span<Batch const> batches);
 
 /// Column numbers of these names; a name that the batch does not have is refused with the names that it has.
 std::vector<Eigen::Index> columns_of(Batch const& batch, std::span<std::string const> names);

@@ -1,6 +1,8 @@
 #include "models/contiguous_folds.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <numeric>
 #include <stdexcept>
 
 namespace thermotwin::models {
@@ -12,6 +14,20 @@ std::vector<Fold> contiguous_folds(Eigen::Index rows, int folds) {
   for (int k = 0; k < folds; ++k) {
     auto const first = rows * k / folds;
     result.push_back({first, rows * (k + 1) / folds - first});
+  }
+  return result;
+}
+
+std::vector<Fold> folds_of_runs(std::vector<Eigen::Index> const& run_lengths, int folds) {
+  if (run_lengths.size() == 1) return contiguous_folds(run_lengths.front(), folds);
+  auto const runs = static_cast<int>(run_lengths.size());
+  std::vector<Fold> result;
+  Eigen::Index first = 0;
+  for (auto const& group : contiguous_folds(runs, std::min(folds, runs))) {
+    auto const begin = run_lengths.begin() + group.first;
+    auto const count = std::accumulate(begin, begin + group.count, Eigen::Index{0});
+    result.push_back({first, count});
+    first += count;
   }
   return result;
 }

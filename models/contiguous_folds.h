@@ -15,6 +15,11 @@ struct Fold {
 /// fewer rows than folds (std::invalid_argument).
 std::vector<Fold> contiguous_folds(Eigen::Index rows, int folds);
 
+/// The same of runs of these lengths, one below the other: of a single run its stretches, of several whole runs, as
+/// many folds as there are runs at most. What a run is predicted from shall not be the rest of it: other runs begin in
+/// another state.
+std::vector<Fold> folds_of_runs(std::vector<Eigen::Index> const& run_lengths, int folds);
+
 /// Numbers of the rows outside the fold, ascending.
 std::vector<Eigen::Index> rows_outside(Fold const& fold, Eigen::Index rows);
 

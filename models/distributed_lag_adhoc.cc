@@ -23,8 +23,9 @@ LinearRegression regression(TrainingSet const& set) {
 bool enough_samples(std::span<Batch const> batches, int order) {
   Index rows = 0;
   for (auto const& batch : batches) {
-    if (batch.time.size() <= order) return false;
-    rows += batch.time.size() - order;
+    Index const own = batch.time.size() - without_history(batch, order);
+    if (own < 1) return false;
+    rows += own;
   }
   return rows >= batches.front().temperature_rise.cols() * (order + 1) + 2;
 }

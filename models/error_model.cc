@@ -19,19 +19,19 @@ using Eigen::VectorXd;
 constexpr double period_tolerance = 1e-3;
 
 struct Prediction {
-  MatrixXd const& readings;
+  Batch const& batch;  ///< with the model's inputs only
 
   VectorXd operator()(LinearForm const& form) const {
-    VectorXd const prediction = with_lags(readings, form.lags) * form.coefficients.reshaped();
+    VectorXd const prediction = with_lags(batch, form.lags) * form.coefficients.reshaped();
     return prediction.array() + form.intercept;
   }
   VectorXd operator()(KernelForm const& form) const {
-    MatrixXd const x = scaled(readings, form.input_offset, form.input_scale);
+    MatrixXd const x = scaled(batch.temperature_rise, form.input_offset, form.input_scale);
     VectorXd const f = gaussian_kernel(squared_distances(x, form.support), form.g) * form.weights;
     return form.target_offset + form.target_scale * (f.array() + form.intercept);
   }
   VectorXd operator()(NetworkForm const& form) const {
-    MatrixXd const x = scaled(readings, form.input_offset, form.input_scale);
+    MatrixXd const x = scaled(batch.temperature_rise, form.input_offset, form.input_scale);
     return form.target_offset + form.target_scale * network_output(form, x).array();
   }
 };
@@ -52,8 +52,8 @@ void check_period(ErrorModel const& model, Batch const& batch) {
 VectorXd ErrorModel::predict(Batch const& batch) const {
   check(batch);
   check_period(*this, batch);
-  MatrixXd const readings = batch.temperature_rise(Eigen::all, columns_of(batch, inputs));
-  return std::visit(Prediction{readings}, form);
+  auto const own = with_sensors(batch, columns_of(batch, inputs));
+  return std::visit(Prediction{own}, form);
 }
 
 int ErrorModel::unclaimed_instants() const {

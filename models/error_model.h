@@ -13,7 +13,7 @@
 namespace thermotwin::models {
 
 /// ŷ_t = b₀ + Σ_j Σ_l B_jl x_{j,t−lag_l}. Every linear method ends here (regression, ridge, principal components,
-/// distributed lags). Instants before the first repeat the first row: before a run the machine rests, ΔT = 0.
+/// distributed lags). Instants before a run's first repeat its first row: before a run the machine rests, ΔT = 0.
 struct LinearForm {
   double intercept = 0;          ///< [µm]
   std::vector<int> lags{0};      ///< [samples], ascending, none negative
@@ -61,7 +61,7 @@ struct ErrorModel {
 
 struct FitOptions {
   std::uint64_t seed = 1;  ///< of starts and genetic search
-  int folds = 5;           ///< contiguous folds of the blocked cross-validation
+  int folds = 5;           ///< of the blocked cross-validation (folds_of_runs)
 };
 
 /// A way of fitting. The catalogue below is what studies, files and the command line read.

@@ -77,7 +77,7 @@ BestSubset best_subset(SubsetValidation const& validation, int count) {
 Selection select_exhaustive(std::span<Batch const> batches, SelectionOptions const& options) {
   auto const from = candidates(batches, options);
   require_error_that_moves(from);
-  SubsetValidation const validation(from.all);
+  SubsetValidation const validation(from.batches);
   auto best = options.count ? best_subset(validation, *options.count) : grown(validation);
   std::stable_sort(best.sensors.begin(), best.sensors.end(),
                    [&](Index a, Index b) { return best.margin(a) > best.margin(b); });

@@ -11,7 +11,7 @@ namespace thermotwin::models {
 Selection select_forward(std::span<Batch const> batches, SelectionOptions const& options) {
   auto const from = candidates(batches, options);
   require_error_that_moves(from);
-  SubsetValidation const validation(from.all);
+  SubsetValidation const validation(from.batches);
   int const most = options.count.value_or(std::min(static_cast<int>(from.count()), validation.largest_set()));
   std::vector<Eigen::Index> chosen;
   std::vector<bool> taken(static_cast<std::size_t>(from.count()), false);

@@ -45,6 +45,8 @@ MatrixXd unit_columns(MatrixXd const& columns) {
   return unit;
 }
 
+/// F − F_α; the least of all where nothing differs within classes: their number would then be judged by a division by
+/// 0.
 double excess_of_F(Classes const& classes, MatrixXd const& objects) {
   auto const members = static_cast<double>(objects.rows()), groups = static_cast<double>(classes.size());
   VectorXd const centre = objects.colwise().mean();
@@ -55,7 +57,7 @@ double excess_of_F(Classes const& classes, MatrixXd const& objects) {
     between += static_cast<double>(group.size()) * (own - centre).squaredNorm();
     within += (part.rowwise() - own.transpose()).squaredNorm();
   }
-  if (within <= 0) return std::numeric_limits<double>::infinity();
+  if (within <= same_level * between) return -std::numeric_limits<double>::infinity();
   double const F = between / (groups - 1) / (within / (members - groups));
   return F - quantile(complement(boost::math::fisher_f(groups - 1, members - groups), significance));
 }

@@ -32,7 +32,8 @@ std::vector<std::vector<Eigen::Index>> classes_nearest(Eigen::MatrixXd const& cl
 ///
 ///     F = [Σ_g n_g ‖x̄_g − x̄‖²/(c − 1)] / [Σ_g Σ_{i∈g} ‖x_i − x̄_g‖²/(n − c)]
 ///
-/// with one object x_i per row of `objects`. The coarsest partition where no level gives 2 to n − 1 classes.
+/// with one object x_i per row of `objects`. A partition whose classes hold identical objects only has no F: it stands
+/// back behind all others, of which there may be none. The coarsest partition where no level gives 2 to n − 1 classes.
 std::vector<std::vector<Eigen::Index>> classes_by_F(Eigen::MatrixXd const& closure, Eigen::MatrixXd const& objects);
 
 /// Grey relation with fuzzy clustering (FC-GRD; papers 000 and 004): the sensors' fuzzy equivalence classes by |r|, and

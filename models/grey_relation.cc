@@ -33,6 +33,11 @@ double co_movement(VectorXd const& x, VectorXd const& y) {
   return (x.array() - x.mean()).matrix().dot((y.array() - y.mean()).matrix());
 }
 
+/// Up for down about the middle of what is dimensionless.
+VectorXd turned_round(VectorXd const& series, GreyScaling scaling) {
+  return (scaling == GreyScaling::range ? 1.0 : 2.0) - series.array();
+}
+
 }  // namespace
 
 VectorXd grey_relational_grades(MatrixXd const& columns, VectorXd const& reference,
@@ -47,8 +52,9 @@ VectorXd grey_relational_grades(MatrixXd const& columns, VectorXd const& referen
   VectorXd const target = dimensionless(reference, options.scaling);
   MatrixXd difference(columns.rows(), columns.cols());
   for (Index i = 0; i < columns.cols(); ++i) {
-    bool const against = options.align_signs && co_movement(columns.col(i), reference) < 0;
-    difference.col(i) = (dimensionless((against ? -1.0 : 1.0) * columns.col(i), options.scaling) - target).cwiseAbs();
+    VectorXd series = dimensionless(columns.col(i), options.scaling);
+    if (options.align_signs && co_movement(series, target) < 0) series = turned_round(series, options.scaling);
+    difference.col(i) = (series - target).cwiseAbs();
   }
   double const least = difference.minCoeff(), largest = difference.maxCoeff();
   if (largest < no_difference) return VectorXd::Ones(columns.cols());

@@ -17,7 +17,7 @@ enum class GreyScaling {
 struct GreyRelationOptions {
   double resolution = 0.5;  ///< ρ of (0, 1]: weight of the largest difference
   GreyScaling scaling = GreyScaling::range;
-  bool align_signs = false;  ///< turn round the series whose correlation with the reference is negative
+  bool align_signs = false;  ///< turn round the series that, dimensionless, move against the reference
 };
 
 /// Grey relational grade of each column with the reference (Deng 1982; methods.md §3.8), both scaled:

@@ -53,7 +53,7 @@ std::string doubts(Batch const& all, InformationScreen const& screen, std::vecto
   if (!doubtful.empty())
     remarks.push_back(
         fmt::format("perhaps independent of the error (p >= 0.05 by permutation of blocks of {} samples): {}",
-                    memory_of(all.error), fmt::join(names(all, doubtful), ", ")));
+                    independent_block(all.error), fmt::join(names(all, doubtful), ", ")));
   auto const otherwise = best_within_components(all.components, information_by_neighbours(all));
   if (otherwise != screen.kept)
     remarks.push_back(
@@ -67,7 +67,7 @@ InformationScreen screen_by_information(Candidates const& from, std::uint64_t se
   Index const sensors = from.count();
   InformationScreen screen{VectorXd(sensors), VectorXd(sensors), VectorXd(sensors), {}, {}};
   MutualInformationOptions single{.seed = seed}, blocks{.seed = seed};
-  blocks.block = memory_of(from.all.error);
+  blocks.block = independent_block(from.all.error);
   std::vector<Index> saturated;
   for (Index i = 0; i < sensors; ++i) {
     auto const found = mutual_information(from.all.temperature_rise.col(i), from.all.error, single);
@@ -102,6 +102,8 @@ Index memory_of(VectorXd const& record) {
     ++lag;
   return lag;
 }
+
+Index independent_block(VectorXd const& record) { return std::min(3 * memory_of(record), record.size()); }
 
 Selection select_by_mutual_information(std::span<Batch const> batches, SelectionOptions const& options) {
   auto const from = candidates(batches, options);

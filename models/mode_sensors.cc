@@ -16,13 +16,41 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+/// What a shape at the sensors differs from those of other modes, of 1: with less, its amplitude multiplies the
+/// readings' errors by more than ten.
+constexpr double least_difference = 0.1;
+
+/// Of sensors at the same place, one.
+std::vector<Index> places_of(MatrixXd const& shapes) {
+  std::vector<Index> places;
+  for (Index i = 0; i < shapes.rows(); ++i)
+    if (std::none_of(places.begin(), places.end(), [&](Index p) { return shapes.row(p) == shapes.row(i); }))
+      places.push_back(i);
+  return places;
+}
+
+/// The modes that sensors there tell apart, slowest first.
+MatrixXd told_apart(MatrixXd const& shapes) {
+  MatrixXd unit = shapes(places_of(shapes), Eigen::all);
+  for (auto column : unit.colwise()) column.normalize();
+  Eigen::ColPivHouseholderQR<MatrixXd> factors;
+  factors.setThreshold(least_difference);
+  factors.compute(unit);
+  auto const& order = factors.colsPermutation().indices();
+  std::vector<Index> modes(order.begin(), order.begin() + factors.rank());
+  std::sort(modes.begin(), modes.end());
+  return shapes(Eigen::all, modes);
+}
+
 MatrixXd shapes_at(Candidates const& from, MatrixXd const& shapes) {
   if (shapes.rows() != from.sensors || shapes.cols() == 0)
     throw std::invalid_argument(fmt::format(
         "the mode shapes are {} × {}; thermal modes need a row for each of the {} sensors and a column for each mode",
         shapes.rows(), shapes.cols(), from.sensors));
   if (!shapes.allFinite()) throw std::invalid_argument("a mode shape has a value that is no number");
-  return shapes(from.columns, Eigen::all);
+  MatrixXd const distinct = told_apart(shapes(from.columns, Eigen::all));
+  if (distinct.cols() == 0) throw std::invalid_argument("no sensor sees any thermal mode");
+  return distinct;
 }
 
 /// Rows of W that are pivots above `least`, in the order of pivoting.
@@ -75,8 +103,10 @@ Selection select_for_modes(std::span<Batch const> batches, SelectionOptions cons
   std::iota(all.begin(), all.end(), 0);
   auto const seen = std::max<std::size_t>(spanning_rows(W, all, least).size(), 1);
   order.resize(options.count ? static_cast<std::size_t>(*options.count) : seen);
-  return selection(from, order, W.rowwise().norm(),
-                   fmt::format("{} of {} thermal modes stand above the rounding of the readings", seen, W.cols()));
+  return selection(
+      from, order, W.rowwise().norm(),
+      fmt::format("{} of {} thermal modes that the sensors tell apart stand above the rounding of the readings", seen,
+                  W.cols()));
 }
 
 }  // namespace thermotwin::models

@@ -31,7 +31,7 @@ struct MutualInformationOptions {
   std::optional<int> bins{};  ///< on each axis, in place of the rule
   BiasCorrection bias = BiasCorrection::shuffle_null;
   int permutations = 199;
-  Eigen::Index block = 1;  ///< samples that stay together in a permutation; the memory of an autocorrelated record
+  Eigen::Index block = 1;  ///< samples that stay together in a permutation; of an autocorrelated record some memories
   std::uint64_t seed = 1;
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "models/contiguous_folds.h"
 #include "models/scaling.h"
 #include "models/training_set.h"
 
@@ -15,6 +14,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+constexpr double stands_still = 1e-12;  // variance among the rows fitted, of 1 among all
 
 VectorXd penalties() {
   constexpr double lowest = -6.0, highest = 2.0;
@@ -47,19 +48,21 @@ struct Moments {
   }
 };
 
-/// All penalties at once: c(λ) = V (d + λ)⁻¹ Vᵀ cov(z, y).
+/// All penalties at once, of columns standardised anew: c(λ) = V (d + λ)⁻¹ Vᵀ cov(z, y).
 struct Path {
-  VectorXd mean;
+  VectorXd mean, deviation;
   double response_mean;
   VectorXd eigenvalues, projection;
   MatrixXd directions;
 
   explicit Path(Moments const& sums) : mean(sums.z / sums.rows), response_mean(sums.y / sums.rows) {
     MatrixXd const covariance = sums.zz / sums.rows - mean * mean.transpose();
-    Eigen::SelfAdjointEigenSolver<MatrixXd> const solver(covariance);
+    deviation = (covariance.diagonal().array() > stands_still).select(covariance.diagonal().cwiseSqrt(), 1.0);
+    VectorXd const scale = deviation.cwiseInverse();
+    Eigen::SelfAdjointEigenSolver<MatrixXd> const solver(scale.asDiagonal() * covariance * scale.asDiagonal());
     eigenvalues = solver.eigenvalues().cwiseMax(0.0);
     directions = solver.eigenvectors();
-    projection = directions.transpose() * (sums.zy / sums.rows - mean * response_mean);
+    projection = directions.transpose() * (sums.zy / sums.rows - mean * response_mean).cwiseQuotient(deviation);
   }
   /// Column k: coefficients in the eigenvectors' basis for the k-th penalty.
   [[nodiscard]] MatrixXd rotated(VectorXd const& lambda) const {
@@ -71,7 +74,7 @@ struct Path {
 
 VectorXd squared_errors(Path const& path, VectorXd const& lambda, Eigen::Ref<MatrixXd const> const& z,
                         Eigen::Ref<VectorXd const> const& y) {
-  MatrixXd const basis = (z.rowwise() - path.mean.transpose()) * path.directions;
+  MatrixXd const basis = scaled(z, path.mean, path.deviation) * path.directions;
   MatrixXd residuals = -basis * path.rotated(lambda);
   residuals.colwise() += (y.array() - path.response_mean).matrix();
   return residuals.colwise().squaredNorm();
@@ -79,13 +82,13 @@ VectorXd squared_errors(Path const& path, VectorXd const& lambda, Eigen::Ref<Mat
 
 }  // namespace
 
-RidgeRegression ridge_regression(MatrixXd const& columns, VectorXd const& response, int folds) {
+RidgeRegression ridge_regression(MatrixXd const& columns, VectorXd const& response, std::vector<Fold> const& folds) {
   auto const scaling = standard_scaling(columns);
   MatrixXd const z = scaled(columns, scaling);
   Moments const all(z, response);
   VectorXd const lambda = penalties();
   VectorXd errors = VectorXd::Zero(lambda.size());
-  for (auto const& fold : contiguous_folds(z.rows(), folds)) {
+  for (auto const& fold : folds) {
     auto const left_out = z.middleRows(fold.first, fold.count);
     auto const response_out = response.segment(fold.first, fold.count);
     Moments rest = all;
@@ -101,14 +104,14 @@ RidgeRegression ridge_regression(MatrixXd const& columns, VectorXd const& respon
   fit.validation_rmse = std::sqrt(least / all.rows);
   fit.parameters = 1 + (path.eigenvalues.array() / (path.eigenvalues.array() + fit.penalty)).sum();
   VectorXd const standard = path.directions * path.rotated(lambda.segment(best, 1));
-  fit.coefficients = standard.cwiseQuotient(scaling.scale);
+  fit.coefficients = standard.cwiseQuotient(path.deviation).cwiseQuotient(scaling.scale);
   fit.intercept = path.response_mean - fit.coefficients.dot(scaling.offset);
   return fit;
 }
 
 ErrorModel fit_ridge(std::span<Batch const> batches, FitOptions const& options) {
   auto const set = training_set(batches);
-  auto const fit = ridge_regression(set.regressors, set.error, options.folds);
+  auto const fit = ridge_regression(set.regressors, set.error, folds_of_runs(set.run_lengths, options.folds));
   return linear_model("ridge", set, fit.intercept, fit.coefficients, fit.parameters,
                       fmt::format("penalty {:.3g}, {:.1f} effective parameters", fit.penalty, fit.parameters));
 }

@@ -22,7 +22,7 @@ ErrorModel fit_ridge_distributed_lag(std::span<Batch const> batches, FitOptions 
   if (batches.empty()) throw std::invalid_argument("no batch at all");
   check(batches.front());
   auto const set = training_set(batches, geometric_lags(sample_period(batches.front())), History::rest);
-  auto const fit = ridge_regression(set.regressors, set.error, options.folds);
+  auto const fit = ridge_regression(set.regressors, set.error, folds_of_runs(set.run_lengths, options.folds));
   return linear_model("ridge_distributed_lag", set, fit.intercept, fit.coefficients, fit.parameters,
                       fmt::format("lags to {} samples, penalty {:.3g}, {:.1f} effective parameters", set.lags.back(),
                                   fit.penalty, fit.parameters));

@@ -45,11 +45,13 @@ MatrixXd stacked_without(std::vector<MatrixXd> const& blocks, std::size_t left_o
 
 }  // namespace
 
-SubsetValidation::SubsetValidation(Batch const& data, int folds)
-    : instants_(data.time.size()), sensors_(data.temperature_rise.cols()), shortest_training_(instants_) {
+SubsetValidation::SubsetValidation(std::span<Batch const> batches, int folds) {
+  Batch const data = stacked(batches);
+  instants_ = shortest_training_ = data.time.size();
+  sensors_ = data.temperature_rise.cols();
   MatrixXd const system = system_of(data);
   size_of_error_ = std::sqrt(system.rightCols<1>().squaredNorm() / static_cast<double>(instants_));
-  for (auto const& fold : contiguous_folds(instants_, folds)) {
+  for (auto const& fold : folds_of_runs(run_lengths(batches), folds)) {
     test_.push_back(triangle(system.middleRows(fold.first, fold.count)));
     shortest_training_ = std::min(shortest_training_, instants_ - fold.count);
   }

@@ -9,8 +9,8 @@
 namespace thermotwin::models {
 
 /// Blocked cross-validation of y = b₀ + Σ_{j∈S} b_j ΔT_j for any set S of sensors: the instants are cut into `folds`
-/// blocks that follow one another (neighbouring minutes are too alike to be in training and test), each is predicted
-/// by the least squares of all others, and
+/// blocks that follow one another (neighbouring minutes are too alike to be in training and test; of several runs, each
+/// block is whole runs), each is predicted by the least squares of all others, and
 ///
 ///   RMSE(S) = √(Σ e²/N) over all blocks [µm].
 ///
@@ -19,8 +19,8 @@ namespace thermotwin::models {
 /// nothing.
 class SubsetValidation {
  public:
-  /// std::invalid_argument for what `contiguous_folds` refuses.
-  explicit SubsetValidation(Batch const& data, int folds = 5);
+  /// std::invalid_argument for what `folds_of_runs` refuses.
+  explicit SubsetValidation(std::span<Batch const> batches, int folds = 5);
 
   /// std::invalid_argument when a training set has fewer instants than the set has sensors, and two more.
   [[nodiscard]] double rmse(std::span<Eigen::Index const> sensors) const;
@@ -37,7 +37,7 @@ class SubsetValidation {
   [[nodiscard]] bool worthwhile(double before, double after) const;
 
  private:
-  Eigen::Index instants_, sensors_, shortest_training_ = 0;
+  Eigen::Index instants_ = 0, sensors_ = 0, shortest_training_ = 0;
   double size_of_error_ = 0;
   std::vector<Eigen::MatrixXd> test_, training_;  ///< R of each block and of all others, columns [1 X y]
 };

@@ -50,43 +50,84 @@ void silence() {
   static_cast<void>(once);
 }
 
-/// Squared error on the folds left out; gives up as soon as it exceeds `enough`.
-double validation_error(SupportVectorSolver const& solver, MatrixXd const& kernel, VectorXd const& target,
-                        std::vector<Fold> const& folds, SupportVectorOptions const& options, double enough) {
+std::vector<Index> numbers_to(Index count) {
+  std::vector<Index> numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), Index{0});
+  return numbers;
+}
+
+/// Inputs and target of mean 0 and variance 1 among the rows that are fitted.
+struct StandardSamples {
+  Scaling input, target;
+  MatrixXd x;
+  VectorXd y;
+
+  StandardSamples(MatrixXd const& regressors, VectorXd const& error)
+      : input(standard_scaling(regressors)),
+        target(standard_scaling(error)),
+        x(scaled(regressors, input)),
+        y(scaled(error, target)) {}
+};
+
+/// A fold that is left out, and what is fitted for it.
+struct LeftOut {
+  StandardSamples fitted;
+  VectorXd wanted;
+  MatrixXd among, across;  ///< squared distances of the rows fitted, and of the fold's rows from them
+
+  LeftOut(TrainingSet const& set, Fold const& fold, std::vector<Index> const& rest)
+      : fitted(set.regressors(rest, Eigen::all), set.error(rest)),
+        wanted(scaled(set.error.segment(fold.first, fold.count), fitted.target)),
+        among(squared_distances(fitted.x, fitted.x)),
+        across(squared_distances(scaled(set.regressors.middleRows(fold.first, fold.count), fitted.input), fitted.x)) {}
+};
+
+/// The same with kernels of one g.
+struct Validation {
+  LeftOut const& fold;
+  SupportVectorSolver solver;
+  MatrixXd kernel;
+
+  Validation(LeftOut const& left_out, double g)
+      : fold(left_out), solver(gaussian_kernel(fold.among, g)), kernel(gaussian_kernel(fold.across, g)) {}
+  /// [µm²]
+  [[nodiscard]] double squared_error(double cost) const {
+    auto const& y = fold.fitted.y;
+    auto const fit = solver.solve(y, numbers_to(y.size()), {.cost = cost});
+    VectorXd const missed = fold.wanted - ((kernel * fit.weights).array() + fit.intercept).matrix();
+    return missed.squaredNorm() * fold.fitted.target.scale.squaredNorm();
+  }
+};
+
+/// Of all folds; gives up as soon as it exceeds `enough`.
+double validation_error(std::vector<Validation> const& validations, double cost, double enough) {
   double sum = 0;
-  for (auto const& fold : folds) {
-    auto const fit = solver.solve(target, rows_outside(fold, target.size()), options);
-    VectorXd const centred = target.segment(fold.first, fold.count).array() - fit.intercept;
-    sum += (centred - kernel.middleRows(fold.first, fold.count) * fit.weights).squaredNorm();
+  for (auto const& validation : validations) {
+    sum += validation.squared_error(cost);
     if (sum > enough) break;
   }
   return sum;
 }
 
-GridPoint best_of_grid(MatrixXd const& distances, VectorXd const& target, int fold_count) {
-  auto const folds = contiguous_folds(target.size(), fold_count);
+GridPoint best_of_grid(TrainingSet const& set, int fold_count) {
+  std::vector<LeftOut> folds;
+  for (auto const& fold : folds_of_runs(set.run_lengths, fold_count))
+    folds.emplace_back(set, fold, rows_outside(fold, set.error.size()));
   double least = std::numeric_limits<double>::infinity();
   GridPoint best;
   for (int i = lowest_exponent; i <= highest_exponent; ++i) {
     double const g = std::exp2(i);
-    MatrixXd const kernel = gaussian_kernel(distances, g);
-    SupportVectorSolver const solver(kernel);
+    std::vector<Validation> validations;
+    for (auto const& fold : folds) validations.emplace_back(fold, g);
     for (int j = lowest_exponent; j <= highest_exponent; ++j) {
-      SupportVectorOptions const options{.cost = std::exp2(j)};
-      double const error = validation_error(solver, kernel, target, folds, options, least);
+      double const cost = std::exp2(j), error = validation_error(validations, cost, least);
       if (error < least) {
         least = error;
-        best = {options.cost, g};
+        best = {cost, g};
       }
     }
   }
   return best;
-}
-
-std::vector<Index> numbers_to(Index count) {
-  std::vector<Index> numbers(static_cast<std::size_t>(count));
-  std::iota(numbers.begin(), numbers.end(), Index{0});
-  return numbers;
 }
 
 }  // namespace
@@ -125,12 +166,10 @@ SupportVectorRegression SupportVectorSolver::solve(VectorXd const& target, std::
 ErrorModel fit_support_vector(std::span<Batch const> batches, FitOptions const& options) {
   auto const set = training_set(batches);
   require_samples(set, set.regressors.cols() + 2);
-  auto const input = standard_scaling(set.regressors), target = standard_scaling(set.error);
-  MatrixXd const x = scaled(set.regressors, input);
-  VectorXd const y = scaled(set.error, target);
-  MatrixXd const distances = squared_distances(x, x);
-  auto const best = best_of_grid(distances, y, options.folds);
-  auto const fit = SupportVectorSolver(gaussian_kernel(distances, best.g))
+  auto const best = best_of_grid(set, options.folds);
+  StandardSamples const samples(set.regressors, set.error);
+  auto const& [input, target, x, y] = samples;
+  auto const fit = SupportVectorSolver(gaussian_kernel(squared_distances(x, x), best.g))
                        .solve(y, numbers_to(y.size()), {.cost = best.cost, .tolerance = final_tolerance});
 
   KernelForm form;

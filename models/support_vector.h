@@ -39,9 +39,9 @@ class SupportVectorSolver {
   std::vector<Node> nodes_;
 };
 
-/// ε-SVR with K = exp(−g ‖x − x'‖²) on inputs and target of mean 0 and variance 1; C and g from 2⁻⁴, 2⁻³, …, 2⁴, the
-/// pair of least squared error in a cross-validation by contiguous folds. (Paper 001: grid and kernel; ε, folds and
-/// scaling are not stated there.)
+/// ε-SVR with K = exp(−g ‖x − x'‖²) on inputs and target of mean 0 and variance 1 among the rows that are fitted; C and
+/// g from 2⁻⁴, 2⁻³, …, 2⁴, the pair of least squared error in a cross-validation by contiguous folds, of several runs
+/// by whole ones. (Paper 001: grid and kernel; ε, folds and scaling are not stated there.)
 ErrorModel fit_support_vector(std::span<Batch const> batches, FitOptions const& options);
 
 }  // namespace thermotwin::models

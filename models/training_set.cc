@@ -37,6 +37,15 @@ double common_period(std::span<Batch const> batches) {
   return period;
 }
 
+/// What a method fits of a batch.
+Index kept_rows(Batch const& batch, int longest, History history) {
+  Index const kept = batch.time.size() - (history == History::dropped ? without_history(batch, longest) : 0);
+  if (kept < 1)
+    throw std::invalid_argument(
+        fmt::format("batch '{}' has {} samples; lags of {} samples need more", batch.name, batch.time.size(), longest));
+  return kept;
+}
+
 }  // namespace
 
 TrainingSet training_set(std::span<Batch const> batches, std::vector<int> const& lags, History history) {
@@ -48,35 +57,35 @@ TrainingSet training_set(std::span<Batch const> batches, std::vector<int> const&
   int const longest = lags.back();
   int const dropped = history == History::dropped ? longest : 0;
   TrainingSet set{all.sensors, longest > 0 ? common_period(batches) : 0.0, lags, {}, {}, {}, dropped};
-  auto const runs = static_cast<Index>(batches.size());
-  set.regressors.resize(all.time.size() - runs * dropped,
-                        all.temperature_rise.cols() * static_cast<Index>(lags.size()));
-  set.error.resize(set.regressors.rows());
+  Index rows = 0;
+  for (auto const& batch : batches) rows += kept_rows(batch, longest, history);
+  set.regressors.resize(rows, all.temperature_rise.cols() * static_cast<Index>(lags.size()));
+  set.error.resize(rows);
   Index row = 0;
   for (auto const& batch : batches) {
-    Index const kept = batch.time.size() - dropped;
-    if (kept < 1)
-      throw std::invalid_argument(fmt::format("batch '{}' has {} samples; lags of {} samples need more", batch.name,
-                                              batch.time.size(), longest));
-    set.regressors.middleRows(row, kept) = with_lags(batch.temperature_rise, lags).bottomRows(kept);
+    Index const kept = kept_rows(batch, longest, history);
+    set.regressors.middleRows(row, kept) = with_lags(batch, lags).bottomRows(kept);
     set.error.segment(row, kept) = batch.error.tail(kept);
-    set.run_lengths.push_back(kept);
+    add_rows(set.run_lengths, batch, kept);
     row += kept;
   }
   return set;
 }
 
-MatrixXd with_lags(MatrixXd const& readings, std::vector<int> const& lags) {
-  Index const rows = readings.rows(), inputs = readings.cols();
+MatrixXd with_lags(Batch const& batch, std::vector<int> const& lags) {
+  Index const rows = batch.time.size(), inputs = batch.temperature_rise.cols(), known = batch.before.rows();
+  MatrixXd readings(known + rows, inputs);
+  if (known > 0) readings.topRows(known) = batch.before;
+  readings.bottomRows(rows) = batch.temperature_rise;
   MatrixXd lagged(rows, inputs * static_cast<Index>(lags.size()));
-  for (std::size_t l = 0; l < lags.size(); ++l) {
-    auto block = lagged.middleCols(static_cast<Index>(l) * inputs, inputs);
-    Index const before = std::min<Index>(lags[l], rows);
-    block.topRows(before) = readings.row(0).replicate(before, 1);
-    block.bottomRows(rows - before) = readings.topRows(rows - before);
-  }
+  for (std::size_t l = 0; l < lags.size(); ++l)
+    for (Index row = 0; row < rows; ++row)
+      lagged.block(row, static_cast<Index>(l) * inputs, 1, inputs) =
+          readings.row(std::max<Index>(0, known + row - lags[l]));
   return lagged;
 }
+
+Index without_history(Batch const& batch, int lag) { return std::max<Index>(0, lag - batch.before.rows()); }
 
 double sample_period(Batch const& batch) {
   auto const rows = batch.time.size();

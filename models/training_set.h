@@ -10,7 +10,7 @@
 
 namespace thermotwin::models {
 
-/// The instants of all batches one below the other, each with the readings of earlier instants of its own batch: what a
+/// The instants of all batches one below the other, each with the readings of earlier instants of its own run: what a
 /// method fits.
 struct TrainingSet {
   std::vector<std::string> inputs;        ///< p
@@ -18,11 +18,12 @@ struct TrainingSet {
   std::vector<int> lags;                  ///< [samples]
   Eigen::MatrixXd regressors;             ///< N × (p lags): column l p + j is input j, lags[l] samples ago [K]
   Eigen::VectorXd error;                  ///< N [µm]
-  std::vector<Eigen::Index> run_lengths;  ///< rows of each batch
-  int dropped = 0;                        ///< instants of each batch that are only history
+  std::vector<Eigen::Index> run_lengths;  ///< rows of each run
+  int dropped = 0;                        ///< first instants of each run that are only history
 };
 
-/// What stands for the readings before a batch's first instant.
+/// What stands for the readings before a run's first instant. (Those before a batch that was cut out of a run are
+/// known: Batch::before.)
 enum class History {
   dropped,  ///< nothing: the first max(lags) instants serve only as history (methods.md §7.1, N − n rows)
   rest,     ///< the first row: before a run the machine rests
@@ -33,8 +34,11 @@ enum class History {
 TrainingSet training_set(std::span<Batch const> batches, std::vector<int> const& lags = {0},
                          History history = History::dropped);
 
-/// Column l p + j: column j of `readings`, lags[l] rows before; the first row where there is none.
-Eigen::MatrixXd with_lags(Eigen::MatrixXd const& readings, std::vector<int> const& lags);
+/// Column l p + j: readings of sensor j, lags[l] instants before; the first of the run where there is none.
+Eigen::MatrixXd with_lags(Batch const& batch, std::vector<int> const& lags);
+
+/// How many of the batch's first instants lack the readings `lag` instants before.
+Eigen::Index without_history(Batch const& batch, int lag);
 
 /// The time between samples [s]; refuses one instant and times whose steps differ from their mean by more than 1 %.
 double sample_period(Batch const& batch);

@@ -60,6 +60,41 @@ TEST(DistributedLag, LagsStayInTheirBatch) {
   EXPECT_EQ(both.regressors.bottomRows(28), second.regressors);
 }
 
+/// The rows [first, N) of a run, as a batch that knows the ones before it.
+Batch behind(Batch const& run, Eigen::Index first) {
+  Eigen::Index const rows = run.time.size() - first;
+  auto part = batch_of(run.temperature_rise.bottomRows(rows), run.error.tail(rows));
+  part.before = run.temperature_rise.topRows(first);
+  return part;
+}
+
+/// A machine does not rest in the middle of a run: a batch cut out of it has the lags that it has there, all of them.
+TEST(DistributedLag, ABatchCutOutOfARunHasTheRunsHistory) {
+  auto const run = white(1, 40, known, 0.1);
+  for (Eigen::Index const first : {1, 5, 25})
+    for (auto const history : {History::dropped, History::rest}) {
+      std::vector<int> const lags{0, 2, 7};
+      auto const whole = training_set(std::vector{run}, lags, history),
+                 part = training_set(std::vector{behind(run, first)}, lags, history);
+      Eigen::Index const rows = std::min(40 - first, whole.error.size());
+      EXPECT_EQ(part.error, whole.error.tail(rows));
+      EXPECT_EQ(part.regressors, whole.regressors.bottomRows(rows));
+    }
+  for (auto const fit : {fit_distributed_lag, fit_ridge_distributed_lag}) {
+    auto const model = fit(std::vector{run}, {});
+    EXPECT_LT((model.predict(behind(run, 25)) - model.predict(run).tail(15)).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+/// Both sides of a gap are one run: it is folded by stretches, not by its two sides.
+TEST(DistributedLag, BothSidesOfAGapAreOneRun) {
+  auto const run = white(1, 40, known, 0.1), other = white(2, 30, known, 0.1);
+  std::vector const batches{batch_of(run.temperature_rise.topRows(10), run.error.head(10)), behind(run, 25), other};
+  EXPECT_THAT(run_lengths(batches), ElementsAre(25, 30));
+  EXPECT_THAT(training_set(batches, lags_up_to(2)).run_lengths, ElementsAre(8 + 15, 28));
+  EXPECT_THAT(with_sensors(batches[1], std::vector<Eigen::Index>{1}).before, run.temperature_rise.col(1).head(25));
+}
+
 TEST(AdhocLagOrder, FindsTheOrderOfOrthogonalInputs) {
   EXPECT_EQ(adhoc_lag_order(std::vector{white(3, 300, known, 0.3)}).order, 2);
   EXPECT_EQ(adhoc_lag_order(std::vector{white(4, 300, known.leftCols(2), 0.3)}).order, 1);
@@ -85,11 +120,14 @@ TEST(AdhocLagOrder, StopsWhereALagSaysNothingNew) {
   EXPECT_THAT(found.reason, HasSubstr("'T1, 1 sample ago' is a combination of the ones before it"));
 }
 
+/// Every lag matters, ten times less than the one before it: only the samples end the search. Order 10 has 12 numbers
+/// for 14 rows, order 11 would have 13 for 13.
 TEST(AdhocLagOrder, EndsWithTheSamples) {
-  MatrixXd alternating(1, 30);  // every lag matters and keeps its sign: only the samples end the search
-  for (Eigen::Index i = 0; i < 30; ++i) alternating(0, i) = 1.0 + 0.1 * double(i);
-  auto const found = adhoc_lag_order(std::vector{white(6, 24, alternating, 0.0)});
-  EXPECT_LT(found.order, 12);
+  MatrixXd fading(1, 16);
+  for (Eigen::Index i = 0; i < 16; ++i) fading(0, i) = std::pow(0.1, double(i));
+  auto const found = adhoc_lag_order(std::vector{white(6, 24, fading, 0.0)});
+  EXPECT_EQ(found.order, 10);
+  EXPECT_EQ(found.reason, "too few samples for order 11");
 }
 
 TEST(AdhocLagModel, UsesTheOrderAndSaysWhy) {

@@ -102,6 +102,11 @@ TEST_P(EveryMethod, NamesTheSensorAndTheRowOfWhatIsNoNumber) {
   batch = random_walks(8, 60, 3);
   batch.error(4) = INFINITY;
   EXPECT_THAT(complaint({batch}), HasSubstr("the error in row 5 is no number"));
+  batch = random_walks(8, 60, 3);
+  batch.before = MatrixXd::Constant(2, 3, std::nan(""));
+  EXPECT_THAT(complaint({batch}), HasSubstr("a reading before it is no number"));
+  batch.before = MatrixXd::Zero(2, 2);
+  EXPECT_THAT(complaint({batch}), HasSubstr("3 columns of temperatures, 2 of those before it"));
 }
 
 TEST_P(EveryMethod, RefusesNoBatch) { EXPECT_THAT(complaint({}), HasSubstr("no batch at all")); }

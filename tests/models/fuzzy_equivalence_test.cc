@@ -112,6 +112,35 @@ TEST(FuzzyEquivalence, PlantedGroupsComeBackByFAndByCount) {
   EXPECT_GE(by_F, 80);  // of six objects five classes leave F one degree of freedom: it errs where two nearly coincide
 }
 
+/// A second sensor that shows the same does not decide how many classes there are.
+TEST(FuzzyEquivalence, IdenticalSensorsDoNotWinByADivisionByZero) {
+  auto const classes = [](MatrixXd const& objects) {
+    MatrixXd const columns = objects.transpose();
+    return classes_by_F(transitive_closure(correlation_similarity(columns)), objects);
+  };
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    MatrixXd objects(7, 80);
+    Noise noise(seed);
+    VectorXd const one = thermal_state(80, 6, 10, noise), other = thermal_state(80, 20, 25, noise);
+    for (Index i = 0; i < 7; ++i) objects.row(i) = (i < 3 ? one : other) + (0.1 + 0.02 * double(i)) * noise.series(80);
+    for (Index i = 0; i < 7; ++i) objects.row(i).array() -= objects.row(i).mean();
+    objects.rowwise().normalize();
+    objects.row(5) = objects.row(6) = objects.row(4);  // three times the same
+    Classes const found = classes(objects);
+    EXPECT_LT(found.size(), 5U) << "seed " << seed;
+  }
+}
+
+/// Where all are the same as some other, the classes of these are what is left.
+TEST(FuzzyEquivalence, PartsGroupsOfIdenticalSensors) {
+  Noise noise(1);
+  VectorXd const one = noise.series(30), other = noise.series(30);
+  MatrixXd columns(30, 5);
+  columns << one, other, one, other, one;
+  EXPECT_EQ(classes_by_F(transitive_closure(correlation_similarity(columns)), columns.transpose()),
+            (Classes{{0, 2, 4}, {1, 3}}));
+}
+
 TEST(FuzzyEquivalence, ChoosesTheHighestGradeOfEachClass) {
   Batch const batch = two_groups(5);
   auto const two = select_by_grey_fuzzy_clustering({&batch, 1}, {});

@@ -40,6 +40,19 @@ TEST(GreyRelation, ScaledByTheMean) {
   EXPECT_NEAR(grades(1), 1.0, 1e-12);
 }
 
+/// What falls as the reference rises about the same mean is its mirror image, and its equal when turned round.
+TEST(GreyRelation, AlignedSignsTurnASeriesScaledByItsMeanRound) {
+  MatrixXd const x = (MatrixXd(3, 2) << 3, 1, 2, 2, 1, 3).finished();
+  Eigen::Vector3d const y(1, 2, 3);
+  auto const grades = [&](VectorXd const& reference, bool align) {
+    return grey_relational_grades(x, reference, {.scaling = GreyScaling::mean, .align_signs = align});
+  };
+  EXPECT_LT(grades(y, false)(0), 0.9);
+  EXPECT_NEAR(grades(y, true)(0), 1.0, 1e-12);
+  EXPECT_NEAR(grades(y, true)(1), 1.0, 1e-12);
+  EXPECT_NEAR(grades(-y, true)(0), 1.0, 1e-12);  // of mean −2: the scaled reference rises as y does
+}
+
 TEST(GreyRelation, GradesDependOnTheSetAndOnTheResolution) {
   VectorXd const y = golden_reference();
   MatrixXd const all = golden_columns();

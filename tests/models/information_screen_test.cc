@@ -61,13 +61,68 @@ TEST(InformationScreen, SensorOfNoiseHasALargePValueAndIsNamed) {
   EXPECT_GE(named, 85);
 }
 
-TEST(InformationScreen, SaysWhereBinsRankNothingAndWhereNeighboursDisagree) {
+/// methods.md §11, B1, where minutes resemble their neighbours.
+TEST(InformationScreen, IndependentSensorsOfLongMemoryHaveLargePValuesByBlocks) {
+  constexpr Index sensors = 10;
+  int by_samples = 0, by_blocks = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Noise noise(seed);
+    VectorXd const error = autoregressive(200, 0.9, noise);
+    MatrixXd rise(200, sensors);
+    for (Index i = 0; i < sensors; ++i) rise.col(i) = autoregressive(200, 0.9, noise);
+    Batch const batch = batch_of(rise, error);
+    auto const screen = screen_by_information(candidates({&batch, 1}, {}), seed);
+    by_samples += int((screen.p_value.array() > 0.05).count());
+    by_blocks += int((screen.block_p_value.array() > 0.05).count());
+  }
+  EXPECT_LT(by_samples, 600);
+  EXPECT_GE(by_blocks, 900);
+}
+
+TEST(InformationScreen, SensorThatFollowsTheErrorHasASmallPValueByBlocks) {
+  int significant = 0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Noise noise(seed);
+    VectorXd const error = autoregressive(200, 0.9, noise), sensor = error + noise.series(200);
+    Batch const batch = batch_of(sensor, error);
+    significant += screen_by_information(candidates({&batch, 1}, {}), seed).block_p_value(0) <= 0.05;
+  }
+  EXPECT_GE(significant, 45);
+}
+
+TEST(InformationScreen, SaysWhereBinsRankNothing) {
   VectorXd const t = VectorXd::LinSpaced(11, 0, 10);  // eleven instants, two bins, all monotone
   MatrixXd rise(11, 3);
   rise << t, 1.1 * t, t + 0.01 * t.array().square().matrix();
   Batch const batch = batch_of(rise, t);
   EXPECT_THAT(screen_by_information(candidates({&batch, 1}, {}), 1).remark,
               HasSubstr("their information ranks nothing"));
+}
+
+/// One reading far off leaves a sensor's others in one bin of equal width; its neighbours remain its neighbours.
+TEST(InformationScreen, SaysWhereNeighboursDisagree) {
+  Noise noise(1);
+  VectorXd const error = noise.series(300);
+  MatrixXd rise(300, 3);
+  rise << error + 0.1 * noise.series(300), error + noise.series(300), error + noise.series(300);
+  Batch batch = batch_of(rise, error);
+  auto const agreed = screen_by_information(candidates({&batch, 1}, {}), 1);
+  EXPECT_THAT(agreed.kept, Contains(0));
+  batch.temperature_rise(17, 0) = 200.0;
+  auto const screen = screen_by_information(candidates({&batch, 1}, {}), 1);
+  EXPECT_THAT(screen.kept, ElementsAre(1, 2));
+  EXPECT_THAT(screen.remark, HasSubstr("by nearest neighbours the components would keep T1, T"));
+}
+
+TEST(InformationScreen, SaysNothingOfNeighboursThatAgree) {
+  Noise noise(2);
+  VectorXd const error = noise.series(300);
+  MatrixXd rise(300, 3);
+  rise << error + 0.1 * noise.series(300), error + 0.3 * noise.series(300), noise.series(300);
+  Batch const batch = batch_of(rise, error);
+  auto const screen = screen_by_information(candidates({&batch, 1}, {}), 1);
+  EXPECT_THAT(screen.kept, ElementsAre(0, 1));
+  EXPECT_THAT(screen.remark, testing::Not(HasSubstr("nearest neighbours")));
 }
 
 TEST(InformationScreen, MemoryIsWhereTheAutocorrelationFalls) {

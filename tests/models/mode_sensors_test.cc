@@ -69,6 +69,39 @@ TEST(ModeSensors, WithoutAnErrorFollowTheReadings) {
   EXPECT_THAT(select_for_modes({{data}}, options({})).sensors, UnorderedElementsAre(0, 2, 4));
 }
 
+/// Six places tell six modes apart, of the ten that a network has. A second and a third sensor at some of them change
+/// neither what the others see of the modes nor the choice.
+TEST(ModeSensors, DoNotMindSecondSensorsAtTheSamePlaces) {
+  std::mt19937_64 generator(3);
+  Eigen::MatrixXd const modes = Eigen::MatrixXd::NullaryExpr(6, 10, [&] { return normal(generator); });
+  Eigen::MatrixXd const amplitude = random_walks(5, 300, 10).temperature_rise;
+  auto const batch = batch_of(amplitude * modes.transpose(), 4 * amplitude.col(1) - 2 * amplitude.col(4));
+  std::vector<Eigen::Index> const places{0, 1, 2, 3, 4, 5, 1, 3, 3, 0};
+  auto const doubled = batch_of(batch.temperature_rise(Eigen::all, places), batch.error);
+  SelectionOptions six, ten;
+  six.mode_shapes = modes;
+  ten.mode_shapes = modes(places, Eigen::all);
+  for (auto const count : {std::optional<int>{}, std::optional(3)}) {
+    six.count = ten.count = count;
+    auto const once = select_for_modes({{batch}}, six), twice = select_for_modes({{doubled}}, ten);
+    EXPECT_EQ(twice.sensors, once.sensors);
+    EXPECT_LT((twice.score.head(6) - once.score).cwiseAbs().maxCoeff(), 1e-9 * once.score.maxCoeff());
+    EXPECT_EQ(twice.remark, once.remark);
+  }
+}
+
+/// A fourth mode that looks like the first at every sensor takes nothing of its amplitude.
+TEST(ModeSensors, GiveOneAmplitudeToModesThatLookAlike) {
+  auto alike = options({});
+  auto const known = select_for_modes({{readings()}}, alike);
+  alike.mode_shapes.conservativeResize(Eigen::NoChange, 4);
+  alike.mode_shapes.col(3) = -0.3 * alike.mode_shapes.col(0);
+  alike.mode_shapes(1, 3) *= 1.0001;
+  auto const chosen = select_for_modes({{readings()}}, alike);
+  EXPECT_EQ(chosen.sensors, known.sensors);
+  EXPECT_LT((chosen.score - known.score).cwiseAbs().maxCoeff(), 1e-3 * known.score.maxCoeff());
+}
+
 TEST(ModeSensors, LeaveAModeBelowTheRoundingAlone) {
   auto data = readings();
   data.temperature_rise.rightCols(2) *= 1e-4;
@@ -89,6 +122,8 @@ TEST(ModeSensors, RefuseShapesThatDoNotFit) {
     }
   }
   auto bad = options({});
+  bad.mode_shapes.setZero();
+  EXPECT_THROW((void)select_for_modes({{readings()}}, bad), std::invalid_argument);
   bad.mode_shapes(1, 1) = std::nan("");
   EXPECT_THROW((void)select_for_modes({{readings()}}, bad), std::invalid_argument);
 }

@@ -14,13 +14,6 @@ using Eigen::VectorXd;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-VectorXd autoregressive(Index samples, double memory, Noise& noise) {
-  VectorXd x(samples);
-  double value = noise() / std::sqrt(1 - memory * memory);
-  for (auto& sample : x) sample = value = memory * value + noise();
-  return x;
-}
-
 TEST(MutualInformation, OfFourCellsIsWhatTheSumSays) {
   VectorXd const x = (VectorXd(8) << 0, 0, 0, 0, 1, 1, 1, 1).finished();
   VectorXd const y = (VectorXd(8) << 0, 0, 0, 1, 0, 1, 1, 1).finished();

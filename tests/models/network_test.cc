@@ -117,16 +117,27 @@ TEST(GeneticSearch, IsTheSameForTheSameSeed) {
   EXPECT_NE(genetic_search(8, fitness, 5, few).best.back(), genetic_search(8, fitness, 6, few).best.back());
 }
 
-TEST(GeneticBackPropagation, EndsAtOrBelowTheMedianOfTwentyRandomStarts) {
-  for (std::uint64_t world : {1, 2, 3}) {
-    std::vector const batches{duty(world)};
-    auto loss = NetworkSamples(batches).loss();
-    std::vector<double> random;
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) random.push_back(descend(loss, random_parameters(78, seed)).loss);
-    std::sort(random.begin(), random.end());
-    auto const model = fit_genetic_back_propagation(batches, {.seed = world});
-    EXPECT_LE(loss(parameters_of(std::get<NetworkForm>(model.form))), 0.5 * (random[9] + random[10])) << world;
+/// methods.md §11, C4, at equal epochs. Of twenty random starts as many descend lower than another random one as not;
+/// the mean share over 36 independent draws then lies below 0.42 once in twenty times. (At equal epochs the lead is
+/// gone after two thousand.)
+TEST(GeneticSearch, StartsADescentThatIsLowerThanOfRandomStarts) {
+  constexpr int epochs = 500, draws = 36;
+  double lower = 0;
+  for (std::uint64_t draw = 1; draw <= draws; ++draw) {
+    auto loss = NetworkSamples(std::vector{duty(draw)}).loss();
+    auto const fitness = [&](VectorXd const& parameters) { return 1.0 / loss.rough(parameters); };
+    double const found = descend(loss, genetic_search(78, fitness, draw).best.back(), {.epochs = epochs}).loss;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+      if (descend(loss, random_parameters(78, 100 * draw + seed), {.epochs = epochs}).loss < found) lower += 1.0 / 20;
   }
+  EXPECT_LT(lower / draws, 0.42);
+}
+
+/// Only so do starts compare.
+TEST(NetworkModel, DescendsAsLongFromAnyStart) {
+  std::vector const batches{duty(1)};
+  EXPECT_THAT(fit_genetic_back_propagation(batches, {}).remark, testing::HasSubstr(" 5000 epochs"));
+  EXPECT_THAT(fit_back_propagation(batches, {}).remark, testing::HasSubstr(" 5000 epochs"));
 }
 
 TEST(NetworkModel, SaysThatItHasMoreParametersThanSamples) {

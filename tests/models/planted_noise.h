@@ -27,6 +27,14 @@ class Noise {
   std::mt19937_64 random_;
 };
 
+/// x_t = memory x_{t−1} + noise, from the first sample on as it goes on.
+inline Eigen::VectorXd autoregressive(Eigen::Index samples, double memory, Noise& noise) {
+  Eigen::VectorXd x(samples);
+  double value = noise() / std::sqrt(1 - memory * memory);
+  for (auto& sample : x) sample = value = memory * value + noise();
+  return x;
+}
+
 /// A body that warms up and cools down as its drive is switched at random: time constant and hold in samples.
 inline Eigen::VectorXd thermal_state(Eigen::Index samples, double time_constant, int hold, Noise& noise) {
   Eigen::VectorXd state(samples);

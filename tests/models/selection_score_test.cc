@@ -50,7 +50,7 @@ TEST(SelectionScore, RefusesATruthThatDoesNotFit) {
 TEST(Regret, IsZeroForTheOptimumAndNeverNegative) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     auto const data = random_walks(seed, 60, 6);
-    SubsetValidation const validation(data);
+    SubsetValidation const validation({&data, 1});
     auto const optimum = best_subset(validation, 2);
     EXPECT_EQ(regret({optimum.sensors, optimum.margin, ""}, validation, optimum), 0);
     EXPECT_GT(regret({{0, 2}, optimum.margin, ""}, validation, optimum), 0);

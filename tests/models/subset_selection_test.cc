@@ -52,7 +52,7 @@ TEST(Forward, FindsTheTwoSensorsThatMakeTheErrorAndStops) {
 TEST(Exhaustive, IsTheBestThereIs) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     auto const data = random_walks(seed, 60, 7);
-    SubsetValidation const validation(data);
+    SubsetValidation const validation({&data, 1});
     for (int count = 1; count <= 4; ++count) {
       double const best = best_subset(validation, count).rmse;
       for (auto select :
@@ -70,7 +70,7 @@ TEST(Exhaustive, IsTheBestThereIs) {
 
 TEST(Exhaustive, MarginIsWhatASensorIsWorth) {
   auto const data = random_walks(4, 60, 5);
-  SubsetValidation const validation(data);
+  SubsetValidation const validation({&data, 1});
   auto const best = best_subset(validation, 2);
   for (Eigen::Index sensor = 0; sensor < 5; ++sensor) {
     double with = 1e300, without = 1e300;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numeric>
 
 #include "models/gaussian_kernel.h"
@@ -79,6 +80,60 @@ TEST(SupportVectorModel, TakesItsPairFromTheGrid) {
     EXPECT_LE(value, 16.0);
   }
   EXPECT_EQ(g, std::get<KernelForm>(model.form).g);
+}
+
+/// Mean 0 and variance 1, and how it was brought there.
+struct Standard {
+  Eigen::RowVectorXd mean, deviation;
+
+  explicit Standard(MatrixXd const& columns)
+      : mean(columns.colwise().mean()),
+        deviation(((columns.rowwise() - mean).colwise().squaredNorm() / double(columns.rows())).cwiseSqrt()) {}
+  [[nodiscard]] MatrixXd of(MatrixXd const& columns) const {
+    return (columns.rowwise() - mean).array().rowwise() / deviation.array();
+  }
+};
+
+/// Squared error on each run of a machine that knows the others only, their means and deviations included.
+double error_on_other_runs(std::vector<Batch> const& runs, double cost, double g) {
+  double sum = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    auto others = runs;
+    others.erase(others.begin() + std::ptrdiff_t(r));
+    auto const known = stacked(others);
+    Standard const input(known.temperature_rise), target(known.error);
+    MatrixXd const x = input.of(known.temperature_rise);
+    auto const fit = SupportVectorSolver(gaussian_kernel(squared_distances(x, x), g))
+                         .solve(target.of(known.error), all_rows(known.error.size()), {.cost = cost});
+    MatrixXd const kernel = gaussian_kernel(squared_distances(input.of(runs[r].temperature_rise), x), g);
+    VectorXd const predicted = ((kernel * fit.weights).array() + fit.intercept) * target.deviation(0) + target.mean(0);
+    sum += (predicted - runs[r].error).squaredNorm();
+  }
+  return sum;
+}
+
+/// Runs about other temperatures, of which each bends in its own part.
+TEST(SupportVectorModel, TakesThePairThatPredictsOtherRunsBest) {
+  for (std::uint64_t world : {1, 2, 3, 4}) {
+    std::vector<Batch> runs;
+    for (std::uint64_t r = 0; r < 3; ++r) {
+      runs.push_back(bent(10 * world + r, 20 + 5 * Eigen::Index(r)));
+      runs.back().temperature_rise.col(1).array() += 0.7 * double(r);
+      runs.back().error.array() += 2.0 * double(r);
+    }
+    double cost = 0, g = 0, least = std::numeric_limits<double>::infinity(), best_cost = 0, best_g = 0;
+    auto const remark = fit_support_vector(runs, {}).remark;
+    ASSERT_EQ(std::sscanf(remark.c_str(), "C = %lf, g = %lf", &cost, &g), 2) << remark;
+    for (int i = -4; i <= 4; ++i)
+      for (int j = -4; j <= 4; ++j)
+        if (double const error = error_on_other_runs(runs, std::exp2(i), std::exp2(j)); error < least) {
+          least = error;
+          best_cost = std::exp2(i);
+          best_g = std::exp2(j);
+        }
+    EXPECT_EQ(cost, best_cost) << world;
+    EXPECT_EQ(g, best_g) << world;
+  }
 }
 
 TEST(SupportVectorModel, BendsWhereALineCannot) {

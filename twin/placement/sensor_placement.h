@@ -44,8 +44,10 @@ struct SetFigures {
 
   std::vector<Sensor> sensors;  ///< the one that tells most first
   double model_um = 0.0;        ///< √V, what the search minimises
-  double predicted_um = 0.0;    ///< 1σ to be expected of a machine and a spectrum that took no part
-  double unseen_um = 0.0;       ///< rms on machines and spectra that took no part
+  /// 1σ to be expected of a machine that took no part, under spectra as the design's: its `experiments`, which all its
+  /// machines share, or ones drawn anew. Of machines that teach themselves: under a spectrum that did not teach.
+  double predicted_um = 0.0;
+  double unseen_um = 0.0;                            ///< rms on machines and spectra that took no part
   double unseen_low_um = 0.0, unseen_high_um = 0.0;  ///< of their machines, 10 % and 90 %
   double worst_um = 0.0;                             ///< √V when the worst `dead` sensors are out of work
   double cost = 0.0;

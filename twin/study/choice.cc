@@ -72,7 +72,7 @@ SelectionTruth::SelectionTruth(WorldData const& data) {
   std::vector<models::Batch> runs;
   for (auto const* list : {&data.train.front(), &data.test.front()})
     for (auto const& run : *list) runs.push_back(run.truth ? *run.truth : run.seen);
-  validation_ = std::make_unique<models::SubsetValidation>(models::stacked(runs));
+  validation_ = std::make_unique<models::SubsetValidation>(runs);
 }
 
 void SelectionTruth::prepare(int count) {

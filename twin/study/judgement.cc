@@ -14,6 +14,11 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Named = std::map<std::string, double>;
 
+/// What a prediction is held against: cross-validation chooses, and whoever chooses does not know the truth.
+VectorXd const& answer_to(Asked const& asked) {
+  return asked.role == Role::validation ? asked.batch.error : asked.truth;
+}
+
 /// Truths and predictions of one part, one below the other.
 struct Pool {
   std::vector<double> truth, prediction;
@@ -151,7 +156,7 @@ Named judged(std::vector<Answer> const& fits, std::vector<Answer> const& validat
       for (std::size_t k = 0; k < answer.asked().size(); ++k) {
         auto const& asked = answer.asked()[k];
         own.push_back(claimed(answer.predict(k), asked, answer.unclaimed_instants()));
-        pools[asked.role].add(claimed(asked.truth, asked, answer.unclaimed_instants()), own.back());
+        pools[asked.role].add(claimed(answer_to(asked), asked, answer.unclaimed_instants()), own.back());
       }
     }
   predictions.resize(fits.size());

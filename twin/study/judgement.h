@@ -43,9 +43,10 @@ struct Answer {
 
 /// Figures of one combination in one repetition, by name; none of the answers may be refused.
 ///
-///   self.*, cross.*, validation.*   rmse, mae, max [µm], r_squared [1], mape [%] of the pooled predictions against the
+///   self.*, cross.*                 rmse, mae, max [µm], r_squared [1], mape [%] of the pooled predictions against the
 ///                                   true errors (metrics.h), where the model claims any
 ///                                   (ErrorModel::unclaimed_instants)
+///   validation.*                    the same against the measured errors: whoever chooses by them has no others
 ///   S, Mn, Sd                       batch_statistics.h, mean over the models, against the measured errors as in paper
 ///                                   004; of a single model, S over the training runs, Mn and Sd over the test runs
 ///   Mn.least, Mn.most, Sd.least …   over the models, where each is of one run

@@ -165,6 +165,9 @@ Questions questions(StudyWorld const& world, WorldData const& data, int repetiti
 
 Batch rows_of(Batch const& batch, Index first, Index count) {
   Batch part = batch;
+  part.before.resize(batch.before.rows() + first, batch.temperature_rise.cols());
+  if (batch.before.rows() > 0) part.before.topRows(batch.before.rows()) = batch.before;
+  part.before.bottomRows(first) = batch.temperature_rise.topRows(first);
   part.time = batch.time.segment(first, count);
   part.temperature_rise = batch.temperature_rise.middleRows(first, count);
   part.error = batch.error.segment(first, count);

@@ -46,7 +46,7 @@ struct Questions {
 };
 [[nodiscard]] Questions questions(StudyWorld const& world, WorldData const& data, int repetition, int folds);
 
-/// Rows of a batch, as a batch.
+/// Rows of a batch, as a batch that knows the readings before it: the machine does not rest in the middle of a run.
 [[nodiscard]] models::Batch rows_of(models::Batch const& batch, Eigen::Index first, Eigen::Index count);
 [[nodiscard]] inline models::Batch rows_of(models::Batch const& batch, RunPart const& part) {
   return rows_of(batch, part.first, part.count);

@@ -193,6 +193,7 @@ Question less_twin(Question question, StudyWorld const& world, WorldData const& 
   for (std::size_t k = 0; k < question.training.size(); ++k) {
     auto const own = rows_of(said[question.parts[k].run], question.parts[k]);
     question.training[k].temperature_rise -= own.temperature_rise(Eigen::all, question.columns);
+    question.training[k].before -= own.before(Eigen::all, question.columns);
     question.training[k].error -= own.error;
   }
   for (auto& asked : question.asked) {

@@ -153,9 +153,10 @@ ClaimVerdict judged_claim(StudyReport const& report, StudyClaim const& claim) {
   if (margin.values.empty())
     return {claim, ClaimVerdict::Answer::refused,
             fmt::format("there is no '{}' of these combinations in '{}'", claim.figure, world)};
-  return {
-      claim, answer_of(interval(margin.values), claim.at_most || claim.tolerance || claim.share),
-      fmt::format("{} of {}: {}{}", claim.figure, compared.name, text_of(interval(compared.values), 3), margin.words)};
+  auto const of = interval(margin.values);
+  return {claim, answer_of(of, claim.at_most || claim.tolerance || claim.share),
+          fmt::format("{} of {}: {}{}{}", claim.figure, compared.name, text_of(interval(compared.values), 3),
+                      margin.words, of.values == 1 ? " (one repetition, no interval)" : "")};
 }
 
 }  // namespace

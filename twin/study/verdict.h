@@ -11,7 +11,7 @@ namespace thermotwin::twin {
 /// A claim holds when the 95 % interval over the repetitions lies wholly on its side, fails when wholly on the other,
 /// and is undecided between; equal figures in every repetition are not less, but no more and no worse. Two combinations
 /// are compared repetition by repetition, by the differences (1 − improvement) other − figure; words give other −
-/// figure in % of the other's mean.
+/// figure in % of the other's mean. Of a single repetition the sign decides, and the words say that it has no interval.
 void put_verdict(StudyReport& report);
 
 }  // namespace thermotwin::twin

@@ -66,6 +66,22 @@ TEST(StudyJudgement, LeavesOutStretchesOfWhichAModelClaimsNothing) {
   EXPECT_FALSE(figures.contains("Mn"));
 }
 
+/// The probe shows 3 um more than there is. Who chooses by cross-validation does not know; the judgement does.
+TEST(StudyJudgement, ValidatesAgainstWhatWasMeasured) {
+  auto run = growing(4);
+  Eigen::VectorXd const truth = run.error;
+  run.error.array() += 3.0;
+  auto const model = constant(0.0, 1);
+  Question whole, fold;
+  whole.asked.push_back({Role::self, run, truth, 0, 4});
+  whole.asked.push_back({Role::cross, run, truth, 0, 4});
+  fold.asked.push_back({Role::validation, run, truth, 0, 4});
+  auto const figures = judged({Answer{{{&whole, &model}}}}, {Answer{{{&fold, &model}}}}, 1);
+  EXPECT_NEAR(figures.at("self.mae"), 1.5, 1e-12);
+  EXPECT_NEAR(figures.at("cross.mae"), 1.5, 1e-12);
+  EXPECT_NEAR(figures.at("validation.mae"), 4.5, 1e-12);
+}
+
 /// One says 2 um and claims all, the other what a twin says and 6 um more, and claims all but two instants.
 TEST(StudyJudgement, AnswersAreTheMeanOfTheirModels) {
   auto const run = growing(4);

@@ -131,6 +131,24 @@ TEST(StudyVerdict, SaysWhereAClaimHasNothingToCompare) {
   }
 }
 
+/// One value has no interval: the sign decides, and the words say so.
+TEST(StudyVerdict, SaysWhereThereIsButOneRepetition) {
+  StudyReport report;
+  report.description.worlds.resize(1);
+  report.units = {"um"};
+  report.rows = {{"", "all", "linear", {{"cross.rmse", {1.0}}, {"self.rmse", {1.0, 1.1}}}, {}, {}, {}}};
+  StudyClaim claim;
+  claim.combination = "all + linear";
+  claim.at_most = 2.0;
+  report.description.claims.push_back(claim);
+  claim.figure = "self.rmse";
+  report.description.claims.push_back(claim);
+  put_verdict(report);
+  EXPECT_EQ(report.claims.at(0).answer, ClaimVerdict::Answer::holds);
+  EXPECT_THAT(report.claims.at(0).words, testing::EndsWith("1.000, against 2 (one repetition, no interval)"));
+  EXPECT_THAT(report.claims.at(1).words, testing::Not(HasSubstr("no interval")));
+}
+
 /// Half a micrometre less in each repetition, though repetitions differ by eight.
 TEST(StudyVerdict, ComparesCombinationsInTheSameRepetition) {
   StudyReport report;
