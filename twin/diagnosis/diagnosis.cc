@@ -176,9 +176,8 @@ bool is_about_heat(Hypothesis const& effect) {
 std::optional<std::string> Diagnostician::first_warmed() const {
   auto const bodies = machine_.network().ranges();
   for (auto const& effect : diagnosis_.effects)
-    if (is_about_heat(effect) && std::any_of(bodies.begin(), bodies.end(), [&](auto const& range) {
-          return range.name == effect.body;
-        }))
+    if (is_about_heat(effect) &&
+        std::any_of(bodies.begin(), bodies.end(), [&](auto const& range) { return range.name == effect.body; }))
       return effect.body;
   return std::nullopt;
 }
