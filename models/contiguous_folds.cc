@@ -6,6 +6,11 @@
 #include <stdexcept>
 
 namespace thermotwin::models {
+namespace {
+
+constexpr std::size_t fewest_runs = 3;
+
+}  // namespace
 
 std::vector<Fold> contiguous_folds(Eigen::Index rows, int folds) {
   if (folds < 2) throw std::invalid_argument(fmt::format("{} folds for a cross-validation; at least 2", folds));
@@ -19,7 +24,8 @@ std::vector<Fold> contiguous_folds(Eigen::Index rows, int folds) {
 }
 
 std::vector<Fold> folds_of_runs(std::vector<Eigen::Index> const& run_lengths, int folds) {
-  if (run_lengths.size() == 1) return contiguous_folds(run_lengths.front(), folds);
+  if (run_lengths.size() < fewest_runs)
+    return contiguous_folds(std::accumulate(run_lengths.begin(), run_lengths.end(), Eigen::Index{0}), folds);
   auto const runs = static_cast<int>(run_lengths.size());
   std::vector<Fold> result;
   Eigen::Index first = 0;

@@ -15,9 +15,9 @@ struct Fold {
 /// fewer rows than folds (std::invalid_argument).
 std::vector<Fold> contiguous_folds(Eigen::Index rows, int folds);
 
-/// The same of runs of these lengths, one below the other: of a single run its stretches, of several whole runs, as
-/// many folds as there are runs at most. What a run is predicted from shall not be the rest of it: other runs begin in
-/// another state.
+/// The same of runs of these lengths, one below the other: of three or more whole runs, as many folds as there are runs
+/// at most. What a run is predicted from shall not be the rest of it: other runs begin in another state. Of two runs
+/// stretches as of one: without either, nothing would be known of what stands still in the other.
 std::vector<Fold> folds_of_runs(std::vector<Eigen::Index> const& run_lengths, int folds);
 
 /// Numbers of the rows outside the fold, ascending.

@@ -31,15 +31,16 @@ TEST(ContiguousFolds, CoverEveryRowOnceInOrder) {
   EXPECT_THROW(contiguous_folds(40, 1), std::invalid_argument);
 }
 
-TEST(FoldsOfRuns, AreWholeRunsUnlessThereIsButOne) {
+TEST(FoldsOfRuns, AreWholeRunsOfThreeOrMore) {
   auto const folds = folds_of_runs({10, 30, 5, 20, 20}, 3);
   ASSERT_EQ(folds.size(), 3U);
   std::vector<Eigen::Index> ends;
   for (auto const& fold : folds) ends.push_back(fold.first + fold.count);
   EXPECT_THAT(ends, testing::ElementsAre(10, 45, 85));
-  EXPECT_EQ(folds_of_runs({10, 30}, 5).size(), 2U);
+  EXPECT_EQ(folds_of_runs({10, 30, 5}, 5).size(), 3U);
+  EXPECT_EQ(folds_of_runs({10, 30}, 5).size(), 5U);
   EXPECT_EQ(folds_of_runs({40}, 5).size(), 5U);
-  EXPECT_THROW(folds_of_runs({10, 30}, 1), std::invalid_argument);
+  EXPECT_THROW(folds_of_runs({10, 30, 5}, 1), std::invalid_argument);
 }
 
 /// The same by solving each fold's normal equations directly, of columns standardised by the rows that are fitted.
