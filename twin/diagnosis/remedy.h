@@ -25,9 +25,9 @@ struct Rivals {
   std::vector<double> amplitudes;
 };
 
-/// What tells rivals apart, or shows one that is alone, that the runs so far do not: every separating schedule of the catalogue, and one more sensor
-/// on every body in it (physics.md 8.10, the linear version of T-optimality). A list for each, best first; all from one
-/// linearisation.
+/// What tells rivals apart, or shows one that is alone, that the runs so far do not: every separating schedule of the
+/// catalogue, and one more sensor on every body in it (physics.md 8.10, the linear version of T-optimality). A list for
+/// each, best first; all from one linearisation.
 ///
 /// `document`: the machine without the rivals; `runs`: what was measured.
 [[nodiscard]] std::vector<std::vector<Remedy>> remedies(Value const& document, std::vector<BinnedRun> const& runs,

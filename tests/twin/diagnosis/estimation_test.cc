@@ -155,7 +155,8 @@ TEST(Estimation, JacobianAgreesWithDifferences) {
   }
 }
 
-/// 30 % more of a film in series with another conductance is not 30 % more of what both conduct, and less the more it is.
+/// 30 % more of a film in series with another conductance is not 30 % more of what both conduct, and less the more it
+/// is.
 TEST(Estimation, JacobianOfAJointInSeriesIsThatOfWhereTheFitIs) {
   Value const g200 = read_toml(machine_file("g200"));
   auto const run = tests::measured(g200, tests::experiment(R"(
