@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenarios/course.h"
+#include "scenarios/signal.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -73,34 +74,26 @@ void add_sample(BinStep& step, double t) {
 }
 
 /// A channel's readings, with straight lines between them.
-class ReadingCourse {
- public:
-  ReadingCourse(Eigen::VectorXd const& time, Eigen::VectorXd const& values) {
-    for (Eigen::Index i = 0; i < time.size(); ++i)
-      if (!std::isnan(values[i])) readings_.emplace_back(time[i], values[i]);
+scenarios::Signal readings_of(Eigen::VectorXd const& time, Eigen::VectorXd const& values) {
+  std::vector<double> times, readings;
+  for (Eigen::Index i = 0; i < time.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    times.push_back(time[i]);
+    readings.push_back(values[i]);
   }
+  return {std::move(times), std::move(readings), scenarios::Interpolation::linear};
+}
 
-  /// Over those of the times that lie between its first reading and its last; there must be one.
-  [[nodiscard]] double mean(std::vector<double> const& times) const {
-    double sum = 0.0, count = 0.0;
-    for (double const t : times) {
-      if (t < readings_.front().first || t > readings_.back().first) continue;
-      sum += at(t);
-      count += 1.0;
-    }
-    return sum / count;
+/// Over those of the times that lie between the first reading and the last; there must be one.
+double mean(scenarios::Signal const& readings, std::vector<double> const& times) {
+  double sum = 0.0, count = 0.0;
+  for (double const t : times) {
+    if (t < readings.times().front() || t > readings.times().back()) continue;
+    sum += readings.at(t);
+    count += 1.0;
   }
-
- private:
-  [[nodiscard]] double at(double t) const {
-    auto const after = std::lower_bound(readings_.begin(), readings_.end(), std::pair(t, -double(INFINITY)));
-    if (after->first == t) return after->second;
-    auto const before = std::prev(after);
-    return std::lerp(before->second, after->second, (t - before->first) / (after->first - before->first));
-  }
-
-  std::vector<std::pair<double, double>> readings_;
-};
+  return sum / count;
+}
 
 void divide(BinStep& step, int samples) {
   for (double* weight : {&step.at_begin, &step.at_end, &step.bend_at_begin, &step.bend_at_end}) *weight /= samples;
@@ -116,8 +109,8 @@ BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
   binned.time.setZero(Eigen::Index(rows.size()));
   binned.values.setZero(Eigen::Index(rows.size()), channels);
   binned.samples.setZero(Eigen::Index(rows.size()), channels);
-  std::vector<ReadingCourse> courses;
-  for (auto const& channel : run.channels) courses.emplace_back(run.time, channel.values);
+  std::vector<scenarios::Signal> readings;
+  for (auto const& channel : run.channels) readings.push_back(readings_of(run.time, channel.values));
   Eigen::Index sample = 0;
   std::size_t first_of_row = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -141,7 +134,7 @@ BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
     }
     for (Eigen::Index c = 0; c < channels; ++c)
       if (double const own = binned.samples(row, c); own > 0.0 && own < double(times.size()))
-        binned.values(row, c) = own * courses[std::size_t(c)].mean(times);
+        binned.values(row, c) = own * mean(readings[std::size_t(c)], times);
     if (times.empty()) {  // between two samples: the row has no data
       add_sample(binned.steps[first_of_row], rows[r].begin);
       binned.time[row] = rows[r].begin;

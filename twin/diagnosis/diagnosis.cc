@@ -174,7 +174,7 @@ bool is_about_heat(Hypothesis const& effect) {
 
 /// On which an effect acts that is about heat; what acts on the machine as a whole warms no one body.
 std::optional<std::string> Diagnostician::first_warmed() const {
-  auto const bodies = machine_.network().ranges();
+  auto const& bodies = machine_.network().ranges();
   for (auto const& effect : diagnosis_.effects)
     if (is_about_heat(effect) &&
         std::any_of(bodies.begin(), bodies.end(), [&](auto const& range) { return range.name == effect.body; }))

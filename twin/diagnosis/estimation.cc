@@ -320,6 +320,7 @@ std::vector<Eigen::MatrixXd> Estimation::residuals_at(Eigen::VectorXd const& x) 
 /// The twin along the data. The runs take a quarter of a fit: one serves the residual and then the Jacobian.
 struct Estimation::Traced {
   Eigen::VectorXd x;
+  Value document;
   Machine machine;
   std::vector<std::optional<LinearisedRun>> runs;
 };
@@ -328,7 +329,9 @@ struct Estimation::Traced {
 std::unique_ptr<Estimation::Traced const> Estimation::trace(Eigen::VectorXd const& x) const {
   std::unique_ptr<Traced> traced;
   try {
-    traced = std::make_unique<Traced>(Traced{x, machine_at(x), {}});
+    Value document = document_at(x);
+    Machine machine = Machine::build(document);
+    traced = std::make_unique<Traced>(Traced{x, std::move(document), std::move(machine), {}});
   } catch (thermal::InputError const&) {
     return nullptr;
   }
@@ -406,15 +409,15 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const
   if (!linearised) return true;
   auto const& network = traced->machine.network();
   auto const unknowns = searched();
-  Value const document = document_at(x);
   auto const amplitudes = amplitude_derivatives(x);
   std::vector<thermal::NetworkDerivative> heat;
   std::vector<Eigen::Index> heated;
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
     auto const& unknown = unknowns_[std::size_t(unknowns[k])];
     if (unknown.kind == Unknown::Kind::lag) continue;
-    auto own = unknown.kind == Unknown::Kind::number ? network_derivative(unknown.index, document, x[unknowns[k]])
-                                                     : amplitudes[unknown.index].network;
+    auto own = unknown.kind == Unknown::Kind::number
+                   ? network_derivative(unknown.index, traced->document, x[unknowns[k]])
+                   : amplitudes[unknown.index].network;
     if (!changes_heat(own)) continue;
     heat.push_back(thermal::lengthened(std::move(own), network));
     heated.push_back(Eigen::Index(k));

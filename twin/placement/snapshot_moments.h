@@ -48,8 +48,8 @@ class SnapshotMoments {
   /// Taught by all rows.
   [[nodiscard]] LinearEstimate estimate(std::span<Eigen::Index const> sites) const;
   /// Of the family: what each member's displacements would have been estimated to be from all the others' moments; of
-  /// machines: each run's from the other runs of the same member. It is the variance to be expected on a machine and a
-  /// spectrum that took no part.
+  /// machines: each run's from the other runs of the same member. It is the variance to be expected on a machine that
+  /// took no part, or of machines under a spectrum that did not.
   [[nodiscard]] EstimateError cross_validated(std::span<Eigen::Index const> sites) const;
   /// What estimates taught by this family, or by those machines themselves, leave on machines that took no part.
   [[nodiscard]] EstimateError unseen(Ensemble const& others, std::span<Eigen::Index const> sites) const;
