@@ -55,6 +55,10 @@ void write_part(CampaignLayout const& layout, CampaignPart const& part, std::fil
 /// Runs that failed, and why; thermal::InputError when the file is no part.
 [[nodiscard]] std::map<std::int64_t, std::string> read_failures(std::filesystem::path const& part);
 
+/// thermal::InputError unless the file is a part with these runs and all variables of the layout.
+void check_part(CampaignLayout const& layout, std::int64_t first, std::int64_t count,
+                std::filesystem::path const& part);
+
 /// Some runs of a part, read back.
 struct CampaignRuns {
   std::vector<std::int64_t> run;

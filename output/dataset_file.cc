@@ -47,7 +47,8 @@ DatasetWriter::DatasetWriter(std::filesystem::path path, Dataset head,
   if (std::filesystem::is_directory(path_))
     throw OutputError(fmt::format("cannot write '{}': it is a directory", path_.string()));
   refuse_foreign(partial_path());
-  checkpoint();
+  fresh_ = !std::filesystem::exists(partial_path());
+  if (fresh_) checkpoint();
 }
 
 DatasetWriter::~DatasetWriter() {
@@ -57,7 +58,7 @@ DatasetWriter::~DatasetWriter() {
   } catch (std::exception const&) {  // the partial file stays as it was at the last checkpoint
   }
   std::error_code ignored;
-  if (rows_saved_ == 0) std::filesystem::remove(partial_path(), ignored);
+  if (fresh_ && rows_saved_ == 0) std::filesystem::remove(partial_path(), ignored);
 }
 
 void DatasetWriter::append(Row const& row) {

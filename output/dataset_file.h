@@ -52,13 +52,13 @@ struct Row {
 /// seconds (and never so often that it would take more than a twentieth of the run). So a run killed at any moment
 /// leaves the old `path` untouched and beside it a readable file that says it is partial. `finish` replaces `path` and
 /// removes the partial file. A writer destroyed without `finish` (the run failed) leaves its rows in the partial file;
-/// without any row it leaves nothing.
+/// without any row it leaves what was there.
 class DatasetWriter {
  public:
   /// `head` has everything but the rows: title, channels, node names, provenance so far; its time is empty.
-  /// Writes the empty partial file at once, so that a directory that cannot be written is told before the run. It takes
-  /// the place of a partial file of an interrupted run; OutputError when anything else has that name.
-  /// With no time between checkpoints every row is one.
+  /// Writes the empty partial file at once, so that a directory that cannot be written is told before the run; with its
+  /// first row it takes the place of a partial file of an interrupted run. OutputError when anything else has that
+  /// name. With no time between checkpoints every row is one.
   DatasetWriter(std::filesystem::path path, Dataset head,
                 std::chrono::duration<double> between_checkpoints = std::chrono::seconds(5));
   ~DatasetWriter();
@@ -89,6 +89,7 @@ class DatasetWriter {
   Eigen::Index rows_saved_ = 0;
   std::chrono::duration<double> between_checkpoints_;
   Clock::time_point next_checkpoint_;
+  bool fresh_ = false;  ///< there was no partial file before
   bool finished_ = false;
 };
 

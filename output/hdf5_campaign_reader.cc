@@ -112,6 +112,27 @@ Eigen::MatrixXd const* CampaignRuns::find(std::string const& variable) const {
   return nullptr;
 }
 
+void check_part(CampaignLayout const& layout, std::int64_t first, std::int64_t count,
+                std::filesystem::path const& part) try {
+  hdf5::Silence const silence;
+  auto const refuse = [&](std::string const& why) {
+    throw thermal::InputError(fmt::format("'{}' is no whole part of this campaign: {}", part.string(), why));
+  };
+  Handle const file(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open");
+  Eigen::MatrixXd const runs = read_rows(hdf5::open_variable(file, "run"), "run", 0, 1);
+  bool whole = runs.rows() == count && runs.cols() == 1;
+  for (Eigen::Index row = 0; whole && row < count; ++row) whole = runs(row) == double(first + row);
+  if (!whole) refuse(fmt::format("it does not hold the runs {} to {}", first, first + count - 1));
+  for (auto const& variable : layout.variables) {
+    Shape due = {hsize_t(count)};
+    for (auto const& axis : variable.axes) due.push_back(layout.axis(axis).size());
+    Handle const space(H5Dget_space(hdf5::open_variable(file, variable.name)), H5Sclose, variable.name);
+    if (shape_of(space) != due) refuse(fmt::format("'{}' has another shape", variable.name));
+  }
+} catch (hdf5::Failure const& failure) {
+  throw thermal::InputError(fmt::format("'{}' is no whole part of this campaign: {}", part.string(), failure.what()));
+}
+
 CampaignRuns read_runs(std::filesystem::path const& part, std::vector<std::string> const& groups,
                        std::int64_t every) try {
   hdf5::Silence const silence;

@@ -28,7 +28,8 @@ void answer(Response& response, int status, std::string text, char const* type =
 bool from_here(Request const& request, int port) {
   auto const host = request.get_header_value("Host");
   for (char const* name : {loopback, "localhost", "[::1]"})
-    if (host == fmt::format("{}:{}", name, port)) return request.get_header_value_count("Host") == 1;
+    if (host == fmt::format("{}:{}", name, port) || (port == 80 && host == name))
+      return request.get_header_value_count("Host") == 1;
   return false;
 }
 

@@ -32,6 +32,12 @@ double draught(DoorOpening const& door, double t) {
   return door.step * -std::expm1(-open / door.time_constant) * std::exp(-closed / door.time_constant);
 }
 
+void require_air(double temperature, std::string const& place) {
+  if (temperature >= coldest_air && temperature <= hottest_air) return;
+  throw InputError(place + format_temperature(temperature) + "; allowed is " + format_temperature(coldest_air) +
+                   " to " + format_temperature(hottest_air));
+}
+
 void require_time(double value, std::string const& place) {
   if (!(value > 0.0)) throw InputError(place + ": " + format_quantity(value, dimension::time) + " must be above 0 s");
 }
@@ -51,10 +57,8 @@ bool door_open(Ambient const& ambient, double t) {
                      [t](DoorOpening const& door) { return door.time <= t && t < door.time + door.duration; });
 }
 
-void check(Ambient const& ambient) {
-  if (!(ambient.mean >= coldest_air && ambient.mean <= hottest_air))
-    throw InputError("ambient.mean: " + format_temperature(ambient.mean) + "; allowed is " +
-                     format_temperature(coldest_air) + " to " + format_temperature(hottest_air));
+void check(Ambient const& ambient, double start_time_of_day, double duration) {
+  require_air(ambient.mean, "ambient.mean: ");
   if (ambient.air_conditioning) require_time(ambient.air_conditioning->period, "ambient.air_conditioning.period");
   for (std::size_t i = 0; i < ambient.door_openings.size(); ++i) {
     DoorOpening const& door = ambient.door_openings[i];
@@ -65,7 +69,12 @@ void check(Ambient const& ambient) {
     }
     require_time(door.duration, place + "duration");
     require_time(door.time_constant, place + "time_constant");
+    require_air(air_temperature(ambient, start_time_of_day, std::min(door.time + door.duration, duration)),
+                place + "step: the air reaches ");
   }
+  constexpr int looks = 1000;
+  for (int i = 0; i <= looks; ++i)
+    require_air(air_temperature(ambient, start_time_of_day, duration * i / looks), "ambient: the air reaches ");
 }
 
 }  // namespace thermotwin::scenarios

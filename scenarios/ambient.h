@@ -88,7 +88,8 @@ double air_temperature(Ambient const& ambient, double start_time_of_day, double 
 /// Whether a door stands open; at the moment of opening yes, of closing no.
 bool door_open(Ambient const& ambient, double t);
 
-/// Throws InputError naming the field: times that cannot be, air below -50 degC or above 80 degC.
-void check(Ambient const& ambient);
+/// Throws InputError naming the field: times that cannot be, air that goes below -50 degC or above 80 degC within a
+/// run.
+void check(Ambient const& ambient, double start_time_of_day, double duration);
 
 }  // namespace thermotwin::scenarios

@@ -132,6 +132,11 @@ AxisMotion motion_of(Experiment const& experiment, AxisLimits const& axis) {
   return axis_at_rest(axis);
 }
 
+double next_after(double t, std::vector<double> const& times) {
+  auto const next = std::upper_bound(times.begin(), times.end(), t);
+  return next == times.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
 /// A recorded feed is in motion while it is recorded: duty 1.
 void follow(Signal const& recorded_feed, AxisLimits const& axis, AxisMotion& motion) {
   motion.feed = recorded_feed.magnitude();
@@ -152,7 +157,7 @@ ExperimentCourse::ExperimentCourse(Experiment const& experiment, MachineLimits c
   add_clock(experiment);
   for (DrivenChannel const& driven : driven_) replace_or_add(driven);
   add_floor_temperature();
-  sort_jumps();
+  sort_times();
   join_jumps();
 }
 
@@ -190,7 +195,11 @@ void ExperimentCourse::add_ambient(Experiment const& experiment) {
   add({"ambient.reference_height", "m", "height of the air temperature"}, Signal(ambient.reference_height));
   add({"ambient.door", "1", "1 while a door stands open"},
       [ambient](double t) { return door_open(ambient, t) ? 1.0 : 0.0; });
-  for (DoorOpening const& door : ambient.door_openings) add_jumps({door.time, door.time + door.duration});
+  for (DoorOpening const& door : ambient.door_openings) {
+    add_jumps({door.time, door.time + door.duration});
+    longest_step_ = std::min(longest_step_, 0.5 * door.time_constant);
+  }
+  if (ambient.air_conditioning) longest_step_ = std::min(longest_step_, ambient.air_conditioning->period / 12.0);
 }
 
 void ExperimentCourse::add_switches(Experiment const& experiment) {
@@ -237,11 +246,12 @@ void ExperimentCourse::replace_or_add(DrivenChannel const& driven) {
   formulas_[static_cast<std::size_t>(known - channels_.begin())] = [signal = driven.signal](double t) {
     return signal.at(t);
   };
-  add_jumps(driven.signal.jumps());
+  add_times(driven.signal);
 }
 
-/// From the other channels of the air, which a recording may have replaced.
+/// From the other channels of the air, which a recording may have replaced, if it is not itself recorded.
 void ExperimentCourse::add_floor_temperature() {
+  if (find(driven_, "ambient.floor_temperature")) return;
   auto const formula_of = [&](std::string const& name) {
     auto const known = std::find_if(channels_.begin(), channels_.end(), [&](auto const& c) { return c.name == name; });
     return formulas_[static_cast<std::size_t>(known - channels_.begin())];
@@ -258,16 +268,26 @@ void ExperimentCourse::add(thermal::InputChannel channel, Formula formula) {
 
 void ExperimentCourse::add(thermal::InputChannel channel, Signal const& signal) {
   add(std::move(channel), [signal](double t) { return signal.at(t); });
+  add_times(signal);
+}
+
+void ExperimentCourse::add_times(Signal const& signal) {
   add_jumps(signal.jumps());
+  auto const bends = signal.bends();
+  bends_.insert(bends_.end(), bends.begin(), bends.end());
 }
 
 void ExperimentCourse::add_jumps(std::vector<double> const& times) {
   jumps_.insert(jumps_.end(), times.begin(), times.end());
 }
 
-void ExperimentCourse::sort_jumps() {
+void ExperimentCourse::sort_times() {
   std::sort(jumps_.begin(), jumps_.end());
   jumps_.erase(std::unique(jumps_.begin(), jumps_.end()), jumps_.end());
+  std::sort(bends_.begin(), bends_.end());
+  auto const are_one = [](double a, double b) { return b - a <= same_jump; };
+  bends_.erase(std::unique(bends_.begin(), bends_.end(), are_one), bends_.end());
+  std::erase_if(bends_, [&](double bend) { return next_after(bend - same_jump, jumps_) <= bend + same_jump; });
 }
 
 void ExperimentCourse::join_jumps() {
@@ -294,9 +314,8 @@ void ExperimentCourse::evaluate(double t, std::span<double> values) const {
   for (std::size_t i = 0; i < formulas_.size(); ++i) values[i] = formulas_[i](at);
 }
 
-double ExperimentCourse::next_jump(double t) const {
-  auto const next = std::upper_bound(jumps_.begin(), jumps_.end(), t);
-  return next == jumps_.end() ? std::numeric_limits<double>::infinity() : *next;
-}
+double ExperimentCourse::next_jump(double t) const { return next_after(t, jumps_); }
+
+double ExperimentCourse::next_bend(double t) const { return next_after(t, bends_); }
 
 }  // namespace thermotwin::scenarios

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,8 @@ class ExperimentCourse : public thermal::Course {
   [[nodiscard]] std::vector<thermal::InputChannel> const& channels() const override { return channels_; }
   void evaluate(double t, std::span<double> values) const override;
   [[nodiscard]] double next_jump(double t) const override;
+  [[nodiscard]] double next_bend(double t) const override;
+  [[nodiscard]] double longest_step() const override { return longest_step_; }
 
  private:
   using Formula = std::function<double(double)>;
@@ -61,12 +64,13 @@ class ExperimentCourse : public thermal::Course {
   void add_clock(Experiment const& experiment);
   void replace_or_add(DrivenChannel const& driven);
   void add_floor_temperature();
-  void sort_jumps();
+  void sort_times();
   void join_jumps();
   [[nodiscard]] double instant(double t) const;
 
   void add(thermal::InputChannel channel, Formula formula);
   void add(thermal::InputChannel channel, Signal const& signal);
+  void add_times(Signal const& signal);
   void add_jumps(std::vector<double> const& times);
 
   std::vector<DrivenChannel> driven_;  ///< by recordings and input programmes
@@ -74,6 +78,8 @@ class ExperimentCourse : public thermal::Course {
   std::vector<Formula> formulas_;
   std::vector<double> jumps_;                      ///< each where the last of those that are one is
   std::vector<std::pair<double, double>> joined_;  ///< first and last of jumps that are one
+  std::vector<double> bends_;
+  double longest_step_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace thermotwin::scenarios

@@ -37,7 +37,7 @@ void check(Experiment const& experiment) {
         "start_time_of_day: " + thermal::format_quantity(experiment.start_time_of_day, thermal::dimension::time) +
         " must be from 0 h to below 24 h");
   }
-  check(experiment.ambient);
+  check(experiment.ambient, experiment.start_time_of_day, experiment.duration);
 }
 
 void check_readings(Experiment const& experiment) {

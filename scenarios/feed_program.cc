@@ -14,8 +14,9 @@ using thermal::format_quantity;
 using thermal::InputError;
 namespace dimension = thermal::dimension;
 
-constexpr double most_passes = 1e6;  ///< of a nut that is followed to and fro
-constexpr double rounding = 1e-9;    ///< of a number of pitches or intervals
+constexpr double most_passes = 1e6;                            ///< of a nut that is followed to and fro
+constexpr double rounding = 1e-9;                              ///< of a number of pitches or intervals
+constexpr double most_targets = 1e5, most_measurements = 1e6;  ///< of a laser
 
 struct Stroke {
   double from;
@@ -167,7 +168,11 @@ std::vector<double> targets(LaserMeasurement const& laser) {
                      format_quantity(laser.pitch, dimension::length) +
                      "; the pitch must be above 0 and to beyond from");
   }
-  int const pitches = static_cast<int>(std::floor((laser.to - laser.from) / laser.pitch + rounding));
+  double const all = std::floor((laser.to - laser.from) / laser.pitch + rounding);
+  if (!(all <= most_targets))
+    throw InputError("laser.pitch: " + format_quantity(laser.pitch, dimension::length) + " makes " +
+                     thermal::format_number(all) + " targets; at most " + thermal::format_number(most_targets));
+  int const pitches = static_cast<int>(all);
   std::vector<double> result;
   for (int i = 0; i <= pitches; ++i) result.push_back(laser.from + i * laser.pitch);
   return result;
@@ -184,6 +189,10 @@ std::vector<double> measurement_times(LaserMeasurement const& laser, double dura
   if (!(laser.interval > 0.0)) {
     throw InputError("laser.interval: " + format_quantity(laser.interval, dimension::time) + " must be above 0 s");
   }
+  if (double const all = duration / laser.interval; !(all <= most_measurements))
+    throw InputError("laser.interval: " + format_quantity(laser.interval, dimension::time) + " makes " +
+                     thermal::format_number(std::round(all)) + " measurements; at most " +
+                     thermal::format_number(most_measurements));
   return times_every(laser.interval, duration);
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
 #include "thermal/error.h"
+#include "thermal/unit.h"
 #include "thermal/units.h"
 
 namespace thermotwin::scenarios {
@@ -40,6 +42,24 @@ std::string remark_on_units(CsvFile const& csv, std::vector<std::size_t> const& 
   std::string text = csv.path().string() + ":" + std::to_string(csv.line()) + ": skipped as a row of units";
   for (std::size_t i = 0; i < units.size(); ++i) text += (i == 0 ? ": " : ", ") + units[i];
   return text;
+}
+
+/// Of a field in a row of units: some stand in brackets.
+std::string unit_in(std::string_view field) {
+  bool const bracketed = field.size() > 2 && (field.front() == '[' || field.front() == '(');
+  return thermal::in_ascii(bracketed ? field.substr(1, field.size() - 2) : field);
+}
+
+/// Of two units; text that is none contradicts nothing.
+bool contradict(std::string const& one, std::string const& other) {
+  auto const differ = [](double a, double b) { return std::abs(a - b) > 1e-9 * std::max(std::abs(a), std::abs(b)); };
+  try {
+    return !(thermal::dimension_of(one) == thermal::dimension_of(other)) ||
+           differ(thermal::from_unit(1.0, one), thermal::from_unit(1.0, other)) ||
+           differ(thermal::from_unit(0.0, one), thermal::from_unit(0.0, other));
+  } catch (InputError const&) {
+    return false;
+  }
 }
 
 std::string kind_of(std::optional<TimeStamp> const& stamp) {
@@ -89,6 +109,19 @@ class TimeColumn {
 
 }  // namespace
 
+void check_units(LoggedTable const& table, LoggedFile const& file, std::vector<std::string> const& columns,
+                 std::vector<std::string> const& units) {
+  if (table.units.empty()) return;
+  auto const check = [&](std::string const& column, std::string const& said, std::string const& unit,
+                         std::string const& key) {
+    if (said.empty() || unit.empty() || !contradict(said, unit)) return;
+    throw InputError(table.file.string() + ":" + std::to_string(table.units_line) + ": column " + in_quotes(column) +
+                     ": this row says that its unit is " + in_quotes(said) + ", `" + key + "` says " + in_quotes(unit));
+  };
+  check(file.time_column, table.units[0], file.time_unit.empty() ? "s" : file.time_unit, "time_unit");
+  for (std::size_t i = 0; i < columns.size(); ++i) check(columns[i], table.units[i + 1], units[i], "unit");
+}
+
 void check_time_unit(LoggedFile const& file) {
   if (file.time_unit.empty()) return;
   try {
@@ -129,10 +162,12 @@ LoggedTable TableReader::read(LoggedFile const& file, std::filesystem::path cons
   CsvFile csv(path, std::size_t(file.header_line));
   std::vector<std::size_t> places = {csv.place_of(file.time_column)};
   for (auto const& column : columns) places.push_back(csv.place_of(column));
-  LoggedTable table{path, {}, {}, std::vector<std::vector<double>>(columns.size()), {}};
+  LoggedTable table{path, {}, {}, std::vector<std::vector<double>>(columns.size()), {}, 0, {}};
   bool row = csv.next();
   if (row && holds_units(csv, file, places)) {
     table.remark = remark_on_units(csv, places);
+    table.units_line = csv.line();
+    for (std::size_t const place : places) table.units.push_back(unit_in(csv.field(place)));
     row = csv.next();
   }
   if (!row) throw InputError(path.string() + ": has no rows under its header");
@@ -143,6 +178,7 @@ LoggedTable TableReader::read(LoggedFile const& file, std::filesystem::path cons
     table.times.push_back(time.read(start_));
     for (std::size_t i = 0; i < columns.size(); ++i) table.columns[i].push_back(value(file, csv, places[i + 1]));
   }
+  if (time.stamped() && !table.units.empty()) table.units[0].clear();
   if (!time.stamped()) thermal::from_unit(table.times, file.time_unit.empty() ? "s" : file.time_unit);
   for (double& t : table.times) t += file.clock_offset.value_or(0.0);
   return table;

@@ -42,6 +42,8 @@ struct LoggedTable {
   std::vector<double> times;                 ///< on the clock of the run [s], strictly increasing
   std::vector<std::vector<double>> columns;  ///< in the order in which they were asked for, in the file's units
   std::string remark;                        ///< of what was skipped, or empty
+  std::size_t units_line = 0;                ///< of a row of units, or 0
+  std::vector<std::string> units;            ///< in it: of the times, unless they are stamps, then of the columns
 };
 
 /// Reads the tables of one run onto one clock. Those whose times are numbers count from a 0 of their own; those with
@@ -70,6 +72,11 @@ class TableReader {
   std::optional<TimeStamp> start_;  ///< the first row of the first table with stamps
   double time_at_start_ = 0.0;      ///< [s]
 };
+
+/// InputError where the table's row of units says another one than the file that names the table: of its times, or of a
+/// column; `units` as those of the columns, an empty one is not compared.
+void check_units(LoggedTable const& table, LoggedFile const& file, std::vector<std::string> const& columns,
+                 std::vector<std::string> const& units);
 
 /// The error for a file's time_unit, or none.
 void check_time_unit(LoggedFile const& file);

@@ -114,7 +114,11 @@ std::vector<DrivenChannel> read_recordings(std::vector<Recording> const& recordi
   std::vector<DrivenChannel> channels;
   for (Recording const& recording : recordings) {
     check(recording);
-    LoggedTable table = reader.read(recording, resolved_path(recording.file, directory), wanted_columns(recording));
+    auto const names = wanted_columns(recording);
+    LoggedTable table = reader.read(recording, resolved_path(recording.file, directory), names);
+    std::vector<std::string> units;
+    for (RecordedColumn const& column : recording.columns) units.push_back(column.unit);
+    check_units(table, recording, names, units);
     check_gaps(recording, table);
     check_cover(recording, table, duration);
     add_channels(recording, table, channels);

@@ -49,6 +49,28 @@ std::vector<double> Signal::jumps() const {
   return jumps;
 }
 
+/// From the last bend on, the slopes that meet all breakpoints since within the tolerance (Sklansky & Gonzalez, Pattern
+/// Recognition 12 (1980) 327): a bend is the last one before a breakpoint that none of them leads to.
+std::vector<double> Signal::bends() const {
+  if (interpolation_ == Interpolation::step || times_.size() < 2) return {};
+  auto const [lowest, highest] = std::minmax_element(values_.begin(), values_.end());
+  double const tolerance = std::max(0.05 * (*highest - *lowest), 3e-4 * largest_magnitude());
+  std::vector<double> bends = {times_.front()};
+  double least = -INFINITY, most = INFINITY;
+  for (std::size_t last = 0, k = 1; k < times_.size(); ++k) {
+    auto const slope_to = [&](double value) { return (value - values_[last]) / (times_[k] - times_[last]); };
+    if (slope_to(values_[k]) < least || slope_to(values_[k]) > most) {
+      last = k - 1;
+      bends.push_back(times_[last]);
+      least = -INFINITY, most = INFINITY;
+    }
+    least = std::max(least, slope_to(values_[k] - tolerance));
+    most = std::min(most, slope_to(values_[k] + tolerance));
+  }
+  bends.push_back(times_.back());
+  return bends;
+}
+
 Signal Signal::running() const {
   std::vector<double> times;
   std::vector<double> states;

@@ -23,6 +23,10 @@ class Signal {
   /// Times at which the value jumps. A linear signal never does.
   [[nodiscard]] std::vector<double> jumps() const;
 
+  /// Breakpoints of a linear signal between which it is straight, within a twentieth of all that it goes through or
+  /// 3e-4 of its largest value (0.09 K of air), whichever is more; its ends are among them.
+  [[nodiscard]] std::vector<double> bends() const;
+
   /// 1 in the intervals between breakpoints where the value is not zero throughout, 0 elsewhere.
   [[nodiscard]] Signal running() const;
 

@@ -113,14 +113,4 @@ double viscous_torque_factor(std::string_view bearing_type, std::string_view lub
   return kind.grease ? factors.grease : kind.times_bath * factors.oil_bath;
 }
 
-std::vector<std::string> const& bearing_types() {
-  static std::vector<std::string> const names = names_of(viscous_factors());
-  return names;
-}
-
-std::vector<std::string> const& lubrications() {
-  static std::vector<std::string> const names = names_of(all_lubrications());
-  return names;
-}
-
 }  // namespace thermotwin::thermal

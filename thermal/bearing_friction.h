@@ -90,13 +90,10 @@ S schaeffler_torque_load(S const& radial, S const& axial, Arrangement arrangemen
   return smooth_max<S>(axial_share * axial - 0.1 * radial, radial, load_blend);
 }
 
-/// f₀ by type and lubrication (Jungnickel 2010, after FAG). Types: bearing_types(); lubrications: grease, oil bath,
+/// f₀ by type and lubrication (Jungnickel 2010, after FAG). Lubrications: grease, oil bath,
 /// oil bath vertical shaft, oil injection (both twice the bath), oil-air (half of it). A small, run-in grease fill of a
 /// spindle bearing: 0.4 to 1.0. Throws InputError naming the nearest known type or lubrication.
 [[nodiscard]] double viscous_torque_factor(std::string_view bearing_type, std::string_view lubrication);
-
-[[nodiscard]] std::vector<std::string> const& bearing_types();
-[[nodiscard]] std::vector<std::string> const& lubrications();
 
 inline constexpr Validity ring_partition_ratio{3.0, 20.0};  ///< r_m/r_b
 

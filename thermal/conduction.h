@@ -59,7 +59,4 @@ S surface_cell_conductance(S const& area, S const& width, S const& k, S const& f
   return area / (0.5 * width / k + 1.0 / film);
 }
 
-/// Bi = hL/k: above 0.05 a lump needs one of the mean-to-surface conductances in series with its film.
-inline constexpr double lumping_biot = 0.05;
-
 }  // namespace thermotwin::thermal

@@ -18,6 +18,9 @@ class CourseInputs {
 
   /// Enters the piece that follows t and returns where it ends.
   double enter_piece(double t);
+  /// As of the course.
+  [[nodiscard]] double next_bend(double t) const { return course_->next_bend(t); }
+  [[nodiscard]] double longest_step() const { return course_->longest_step(); }
   /// At the end of the piece: the limit from the left. Relays keep the state that they were given (0 at first), weights
   /// of moving averages stay 0.
   std::vector<double> const& at(double t);

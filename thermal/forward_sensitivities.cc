@@ -20,6 +20,22 @@ std::vector<NetworkDerivative const*> addresses(std::vector<NetworkDerivative> c
   return all;
 }
 
+struct Share {
+  double share;
+  NodeByParameter const& S;
+};
+
+/// Σ share · S, row by row: a row of the sum is near by while all are added to it.
+void add_up(std::vector<Share> const& shares, NodeByParameter& sum) {
+  auto const& first = shares.front();
+  sum.resize(first.S.rows(), first.S.cols());
+  for (Eigen::Index i = 0; i < sum.rows(); ++i) {
+    auto row = sum.row(i);
+    row = first.share * first.S.row(i);
+    for (std::size_t k = 1; k < shares.size(); ++k) row += shares[k].share * shares[k].S.row(i);
+  }
+}
+
 }  // namespace
 
 ForwardSensitivities::Parts ForwardSensitivities::parts_of(std::vector<NetworkDerivative> const& parameters) {
@@ -119,10 +135,11 @@ bool ForwardSensitivities::advance(double time, Instant const& at) {
   gamma_ = 1.0 / at_end;
   newton_.linearise(evaluation_, at.state, at.input);
   if (!newton_.factorise(gamma_)) return false;
-  NodeByParameter S = std::move(spare_);
-  S = gamma_ * forcing(at);
+  std::vector<Share> shares = {{gamma_, forcing(at)}};
   for (std::size_t i = 0; i < points; ++i)  // dᵢ = −Lᵢ(t)/(t − tᵢ)
-    S += (gamma_ * weight(i, 0, points, time) / (time - past_[i].time)) * past_[i].S;
+    shares.push_back({gamma_ * weight(i, 0, points, time) / (time - past_[i].time), past_[i].S});
+  NodeByParameter S = std::move(spare_);
+  add_up(shares, S);
   bool const solved = newton_.solve_nodes(solver_tolerance, S);
   past_.push_front({time, std::move(S)});
   return solved;
@@ -133,8 +150,9 @@ double ForwardSensitivities::error() {
   auto const points = std::size_t(order_) + 1;
   if (past_.size() <= points) return 0.0;
   double const time = past_[0].time;
-  at_time_ = past_[0].S;
-  for (std::size_t i = 1; i <= points; ++i) at_time_ -= weight(i, 1, points + 1, time) * past_[i].S;
+  std::vector<Share> shares = {{1.0, past_[0].S}};
+  for (std::size_t i = 1; i <= points; ++i) shares.push_back({-weight(i, 1, points + 1, time), past_[i].S});
+  add_up(shares, at_time_);
   double const factor = gamma_ / (time - past_[points].time);
   Eigen::VectorXd const size = at_time_.colwise().norm().transpose() / std::sqrt(double(network_->nodes()));
   return factor * size.cwiseProduct(per_tolerance_).maxCoeff();
@@ -153,9 +171,9 @@ void ForwardSensitivities::interpolate(double time, NodeByParameter& S) const {
   std::size_t first = 0;
   while (first + 2 < past_.size() && past_[first + 1].time > time) ++first;
   std::size_t const end = std::min(first + std::size_t(order_) + 1, past_.size());
-  S = NodeByParameter::Zero(past_[0].S.rows(), past_[0].S.cols());
-  for (std::size_t i = first; i < end; ++i)
-    if (double const share = weight(i, first, end, time); share != 0.0) S += share * past_[i].S;
+  std::vector<Share> shares;
+  for (std::size_t i = first; i < end; ++i) shares.push_back({weight(i, first, end, time), past_[i].S});
+  add_up(shares, S);
 }
 
 NodeByParameter const& ForwardSensitivities::temperatures(double time, double const* state) {

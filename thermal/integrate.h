@@ -22,7 +22,6 @@ enum class LinearSolver { automatic, dense, sparse_direct, preconditioned_krylov
 struct IntegrationOptions {
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-6;  ///< [K]
-  double maximum_step = 0.0;         ///< [s]; 0: no limit
   LinearSolver solver = LinearSolver::automatic;
   /// Parameters whose forward sensitivities are integrated with the run.
   std::vector<NetworkDerivative> parameters;
@@ -89,8 +88,8 @@ IntegrationSummary integrate(Network const& network, Course const& course, std::
                              std::span<double const> output_times, IntegrationOptions const& options,
                              Observer const& observe);
 
-/// Steady temperatures [K] of all nodes at a constant operating point: Newton's method with line search, and pseudo
-/// transient continuation where it fails. IntegrationError when neither settles.
+/// Steady temperatures [K] of all nodes at a constant operating point: Newton's method in steps of 20 K at most, and
+/// pseudo transient continuation where it fails. IntegrationError when neither settles.
 [[nodiscard]] std::vector<double> steady_state(Network const& network, std::span<double const> input,
                                                std::span<double const> guess);
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "thermal/dual.h"
 #include "thermal/lanes.h"
@@ -74,125 +75,162 @@ class LawOf final : public Law {
 
   void add_heat_flows(ElementBatch const& batch, double const* temperature, double const* input,
                       double* heat) const override {
-    for_elements(batch, temperature, input, [&](int e, std::array<double, P> const& q) {
-      int const* port = batch.ports.data() + std::size_t(e) * P;
-      for (int p = 0; p < P; ++p) heat[port[p]] += q[p];
+    for_elements(batch, [&](auto const& elements, int taken) {
+      auto const q = flows(batch, elements, temperature, input);
+      for (int k = 0; k < taken; ++k)
+        for (int p = 0; p < P; ++p) heat[port(batch, elements[k], p)] += lane(q[p], k);
     });
   }
 
   void heat_flows(ElementBatch const& batch, double const* temperature, double const* input,
-                  double* flows) const override {
-    for_elements(batch, temperature, input, [&](int e, std::array<double, P> const& q) {
-      for (int p = 0; p < P; ++p) flows[std::size_t(e) * P + p] = q[p];
+                  double* result) const override {
+    for_elements(batch, [&](auto const& elements, int taken) {
+      auto const q = flows(batch, elements, temperature, input);
+      for (int k = 0; k < taken; ++k)
+        for (int p = 0; p < P; ++p) result[std::size_t(elements[k]) * P + p] = lane(q[p], k);
     });
   }
 
-  /// Flat, as the evaluation in lanes.
-  [[gnu::flatten]] void jacobian_blocks(ElementBatch const& batch, double const* temperature, double const* input,
-                                        double* blocks) const override {
-    for (int e = 0; e < batch.count; ++e) {
-      int const* port = batch.ports.data() + std::size_t(e) * P;
-      std::array<Dual<P>, P> T;
-      for (int p = 0; p < P; ++p) T[p] = Dual<P>::variable(temperature[port[p]], p);
-      std::array<Dual<P>, C + 1> c;
-      for (int i = 0; i < C; ++i) c[i] = batch.coefficients[std::size_t(e) * C + i];
-      auto const u = gather_inputs(batch, e, input);
-      std::array<Dual<P>, P> q{};
-      Formula::flows(T.data(), c.data(), u.data(), q.data());
-      double* block = blocks + std::size_t(e) * P * P;
-      for (int p = 0; p < P; ++p)
-        for (int r = 0; r < P; ++r) block[p * P + r] = q[p].partial[r];
-    }
+  void jacobian_blocks(ElementBatch const& batch, double const* temperature, double const* input,
+                       double* blocks) const override {
+    for_elements(batch, [&](auto const& elements, int taken) {
+      auto const slope = slopes(batch, elements, temperature, input);
+      for (int k = 0; k < taken; ++k)
+        for (int i = 0; i < P * P; ++i) blocks[std::size_t(elements[k]) * P * P + i] = lane(slope[i], k);
+    });
   }
 
   void add_directional(ElementBatch const& batch, double const* temperature, double const* temperature_rate,
                        double const* coefficient_rate, double const* input, double* heat_rate) const override {
-    for (int e = 0; e < batch.count; ++e) {
-      int const* port = batch.ports.data() + std::size_t(e) * P;
-      std::array<Dual<1>, P> T;
-      for (int p = 0; p < P; ++p) {
-        T[p].value = temperature[port[p]];
-        T[p].partial[0] = temperature_rate[port[p]];
-      }
-      std::array<Dual<1>, C + 1> c;
-      for (int i = 0; i < C; ++i) {
-        c[i].value = batch.coefficients[std::size_t(e) * C + i];
-        c[i].partial[0] = coefficient_rate[std::size_t(e) * C + i];
-      }
-      auto const u = gather_inputs(batch, e, input);
-      std::array<Dual<1>, P> q{};
-      Formula::flows(T.data(), c.data(), u.data(), q.data());
-      for (int p = 0; p < P; ++p) heat_rate[port[p]] += q[p].partial[0];
-    }
+    for_elements(batch, [&](auto const& elements, int taken) {
+      auto const rate = directional(batch, elements, temperature, temperature_rate, coefficient_rate, input);
+      for (int k = 0; k < taken; ++k)
+        for (int p = 0; p < P; ++p) heat_rate[port(batch, elements[k], p)] += lane(rate[p], k);
+    });
   }
 
  private:
-  static std::array<double, U + 1> gather_inputs(ElementBatch const& batch, int e, double const* input) {
+  /// Elements that are taken together; of several, the last may stand there more than once.
+  template <std::size_t K>
+  using Elements = std::array<int, K>;
+#ifdef THERMOTWIN_LANES
+  template <std::size_t K>
+  using Number = std::conditional_t<K == 1, double, Lanes>;
+  static void set_lane(Lanes& x, std::size_t k, double value) { x.value[k] = value; }
+  static double lane(Lanes const& x, int k) { return x.value[k]; }
+#else
+  template <std::size_t K>
+  using Number = double;
+#endif
+  static void set_lane(double& x, std::size_t, double value) { x = value; }
+  static double lane(double x, int) { return x; }
+
+  static int port(ElementBatch const& batch, int element, int p) {
+    return batch.ports[std::size_t(element) * P + std::size_t(p)];
+  }
+
+  template <std::size_t K, class Value>
+  static Number<K> gather(Elements<K> const& elements, Value value) {
+    Number<K> x{};
+    for (std::size_t k = 0; k < K; ++k) set_lane(x, k, value(elements[k]));
+    return x;
+  }
+  template <std::size_t K>
+  static Number<K> temperature_at(ElementBatch const& batch, Elements<K> const& elements, int p,
+                                  double const* temperature) {
+    return gather(elements, [&](int e) { return temperature[port(batch, e, p)]; });
+  }
+  template <std::size_t K>
+  static Number<K> coefficient(Elements<K> const& elements, int i, double const* coefficients) {
+    return gather(elements, [&](int e) { return coefficients[std::size_t(e) * C + std::size_t(i)]; });
+  }
+  /// The same of all elements that are taken together.
+  static std::array<double, U + 1> inputs_of(ElementBatch const& batch, int e, double const* input) {
     std::array<double, U + 1> u{};
     for (int i = 0; i < U; ++i) u[i] = input[batch.inputs[std::size_t(e) * U + i]];
     return u;
   }
 
-  static std::array<double, P> evaluate(ElementBatch const& batch, int e, double const* temperature,
-                                        double const* input) {
-    int const* port = batch.ports.data() + std::size_t(e) * P;
-    std::array<double, P> T;
-    for (int p = 0; p < P; ++p) T[p] = temperature[port[p]];
-    auto const u = gather_inputs(batch, e, input);
-    std::array<double, P> q{};
-    Formula::flows(T.data(), batch.coefficients.data() + std::size_t(e) * C, u.data(), q.data());
+  // Flat, so that constants of the formula meet.
+
+  template <std::size_t K>
+  [[gnu::flatten]] static std::array<Number<K>, P> flows(ElementBatch const& batch, Elements<K> const& elements,
+                                                         double const* temperature, double const* input) {
+    std::array<Number<K>, P> T, q{};
+    std::array<Number<K>, C + 1> c;
+    for (int p = 0; p < P; ++p) T[p] = temperature_at(batch, elements, p, temperature);
+    for (int i = 0; i < C; ++i) c[i] = coefficient(elements, i, batch.coefficients.data());
+    auto const u = inputs_of(batch, elements[0], input);
+    Formula::flows(T.data(), c.data(), u.data(), q.data());
     return q;
   }
 
-#ifdef THERMOTWIN_LANES
-  /// `four`: elements, of which the last may stand there several times. Flat, so that constants of the formula meet.
-  [[gnu::flatten]] static std::array<Lanes, P> evaluate(ElementBatch const& batch,
-                                                        std::array<int, Lanes::count> const& four,
-                                                        double const* temperature, double const* input) {
-    std::array<Lanes, P> T, q;
-    std::array<Lanes, C + 1> c;
-    for (int k = 0; k < Lanes::count; ++k) {
-      for (int p = 0; p < P; ++p) T[p].value[k] = temperature[batch.ports[std::size_t(four[k]) * P + p]];
-      for (int i = 0; i < C; ++i) c[i].value[k] = batch.coefficients[std::size_t(four[k]) * C + i];
-    }
-    auto const u = gather_inputs(batch, four[0], input);
+  /// p·P + r: of the flow into port p, by the temperature of port r.
+  template <std::size_t K>
+  [[gnu::flatten]] static std::array<Number<K>, P * P> slopes(ElementBatch const& batch, Elements<K> const& elements,
+                                                              double const* temperature, double const* input) {
+    using S = Dual<P, Number<K>>;
+    std::array<S, P> T, q{};
+    std::array<S, C + 1> c;
+    for (int p = 0; p < P; ++p) T[p] = S::variable(temperature_at(batch, elements, p, temperature), p);
+    for (int i = 0; i < C; ++i) c[i] = coefficient(elements, i, batch.coefficients.data());
+    auto const u = inputs_of(batch, elements[0], input);
     Formula::flows(T.data(), c.data(), u.data(), q.data());
-    return q;
+    std::array<Number<K>, P * P> result;
+    for (int p = 0; p < P; ++p)
+      for (int r = 0; r < P; ++r) result[p * P + r] = q[p].partial[r];
+    return result;
+  }
+
+  template <std::size_t K>
+  [[gnu::flatten]] static std::array<Number<K>, P> directional(ElementBatch const& batch, Elements<K> const& elements,
+                                                               double const* temperature,
+                                                               double const* temperature_rate,
+                                                               double const* coefficient_rate, double const* input) {
+    using S = Dual<1, Number<K>>;
+    std::array<S, P> T, q{};
+    std::array<S, C + 1> c;
+    for (int p = 0; p < P; ++p) {
+      T[p] = temperature_at(batch, elements, p, temperature);
+      T[p].partial[0] = temperature_at(batch, elements, p, temperature_rate);
+    }
+    for (int i = 0; i < C; ++i) {
+      c[i] = coefficient(elements, i, batch.coefficients.data());
+      c[i].partial[0] = coefficient(elements, i, coefficient_rate);
+    }
+    auto const u = inputs_of(batch, elements[0], input);
+    Formula::flows(T.data(), c.data(), u.data(), q.data());
+    std::array<Number<K>, P> result;
+    for (int p = 0; p < P; ++p) result[p] = q[p].partial[0];
+    return result;
   }
 
   static bool alike(ElementBatch const& batch, int e, int other) {
     auto const inputs = batch.inputs.data();
     return std::equal(inputs + e * U, inputs + (e + 1) * U, inputs + other * U);
   }
-#endif
 
-  /// take(e, flows into the ports of element e), for every element of the batch.
+  /// take(elements, how many of them), until all of the batch were taken.
   template <class Take>
-  static void for_elements(ElementBatch const& batch, double const* temperature, double const* input, Take take) {
+  static void for_elements(ElementBatch const& batch, Take take) {
     int e = 0;
 #ifdef THERMOTWIN_LANES
     if constexpr (requires { requires Formula::in_lanes; })
       while (e + 1 < batch.count) {
-        std::array<int, Lanes::count> four;
+        Elements<Lanes::count> four;
         int taken = 0;
         for (int& one : four) {
           if (e + taken < batch.count && alike(batch, e, e + taken)) ++taken;
           one = e + taken - 1;
         }
-        if (taken == 1) {
-          take(e, evaluate(batch, e, temperature, input));
-        } else {
-          auto const q = evaluate(batch, four, temperature, input);
-          for (int k = 0; k < taken; ++k) {
-            std::array<double, P> own;
-            for (int p = 0; p < P; ++p) own[p] = q[p].value[k];
-            take(e + k, own);
-          }
-        }
+        if (taken == 1)
+          take(Elements<1>{e}, 1);
+        else
+          take(four, taken);
         e += taken;
       }
 #endif
-    for (; e < batch.count; ++e) take(e, evaluate(batch, e, temperature, input));
+    for (; e < batch.count; ++e) take(Elements<1>{e}, 1);
   }
 };
 

@@ -130,18 +130,11 @@ struct SparseFactors final : LinearFactors {
     x = b;
     return klu_solve(symbolic_, numeric_, int(x.size()), 1, x.data(), &common_) != 0 && x.allFinite();
   }
-  /// klu_solve takes four columns at a time; here each entry of the factors meets a whole row of them.
+  /// klu_solve takes four columns at a time; here each entry of the factors meets a row of many.
   bool solve_columns(double, NodeByParameter& x) override {
     if (!extract()) return false;
-    auto const n = x.rows();
-    permuted_.resize(n, x.cols());
-    for (Eigen::Index k = 0; k < n; ++k) permuted_.row(k) = x.row(row_of_[k]);
-    for (Eigen::Index k = 0; k < n; ++k) lower_.eliminate(k, permuted_);
-    for (Eigen::Index k = n; k-- > 0;) {
-      permuted_.row(k) /= upper_.pivot(k);
-      upper_.eliminate(k, permuted_);
-    }
-    for (Eigen::Index k = 0; k < n; ++k) x.row(column_of_[k]) = permuted_.row(k);
+    for (Eigen::Index first = 0; first < x.cols(); first += columns_together)
+      solve_together(x.middleCols(first, std::min(columns_together, x.cols() - first)));
     return x.allFinite();
   }
 
@@ -155,7 +148,7 @@ struct SparseFactors final : LinearFactors {
       value.resize(std::size_t(entries));
     }
     [[nodiscard]] double pivot(Eigen::Index k) const { return value[std::size_t(begin[std::size_t(k) + 1] - 1)]; }
-    void eliminate(Eigen::Index k, NodeByParameter& x) const {
+    void eliminate(Eigen::Index k, Eigen::Ref<NodeByParameter>& x) const {
       int const first = begin[std::size_t(k)] + (lower ? 1 : 0), end = begin[std::size_t(k) + 1] - (lower ? 0 : 1);
       for (auto p = std::size_t(first); p < std::size_t(end); ++p) x.row(row[p]) -= value[p] * x.row(k);
     }
@@ -163,6 +156,22 @@ struct SparseFactors final : LinearFactors {
     std::vector<int> begin, row;
     std::vector<double> value;
   };
+
+  /// Of some tens of nodes, so many stay in the nearest cache.
+  static constexpr Eigen::Index columns_together = 64;
+
+  void solve_together(Eigen::Ref<NodeByParameter> x) {
+    auto const n = x.rows();
+    permuted_.resize(n, columns_together);
+    Eigen::Ref<NodeByParameter> y = permuted_.leftCols(x.cols());
+    for (Eigen::Index k = 0; k < n; ++k) y.row(k) = x.row(row_of_[k]);
+    for (Eigen::Index k = 0; k < n; ++k) lower_.eliminate(k, y);
+    for (Eigen::Index k = n; k-- > 0;) {
+      y.row(k) /= upper_.pivot(k);
+      upper_.eliminate(k, y);
+    }
+    for (Eigen::Index k = 0; k < n; ++k) x.row(column_of_[k]) = y.row(k);
+  }
 
   /// P A Q = L U.
   bool extract() {

@@ -100,12 +100,6 @@ S harmonics_loss(S const& share, S const& iron, S const& copper) {
 inline constexpr Validity harmonics_share{0.10, 0.20};              ///< χ
 inline constexpr Validity permanent_magnet_eddy_share{0.05, 0.15};  ///< rotor eddy loss/iron loss of a PM motor
 
-/// Where a motor's losses arise, as shares of the copper and of the iron loss. Source: typical of published LPTN codes.
-struct MotorLossShares {
-  double slot = 0.6;   ///< of the copper loss: in the slots, the rest in the end windings
-  double teeth = 0.6;  ///< of the iron loss: in the teeth, the rest in the yoke
-};
-
 /// Efficiency over speed and torque, bilinear between its points and constant beyond them.
 class EfficiencyMap {
  public:

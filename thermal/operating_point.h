@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,7 +18,9 @@ struct InputChannel {
 /// The operating point is the value of every input channel at one instant; the course is the operating point over time.
 ///
 /// A course may jump. Between two jumps it is continuous, and `evaluate` is only asked for times inside one piece, so
-/// that the integrator never steps across a discontinuity (it stops there and starts anew).
+/// that the integrator never steps across a discontinuity (it stops there and starts anew). It asks for the course at
+/// the ends of its steps, and once all is steady these are long: so it is told where channels bend, and how long a step
+/// may be, or what comes and goes within one would never be seen.
 class Course {
  public:
   Course() = default;
@@ -32,6 +35,14 @@ class Course {
 
   /// First jump strictly after t, or +infinity.
   [[nodiscard]] virtual double next_jump(double t) const = 0;
+
+  /// First time strictly after t at which a channel bends: a step ends there. +infinity: none does any more.
+  [[nodiscard]] virtual double next_bend([[maybe_unused]] double t) const {
+    return std::numeric_limits<double>::infinity();
+  }
+
+  /// The longest step that follows channels which swing or decay by a formula [s].
+  [[nodiscard]] virtual double longest_step() const { return std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace thermotwin::thermal

@@ -7,7 +7,8 @@ namespace thermotwin::thermal {
 
 /// Radiation between grey diffuse surfaces; temperatures in kelvin. Source: physics.md §2.9.
 
-/// ε₁₂ = ε₁ε₂/(1 − (1 − ε₁)(1 − ε₂) F₁₂F₂₁); a small body in a room: F₂₁ → 0, ε₁₂ = ε₁ε₂.
+/// ε₁₂ = ε₁ε₂/(1 − (1 − ε₁)(1 − ε₂) F₁₂F₂₁); a small body in a room:
+/// F₂₁ → 0, and all walls together are black, ε₂ = 1: ε₁₂ = ε₁.
 template <class S>
 S exchange_emissivity(S const& emissivity1, S const& emissivity2, S const& view12, S const& view21) {
   return emissivity1 * emissivity2 / (1.0 - (1.0 - emissivity1) * (1.0 - emissivity2) * view12 * view21);

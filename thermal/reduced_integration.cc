@@ -29,24 +29,27 @@ class ReducedRun {
                             ReducedObserver const& observe);
 
  private:
-  double try_step(double end);
+  double try_step(double end, bool is_bend);
 
   ReducedEvaluation evaluation_;
   CourseInputs inputs_;
   ExponentialStep step_;
   double tolerance_, h_ = first_step;
+  double longest_ = std::min(longest_step, inputs_.longest_step());
   ReducedSummary summary_;
 };
 
-/// Attempts until a step is good; returns its length.
-double ReducedRun::try_step(double end) {
+/// Attempts until a step is good; returns its length. One that a bend of the inputs cuts short says nothing against a
+/// longer one behind it.
+double ReducedRun::try_step(double end, bool is_bend) {
   while (true) {
     double const left = end - step_.time();
     double const h = h_ > 0.999 * left ? left : h_ > 0.5 * left ? 0.5 * left : h_;
     step_.attempt(h);
     double const error = evaluation_.port_change(step_.error()) / tolerance_;
     double const factor = std::isfinite(error) ? 0.9 * std::pow(std::max(error, 1e-10), -0.25) : 0.1;
-    h_ = std::min(h * std::clamp(factor, 0.2, 4.0), longest_step);
+    bool const cut = is_bend && h < h_ && error <= 1.0;
+    h_ = std::min(std::max(h * std::clamp(factor, 0.2, 4.0), cut ? h_ : 0.0), longest_);
     if (error <= 1.0) return h;
     ++summary_.rejected;
     if (!(h_ > shortest_step))
@@ -62,10 +65,11 @@ ReducedSummary ReducedRun::operator()(Eigen::VectorXd const& initial, std::span<
   observe({times.front(), seen, inputs_.at(times.front())});
   step_.restart(times.front(), initial);
   auto next = times.begin() + 1;
+  double reached = times.front();
   while (next != times.end()) {
-    double const end = std::min(piece_end, times.back());
-    double const h = try_step(end);
-    double const reached = h == end - step_.time() ? end : step_.time() + h;
+    double const bend = inputs_.next_bend(reached), end = std::min({piece_end, bend, times.back()});
+    double const h = try_step(end, end == bend);
+    reached = h == end - step_.time() ? end : step_.time() + h;
     for (; next != times.end() && *next <= reached && *next < piece_end; ++next) {
       step_.interpolate(*next - step_.time(), seen);
       observe({*next, seen, inputs_.at(*next)});

@@ -22,7 +22,7 @@ namespace thermotwin::thermal {
 /// as nodes and all elements this is the network itself.
 ///
 /// Immutable; threads share it, each with its own ReducedEvaluation. Machines with relays or moving averages are
-/// refused (InputError), and so is a network with a node of constant capacity that no shape knows.
+/// refused (InputError).
 class ReducedNetwork {
  public:
   /// `shapes`: nodes × r, of any scale, independent of each other.

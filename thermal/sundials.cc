@@ -224,10 +224,12 @@ void Run::attach_linear_solver() {
   CVodeSetLSetupFrequency(cvode, 50);
 }
 
-/// The energies are sums over the temperatures and need no control of their own.
+/// The energies are sums over the temperatures and need no control of their own; CVODES' mean over all entries is one
+/// over the nodes.
 int Run::error_weights(N_Vector, N_Vector weights, void* user) {
   auto const& run = self(user);
-  N_VConst(1.0 / run.options_.tolerance(), weights);
+  double const nodes = run.network_.nodes();
+  N_VConst(std::sqrt((nodes + NewtonSystem::energies) / nodes) / run.options_.tolerance(), weights);
   std::fill_n(data(weights) + run.network_.nodes(), NewtonSystem::energies, 1e-6 / run.options_.tolerance());
   return 0;
 }
@@ -249,11 +251,13 @@ void Run::set_up(IntegrationState const& from) {
   CVodeWFtolerances(cvode, error_weights);
   CVodeSetMaxNumSteps(cvode, 10'000'000);
   CVodeSetMinStep(cvode, 1e-9);  // less than that and a temperature runs away
-  if (options_.maximum_step > 0.0) CVodeSetMaxStep(cvode, options_.maximum_step);
+  if (double const longest = point_.longest_step(); std::isfinite(longest)) CVodeSetMaxStep(cvode, longest);
   attach_linear_solver();
   if (!network_.relays().empty()) CVodeRootInit(cvode, int(network_.relays().size()), roots);
   step_end_ = t_;
   if (options_.parameters.empty()) return;
+  if (!network_.relays().empty())
+    throw InputError("a machine with a relay has no forward sensitivities: a parameter also moves when it switches");
   sensitivities_.emplace(network_, options_.parameters, solver_kind_, options_.tolerance());
   sensitivities_->start(t_, data(y_.get()));
 }
@@ -347,14 +351,15 @@ void Run::set_initial_step(double t) {
   CVodeSetInitStep(cvode_.get(), std::clamp(options_.tolerance() / std::max(fastest, 1e-300), shortest, longest));
 }
 
-/// Integrates to `target`, through jumps and relay switches on the way.
+/// Integrates to `target`, through jumps, bends and relay switches on the way.
 void Run::advance(double target) {
   void* cvode = cvode_.get();
   while (t_ < target) {
     double const piece_end = point_.enter_piece(t_);
     double const stop = std::min({piece_end, next_relay_wake(t_)});
-    double const goal = std::min(target, stop);
-    CVodeSetStopTime(cvode, std::isfinite(stop) ? stop : std::max(target, t_ + 1.0) * 1e3 + 1e9);
+    double const end_of_step = std::min(stop, point_.next_bend(t_));
+    double const goal = std::min(target, end_of_step);
+    CVodeSetStopTime(cvode, std::isfinite(end_of_step) ? end_of_step : std::max(target, t_ + 1.0) * 1e3 + 1e9);
     bool const switches = follow(goal);
     if (switches || t_ >= stop) {
       point_.enter_piece(t_);

@@ -144,7 +144,11 @@ class UnitReader {
   }
 
   Unit symbol() {
-    if (accept('1')) return {};
+    if (accept('1')) {
+      if (!rest_.empty() && std::string_view("0123456789.^-").find(rest_.front()) != std::string_view::npos)
+        fail("unexpected '1" + std::string(rest_) + "'; a number is written without spaces");
+      return {};
+    }
     std::size_t length = 0;
     while (length < rest_.size() && (std::isalpha(static_cast<unsigned char>(rest_[length])) || rest_[length] == '%')) {
       ++length;
@@ -187,7 +191,7 @@ class UnitReader {
     auto const [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), power);
     if (error != std::errc() && marked) fail("an integer is due after '^'");
     if (error == std::errc()) rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-    if (power == 0 || std::abs(power) > 6) fail("an exponent is 1 to 6 or -6 to -1");
+    if (power == 0 || power < -6 || power > 6) fail("an exponent is 1 to 6 or -6 to -1");
     return power;
   }
 

@@ -48,10 +48,14 @@ std::string best_text(double si, std::span<std::string_view const> units) {
   return best;
 }
 
+std::string with_article(std::string const& noun) {
+  return (std::string_view("aeiou").find(noun.front()) == std::string_view::npos ? "a " : "an ") + noun;
+}
+
 std::string mismatch(std::string_view text, Quantity const& quantity, Dimension expected) {
   if (quantity.dimension == dimension::dimensionless) return missing_unit(text, expected);
-  return "'" + std::string(text) + "' is a " + name_of(quantity.dimension) + "; a " + name_of(expected) +
-         " is due, for example \"" + example_of(expected) + "\"";
+  return "'" + std::string(text) + "' is " + with_article(name_of(quantity.dimension)) + "; " +
+         with_article(name_of(expected)) + " is due, for example \"" + example_of(expected) + "\"";
 }
 
 /// `due` ends the message about a text that is no number; `usual` units are offered for an unknown one.

@@ -90,6 +90,10 @@ void Bodies::read_lumps(Tables& tables) {
   for (auto const& [d, table] : tables.read<LumpDescription>("lump"))
     located(*table, [&, &d = d, table = table] {
       thermal::Lump lump;
+      if (!(d.size.minCoeff() > 0.0)) {
+        Value const& size = *table->find("size");
+        throw FileError(size.where, fmt::format("'size' is {}; every edge must be positive", size.text()));
+      }
       if (!d.heat_capacity && (!d.mass || d.material.empty()))
         throw InputError(fmt::format("lump '{}' needs a mass and a material, or a heat_capacity", d.name));
       if (!d.material.empty()) lump.material = material(d.material);
@@ -101,13 +105,22 @@ void Bodies::read_lumps(Tables& tables) {
     });
 }
 
+namespace {
+
+thermal::Body with_capacity(thermal::Body body, double factor) {
+  for (double& capacity : body.capacities) capacity *= factor;
+  return body;
+}
+
+}  // namespace
+
 void Bodies::read_bars(Tables& tables) {
   for (auto const& [d, table] : tables.read<BarDescription>("bar"))
     located(*table, [&, &d = d, table = table] {
       thermal::Bar bar{material(d.material), d.origin,         d.axis(), d.length,
                        d.outer_diameter,     d.inner_diameter, {},       d.cells};
       if (d.section_diameter) bar.section_area = M_PI / 4.0 * *d.section_diameter * *d.section_diameter;
-      add_solid(*table, d.name, d.material, thermal::make_body(d.name, bar), d);
+      add_solid(*table, d.name, d.material, with_capacity(thermal::make_body(d.name, bar), d.capacity_factor), d);
     });
 }
 
@@ -116,17 +129,14 @@ void Bodies::read_cylinders(Tables& tables) {
     located(*table, [&, &d = d, table = table] {
       thermal::HollowCylinder const cylinder{material(d.material), d.origin,         d.axis(),      d.length,
                                              d.outer_diameter,     d.inner_diameter, d.axial_cells, d.radial_cells};
-      add_solid(*table, d.name, d.material, thermal::make_body(d.name, cylinder), d);
+      add_solid(*table, d.name, d.material, with_capacity(thermal::make_body(d.name, cylinder), d.capacity_factor), d);
     });
 }
 
 void Bodies::read_blocks(Tables& tables) {
   for (auto const& [d, table] : tables.read<BlockDescription>("block"))
     located(*table, [&, &d = d, table = table] {
-      if (d.cells.size() != 3)
-        throw InputError(fmt::format("'{}': cells has {} entries; three are due", d.name, d.cells.size()));
-      thermal::Block const block{
-          material(d.material), d.corner, d.size, {int(d.cells[0]), int(d.cells[1]), int(d.cells[2])}, d.solidity};
+      thermal::Block const block{material(d.material), d.corner, d.size, d.cell_counts(), d.solidity};
       add_solid(*table, d.name, d.material, thermal::make_body(d.name, block), d);
     });
 }

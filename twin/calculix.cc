@@ -3,41 +3,20 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "output/temporary_folder.h"
 #include "thermal/error.h"
+#include "twin/file/text_file.h"
 
 namespace thermotwin::twin {
 namespace {
 
 namespace fs = std::filesystem;
 constexpr int not_installed = 127;
-
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string pattern = (fs::temp_directory_path() / "thermotwin-ccx.XXXXXX").string();
-    if (!::mkdtemp(pattern.data())) throw std::runtime_error("cannot make a directory like " + pattern);
-    path_ = pattern;
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryDirectory(TemporaryDirectory const&) = delete;
-  TemporaryDirectory& operator=(TemporaryDirectory const&) = delete;
-  [[nodiscard]] fs::path operator/(char const* name) const { return path_ / name; }
-  [[nodiscard]] fs::path const& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// The child's side: nothing but system calls between fork and exec.
 [[noreturn]] void become_ccx(char const* directory, char const* log) {
@@ -56,11 +35,6 @@ int run_ccx(fs::path const& directory, fs::path const& log) {
   int status = 0;
   ::waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
-std::string contents(fs::path const& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// What a log says went wrong, or else its end.
@@ -96,16 +70,18 @@ std::string calculix_loads(std::map<int, Eigen::Vector3d> const& forces) {
 }
 
 std::string run_calculix(std::string const& deck) {
-  TemporaryDirectory const directory;
-  std::ofstream(directory / "block.inp", std::ios::binary) << deck;
+  output::TemporaryFolder const directory;
+  directory.put("block.inp", deck);
   int const status = run_ccx(directory.path(), directory / "log");
   if (status == not_installed)
     throw thermal::InputError(
         "influence weights need CalculiX: there is no program 'ccx'; on Debian, install the package calculix-ccx");
-  auto const printed = contents(directory / "block.dat");
+  auto const written = [&](char const* name) {
+    return fs::exists(directory / name) ? text_of_file(directory / name) : std::string();
+  };
+  auto printed = written("block.dat");
   if (status != 0 || printed.empty())
-    throw std::runtime_error(
-        fmt::format("ccx failed (exit code {}): {}", status, last_words(contents(directory / "log"))));
+    throw std::runtime_error(fmt::format("ccx failed (exit code {}): {}", status, last_words(written("log"))));
   return printed;
 }
 

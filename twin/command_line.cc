@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
+#include <optional>
 
 #include "output/csv.h"
 #include "output/dataset_file.h"
@@ -33,6 +34,7 @@
 #include "twin/experiment_file.h"
 #include "twin/file/output_path.h"
 #include "twin/file_check.h"
+#include "twin/file_kind.h"
 #include "twin/known_names.h"
 #include "twin/needed_solution.h"
 #include "twin/placement/candidate_sites.h"
@@ -202,6 +204,59 @@ void refuse_empty_words(CLI::App& app) {
   for (auto* part : app.get_subcommands({})) refuse_empty_words(*part);  // commands, and groups of their options
 }
 
+/// What CLI11 "could not convert".
+void refuse_other_than_numbers(CLI::App& app) {
+  auto const check = [](CLI::Option& option, auto number, std::string const& due) {
+    option.check([=](std::string const& text) mutable {
+      return CLI::detail::lexical_cast(text, number) ? "" : fmt::format("'{}' is no {}; one is due", text, due);
+    });
+  };
+  for (auto* option : app.get_options()) {
+    auto const type = option->get_type_name();
+    if (type.starts_with("FLOAT")) check(*option, 0.0, "number");
+    if (type.starts_with("INT")) check(*option, std::int64_t(0), "whole number");
+    if (type.starts_with("UINT")) check(*option, std::uint64_t(0), "whole number from 0 on");
+  }
+  for (auto* part : app.get_subcommands({})) refuse_other_than_numbers(*part);
+}
+
+/// Before any work: of text files (TOML), only measurement files are measured runs. What is wrong in one its reader
+/// tells.
+std::string other_than_measurement(std::string const& file) {
+  std::error_code ignored;
+  if (!file.ends_with(".toml") || !std::filesystem::is_regular_file(file, ignored)) return {};
+  std::optional<Value> document;
+  try {
+    document = read_toml(file);
+  } catch (FileError const&) {
+    return {};
+  }
+  refuse_other_kind(*document, FileKind::measurement);
+  return {};
+}
+
+void refuse_other_than_measurements(CLI::App& app) {
+  for (auto* command : app.get_subcommands({}))
+    for (std::string const name : {"data", "runs", "first", "--hold-out"}) {
+      auto* option = command->get_option_no_throw(name);
+      bool const is_experiment = name == "--hold-out" && !command->get_option_no_throw("data");  // of `place`
+      if (option && !is_experiment) option->check(other_than_measurement);
+    }
+}
+
+/// CLI11's help, with a sentence above options of which one is due.
+class HelpText : public CLI::Formatter {
+ public:
+  std::string make_expanded(CLI::App const* part) const override {
+    bool const one_is_due = part->get_require_option_min() == 1 && part->get_require_option_max() == 1;
+    if (!part->get_name().empty() || !one_is_due) return CLI::Formatter::make_expanded(part);
+    std::string text = "\nOne of these is due:\n";
+    for (auto const* option : part->get_options())
+      if (option != part->get_help_ptr()) text += make_option(option, false);
+    return text;
+  }
+};
+
 /// The words of the command line, last one first, as CLI11 takes them; `help run` is `run --help`.
 std::vector<std::string> reversed_words(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
@@ -218,6 +273,7 @@ std::vector<std::string> reversed_words(int argc, char** argv) {
 int command_line(int argc, char** argv) {
   CLI::App app("ThermoTwin: thermal digital twin of a machine tool, and generator of virtual experiments",
                "thermotwin");
+  app.formatter(std::make_shared<HelpText>());
   app.set_version_flag("--version,-v", fmt::format("thermotwin {} ({})", version(), commit()));
   app.require_subcommand(1);
   add_run_command(app, stop_requested);
@@ -240,6 +296,8 @@ int command_line(int argc, char** argv) {
   heed_signals(app);
   check_seeds(app);
   refuse_empty_words(app);
+  refuse_other_than_numbers(app);
+  refuse_other_than_measurements(app);
   try {
     app.parse(reversed_words(argc, argv));
     return printed();

@@ -27,6 +27,19 @@ constexpr double um_per_m = 1e6;
 
 double um(std::string const& text) { return um_per_m * parse_value(text, dimension::length); }
 
+/// The value of an option, in SI.
+double positive(char const* option, std::string const& text, thermal::Dimension expected) {
+  double const value = parse_value(text, expected);
+  if (!(value > 0.0)) throw thermal::InputError(fmt::format("{} '{}': it must be positive", option, text));
+  return value;
+}
+
+double not_negative(char const* option, std::string const& text, thermal::Dimension expected) {
+  double const value = parse_value(text, expected);
+  if (!(value >= 0.0)) throw thermal::InputError(fmt::format("{} '{}': it must be 0 or more", option, text));
+  return value;
+}
+
 /// What both sides of the broker are told.
 struct ConnectionArguments {
   BrokerOptions broker;
@@ -135,13 +148,13 @@ void CompensateCommand::check_error(SavedErrorModel const& saved) const {
 CompensationSettings CompensateCommand::settings() const {
   CompensationSettings result;
   result.shift = {um(resolution), um(dead_band), um_per_m * parse_value(slew, dimension::speed), um(largest)};
-  result.watch = {parse_value(stale, dimension::time),
-                  parse_value(stuck, dimension::time),
-                  parse_value(jump, dimension::temperature_difference),
-                  parse_value(fastest, dimension::temperature_rate),
+  result.watch = {positive("--stale", stale, dimension::time),
+                  positive("--stuck", stuck, dimension::time),
+                  not_negative("--jump", jump, dimension::temperature_difference),
+                  not_negative("--fastest", fastest, dimension::temperature_rate),
                   thermal::to_unit(thermal::parse_temperature(lowest), "degC"),
                   thermal::to_unit(thermal::parse_temperature(highest), "degC")};
-  result.fallback = {parse_value(hold, dimension::time), parse_value(fade, dimension::time)};
+  result.fallback = {not_negative("--hold", hold, dimension::time), not_negative("--fade", fade, dimension::time)};
   return result;
 }
 
@@ -153,7 +166,7 @@ void CompensateCommand::operator()(std::atomic<bool> const& stop) const {
   CompensateOptions options{broker, topics, axis, displacement(), {}, {}, {}};
   options.broker.client = fmt::format("thermotwin-compensate-{}-{}", topics.prefix, axis);
   options.loop = {parse_value(cycle, dimension::time), speed, 0.5 * set.watch.stale_time,
-                  parse_value(start, dimension::time)};
+                  positive("--start", start, dimension::time)};
   options.say = [](std::string const& line) { tell(line + "\n"); };
   Compensator compensator(live_model(), set);
   std::optional<CompensationRecord> recorded;

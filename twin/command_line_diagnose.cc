@@ -1,6 +1,7 @@
 #include "twin/command_line_diagnose.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
@@ -98,8 +99,9 @@ void add_diagnose_command(CLI::App& app) {
     }
     auto const report = diagnose_files(*files);
     onlookers.reset();
-    if (!folder->empty()) write_folder(*folder, *files, report);
     fmt::print("{}", *json ? report_json(report) : report_text(report));
+    std::fflush(stdout);  // whether or not there is room for the page
+    if (!folder->empty()) write_folder(*folder, *files, report);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "thermal/error.h"
+#include "twin/command_line_number.h"
 #include "twin/report/figure_files.h"
 
 namespace thermotwin::twin {
@@ -37,10 +38,12 @@ void add_figure_command(CLI::App& app) {
   auto* columns = added->add_option("--columns", command->columns, "width of one (84 mm) or two (174 mm) columns")
                       ->capture_default_str()
                       ->check(CLI::IsMember({1, 2}));
-  added->add_option("--width", files.width, "[mm], in place of columns")
-      ->check(CLI::Range(30.0, 1000.0))
+  added->add_option("--width", files.width, "[mm], 30 to 1000, in place of columns")
+      ->check(number_between(30.0, 1000.0, "mm"))
       ->excludes(columns);
-  added->add_option("--height", files.height, "[mm]")->capture_default_str()->check(CLI::Range(20.0, 1000.0));
+  added->add_option("--height", files.height, "[mm], 20 to 1000")
+      ->capture_default_str()
+      ->check(number_between(20.0, 1000.0, "mm"));
   added->callback([command] { (*command)(); });
 }
 

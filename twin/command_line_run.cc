@@ -9,9 +9,11 @@
 #include "output/dataset_file.h"
 #include "thermal/error.h"
 #include "twin/checkpoint.h"
+#include "twin/command_line_number.h"
 #include "twin/experiment_file.h"
 #include "twin/experiment_remarks.h"
 #include "twin/file/output_path.h"
+#include "twin/file_check.h"
 #include "twin/progress.h"
 #include "twin/reduced_summary.h"
 #include "twin/reduction_store.h"
@@ -49,7 +51,9 @@ void RunCommand::add_to(CLI::App& command) {
   command.add_option("--picture", picture, "PNG of the last frame; needs a display, or xvfb-run");
   command.add_option("--set", settings,
                      "change a parameter: bearing.front.grease_factor=0.8, experiment.duration=\"2 h\"");
-  command.add_option("--tolerance", tolerance, "relative tolerance of the integration")->capture_default_str();
+  command.add_option("--tolerance", tolerance, "relative tolerance of the integration")
+      ->capture_default_str()
+      ->check(number_between(finest_tolerance, coarsest_tolerance));
   command.add_option("--checkpoint", checkpoint,
                      "simulated time after which a killed run can be taken up: \"2 h\"; needs --output");
   command.add_flag("--resume", resume, "go on from the checkpoint beside the output");
@@ -103,22 +107,7 @@ void let_signals_end_it(std::atomic<bool> const& stop) {
   if (stop) throw Interrupted("stopped; nothing was written");
 }
 
-/// What a run complains of gets its place in the experiment's file.
-template <class Action>
-auto in_experiment(Value const& document, Action action) {
-  try {
-    return action();
-  } catch (FileError const&) {
-    throw;
-  } catch (thermal::InputError const& error) {
-    throw located_in(document, error);
-  }
-}
-
 void RunCommand::operator()(std::atomic<bool> const& stop) const {
-  if (!(tolerance >= finest_tolerance && tolerance <= coarsest_tolerance))
-    throw thermal::InputError(
-        fmt::format("--tolerance {}: allowed is {} to {}", tolerance, finest_tolerance, coarsest_tolerance));
   auto const experiment_path = experiment_file(experiment);
   Value experiment_document = read_toml(experiment_path);
   Value machine_document{{}, Value::Table{}};
@@ -130,9 +119,18 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   for (auto const& text : settings) refuse_replaced(setting(text), programme);
   check_outputs(path, experiment_path, programme);
   Machine const built = Machine::build(machine_document);
+  auto const in_files = [&](auto action) {  // what it complains of gets its place in one of the two
+    try {
+      return action();
+    } catch (FileError const&) {
+      throw;
+    } catch (thermal::InputError const& error) {
+      check_together(experiment_document, programme, machine_document, built);
+      throw located_in(experiment_document, error);
+    }
+  };
   if (!quiet) {
-    auto const remarks =
-        in_experiment(experiment_document, [&] { return experiment_remarks(experiment_document, programme, built); });
+    auto const remarks = in_files([&] { return experiment_remarks(experiment_document, programme, built); });
     for (auto const& remark : remarks) tell(fmt::format("warning: {}\n", remark));
   }
 
@@ -151,7 +149,7 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   set_checkpoint(options);
   if (reduced) {
     let_signals_end_it(stop);
-    return in_experiment(experiment_document, [&] { run_reduced(built, programme, options); });
+    return in_files([&] { run_reduced(built, programme, options); });
   }
   options.stop = &stop;
   std::optional<Progress> progress;
@@ -159,7 +157,7 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
     progress.emplace(fmt::format("{} on {}", experiment_path.stem().string(), built.name));
     options.progress = [&](double share) { progress->show(share); };
   }
-  auto const result = in_experiment(experiment_document, [&] { return run(built, programme, options); });
+  auto const result = in_files([&] { return run(built, programme, options); });
   progress.reset();
   if (json)
     fmt::print("{}", summary_json(built, result));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "output/page_server.h"
+#include "twin/command_line_number.h"
 #include "twin/machine.h"
 #include "twin/report/live_page.h"
 
@@ -42,7 +43,7 @@ void add_view_command(CLI::App& app, std::atomic<bool> const& stop) {
   added->add_option("--machine,-m", command->machine, "machine to draw, file or name; default: the one in a data set");
   added->add_option("--port", command->port, "of this computer's loopback address; 0: any that is free")
       ->capture_default_str()
-      ->check(CLI::Range(0, 65535));
+      ->check(number_between(0, 65535));
   added->callback([command, &stop] { (*command)(stop); });
 }
 

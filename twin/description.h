@@ -1,12 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "thermal/error.h"
 #include "thermal/units.h"
 #include "twin/file/schema.h"
 
@@ -17,6 +20,7 @@ namespace thermotwin::twin {
 namespace dimension = thermal::dimension;
 inline constexpr double required = std::numeric_limits<double>::quiet_NaN();
 inline constexpr Range positive{0.0, std::numeric_limits<double>::infinity()};
+inline constexpr Range above_zero{0.0, std::numeric_limits<double>::infinity(), true};
 
 /// `[spindle]`
 struct SpindleDescription {
@@ -119,11 +123,16 @@ struct LineDescription {
   }
 };
 
+inline constexpr char const* capacity_factor_means =
+    "of what the drawing gives, for what it does not show: bores, nuts, a clamped tool";
+inline constexpr Range plausible_capacity_factor{0.3, 3.0, true};
+
 /// `[[bar]]`: heat flows along it only: a shaft, a screw, a test bar.
 struct BarDescription : LineDescription, CarriedDescription {
   std::string name, material;
   double outer_diameter = required, inner_diameter = 0.0;
   std::optional<double> section_diameter;
+  double capacity_factor = 1.0;
   int cells = 10;
 
   template <class Fields>
@@ -135,6 +144,8 @@ struct BarDescription : LineDescription, CarriedDescription {
     f("inner_diameter", &BarDescription::inner_diameter, dimension::length, "of a bore", positive);
     f("section_diameter", &BarDescription::section_diameter, dimension::length,
       "solid section of equal area, for threads; default: from outer and inner diameter", positive);
+    f("capacity_factor", &BarDescription::capacity_factor, dimension::dimensionless, capacity_factor_means,
+      plausible_capacity_factor);
     f("cells", &BarDescription::cells, "along the bar", Range{1, 1e6});
     CarriedDescription::fields_of<BarDescription>(f);
   }
@@ -144,6 +155,7 @@ struct BarDescription : LineDescription, CarriedDescription {
 struct HollowCylinderDescription : LineDescription, CarriedDescription {
   std::string name, material;
   double outer_diameter = required, inner_diameter = 0.0;
+  double capacity_factor = 1.0;
   int axial_cells = 20, radial_cells = 4;
 
   template <class Fields>
@@ -154,6 +166,8 @@ struct HollowCylinderDescription : LineDescription, CarriedDescription {
     f("outer_diameter", &HollowCylinderDescription::outer_diameter, dimension::length, "outer diameter", positive);
     f("inner_diameter", &HollowCylinderDescription::inner_diameter, dimension::length, "inner diameter; 0: solid",
       positive);
+    f("capacity_factor", &HollowCylinderDescription::capacity_factor, dimension::dimensionless, capacity_factor_means,
+      plausible_capacity_factor);
     f("axial_cells", &HollowCylinderDescription::axial_cells, "along the axis", Range{1, 1e5});
     f("radial_cells", &HollowCylinderDescription::radial_cells, "from inside to outside", Range{1, 1e4});
     CarriedDescription::fields_of<HollowCylinderDescription>(f);
@@ -166,6 +180,17 @@ struct BlockDescription : CarriedDescription {
   Eigen::Vector3d corner = Eigen::Vector3d::Zero();
   Eigen::Vector3d size = Eigen::Vector3d::Constant(required);
   std::vector<double> cells = {10, 10, 10};
+
+  /// InputError where they are not three whole numbers.
+  [[nodiscard]] std::array<int, 3> cell_counts() const {
+    if (cells.size() != 3)
+      throw thermal::InputError(fmt::format("'{}': cells has {} entries; three are due", name, cells.size()));
+    for (double const n : cells)
+      if (!(n >= 1.0 && n <= 1e4 && n == std::floor(n)))
+        throw thermal::InputError(
+            fmt::format("'{}': {:g} cells; whole numbers from 1 to 10000 are due, for example [10, 10, 10]", name, n));
+    return {int(cells[0]), int(cells[1]), int(cells[2])};
+  }
   double solidity = 1.0;
 
   template <class Fields>
@@ -224,7 +249,7 @@ struct LoopSegment {
     f("growth_factor", &LoopSegment::growth_factor, dimension::dimensionless,
       "of what it does, against the computed; the loop's closure does not count it", Range{0.3, 3.0});
     f("length", &LoopSegment::length, dimension::length, "of a lump, or over which it bends", positive);
-    f("height", &LoopSegment::height, dimension::length, "between the warm and the cold side", positive);
+    f("height", &LoopSegment::height, dimension::length, "between the warm and the cold side", above_zero);
     f("lever", &LoopSegment::lever, dimension::length, "of the rotation");
     f("expansion", &LoopSegment::expansion, dimension::expansion, "default: the material's");
   }
@@ -270,7 +295,7 @@ struct DisplacementDescription {
       "what the castings do besides, as so much more of them in the loop; neither closure nor levers count it");
     f("influence", &DisplacementDescription::influence, "blocks with influence weights");
     f("base", &DisplacementDescription::base, dimension::length,
-      "of a rotation: distance between the two ends that grow; bending has its height");
+      "of a rotation: distance between the two ends that grow; bending has its height", above_zero);
     f("closure", &DisplacementDescription::closure, dimension::length,
       "signed length around the loop; checked, so that a wrong sign is found");
   }

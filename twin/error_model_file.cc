@@ -8,6 +8,7 @@
 #include "output/atomic_file.h"
 #include "thermal/error.h"
 #include "twin/axis_record.h"
+#include "twin/file_kind.h"
 #include "twin/study/judgement.h"
 #include "twin/study/study_file.h"
 
@@ -521,6 +522,7 @@ SavedErrorModel read_error_model(std::filesystem::path const& path) {
   auto const* table = document.find("model");
   auto const* several = document.find("part");
   bool const one = table && table->is_table(), mean = several && several->is_list();
+  if (!one && !mean) refuse_other_kind(document, FileKind::error_model);
   if (!one && !mean)
     throw FileError(document.where, "no table [model], nor [[part]]: this is not the file of an error model");
   if (one && mean) throw FileError(table->where, "a model and parts; the mean of several models has only [[part]]");

@@ -6,6 +6,7 @@
 #include "thermal/nearest_name.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/temperature_limits.h"
+#include "twin/file_kind.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -27,12 +28,18 @@ bool begins_with_field(std::string path) {
                      [key = take_step(path).first](auto const& field) { return field.key == key; });
 }
 
+/// The path of a field with which a complaint begins; empty where it names a file, or something else.
+std::string path_in(std::string const& message) {
+  auto path = message.substr(0, message.find(": "));
+  return path.find_first_of("/: ") != std::string::npos || !begins_with_field(path) ? "" : path;
+}
+
 }  // namespace
 
 thermal::InputError located_in(Value const& document, thermal::InputError const& error) {
   std::string const message = error.what();
-  std::string path = message.substr(0, message.find(": "));
-  if (path.find_first_of("/: ") != std::string::npos || !begins_with_field(path)) return error;  // it names a file
+  auto path = path_in(message);
+  if (path.empty()) return error;
   Value const* here = &document;
   while (!path.empty() && here->is_table()) {
     auto const [key, index] = take_step(path);
@@ -45,9 +52,18 @@ thermal::InputError located_in(Value const& document, thermal::InputError const&
   return FileError(here->where, message);
 }
 
+std::string as_setting(std::string const& complaint) {
+  auto path = path_in(complaint);
+  if (path.empty()) return complaint;
+  auto const rest = complaint.substr(path.size());
+  std::replace(path.begin(), path.end(), '[', '.');
+  std::erase(path, ']');
+  return "experiment." + path + rest;
+}
+
 scenarios::Experiment read_experiment(Value const& document, std::filesystem::path const& file) {
   scenarios::Experiment experiment;
-  read_fields(document, experiment);
+  read_file_fields(document, FileKind::experiment, experiment);
   check_temperatures(document, list_fields<scenarios::Experiment>());
   experiment.directory = file.has_parent_path() ? file.parent_path() : ".";
   try {

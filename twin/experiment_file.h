@@ -15,6 +15,9 @@ namespace thermotwin::twin {
 /// with the place in the file where that field stands. A complaint about a recording has its own place and stays.
 [[nodiscard]] thermal::InputError located_in(Value const& document, thermal::InputError const& error);
 
+/// Such a complaint with the path as a setting has it: "experiment.spindle.blocks.2.duration: …"; any other as it is.
+[[nodiscard]] std::string as_setting(std::string const& complaint);
+
 /// A path, or the name of one in scenarios/catalogue.
 [[nodiscard]] std::filesystem::path experiment_file(std::string const& name_or_path);
 

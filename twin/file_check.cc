@@ -8,6 +8,7 @@
 #include "scenarios/course.h"
 #include "thermal/course_inputs.h"
 #include "thermal/error.h"
+#include "thermal/nearest_name.h"
 #include "twin/campaign/campaign.h"
 #include "twin/diagnosis/measured_data.h"
 #include "twin/diagnosis/measured_run.h"
@@ -15,7 +16,9 @@
 #include "twin/experiment_file.h"
 #include "twin/experiment_remarks.h"
 #include "twin/file/document.h"
+#include "twin/file/shipped_file.h"
 #include "twin/file/tables.h"
+#include "twin/file_kind.h"
 #include "twin/history.h"
 #include "twin/machine.h"
 #include "twin/placement/candidate_sites.h"
@@ -49,7 +52,7 @@ void find_implausible(Value const& table, std::vector<FieldRecord> const& fields
       if (item->is_table()) find_implausible(*item, field->nested, found);
       if (field->range.empty()) continue;
       auto const number = number_of(*item, field->dimension);
-      auto const [low, high] = field->plausible;
+      double const low = field->plausible.low, high = field->plausible.high;
       if (number && (*number < low - rounding * std::abs(low) || *number > high + rounding * std::abs(high)))
         found.push_back(fmt::format("{}: '{}' is {}; outside what is plausible: {}", item->where.text(), entry.key,
                                     item->text(), field->range));
@@ -77,9 +80,15 @@ std::vector<FieldRecord> machine_fields() {
   return fields;
 }
 
-/// Those keys of a document that no file of another kind has.
-bool has_any(Value const& document, std::initializer_list<char const*> keys) {
-  return std::any_of(keys.begin(), keys.end(), [&](char const* key) { return document.find(key); });
+/// InputError for what looks like a name, and is that of no file that comes with the program.
+void refuse_unknown_name(std::filesystem::path const& file) {
+  std::error_code ignored;
+  if (file.has_extension() || file.has_parent_path() || std::filesystem::exists(file, ignored)) return;
+  std::vector<std::string> names;
+  for (auto const* folder : {"twin/machines", "scenarios/catalogue", "scenarios/studies", "scenarios/campaigns"})
+    for (auto& name : shipped_names(folder)) names.push_back(std::move(name));
+  throw thermal::InputError(
+      fmt::format("{0}: there is no such file; {1}", file.string(), thermal::did_you_mean(file.string(), names)));
 }
 
 std::string counted(std::size_t count, std::string const& what) {
@@ -122,21 +131,6 @@ struct CheckedRecord {
   std::string machine;  ///< that the file names
 };
 
-void check_together(CheckedExperiment const& checked, CheckedMachine const& machine) {
-  std::optional<scenarios::ExperimentCourse> course;
-  try {
-    course.emplace(checked.experiment, machine.machine.limits);
-    check_laser(machine.machine, checked.experiment);
-  } catch (thermal::InputError const& error) {
-    throw located_in(checked.document, error);
-  }
-  try {
-    thermal::CourseInputs const inputs(machine.machine.network(), *course);
-  } catch (thermal::InputError const& error) {
-    throw FileError(place_of(machine.document, error.what()), error.what());
-  }
-}
-
 std::string checked_study(std::filesystem::path const& file) {
   auto const study = read_study(file);
   check_worlds(study);
@@ -147,7 +141,7 @@ std::string checked_study(std::filesystem::path const& file) {
 
 class FileChecker {
  public:
-  explicit FileChecker(std::vector<std::filesystem::path> const& files) : checks_(files.size()) {
+  explicit FileChecker(std::vector<std::filesystem::path> const& files) : files_(files), checks_(files.size()) {
     for (std::size_t i = 0; i < files.size(); ++i) noting(checks_[i], [&] { read(files[i], i); });
   }
   std::vector<FileCheck> operator()();
@@ -166,11 +160,13 @@ class FileChecker {
   void read_machine(std::filesystem::path const& file, Value const& document, FileCheck& check);
   void read_record(std::filesystem::path const& file, std::size_t i);
   void check_experiment(CheckedExperiment const& checked, FileCheck& check) const;
+  [[nodiscard]] bool is_found_wrong(std::filesystem::path const& file) const;
   void check_record(CheckedRecord const& record, FileCheck& check) const;
   void check_candidates(CandidateRules const& rules, FileCheck& check) const;
   [[nodiscard]] CheckedMachine const* machine_among(std::string const& named) const;
   [[nodiscard]] CheckedMachine machine_for(CheckedExperiment const& checked) const;
 
+  std::vector<std::filesystem::path> const& files_;
   std::vector<FileCheck> checks_;
   std::vector<CheckedMachine> machines_;
   std::vector<std::pair<std::size_t, CheckedExperiment>> experiments_;
@@ -182,24 +178,30 @@ void FileChecker::read(std::filesystem::path const& file, std::size_t i) {
   auto& check = checks_[i];
   auto const suffix = file.extension();
   if (suffix == ".h5" || suffix == ".csv") return read_record(file, i);
+  refuse_unknown_name(file);
   Value const document = read_toml(file);
-  if (document.find("duration")) {
-    experiments_.push_back({i, {file, document, read_experiment(document, file)}});
-    find_implausible(document, list_fields<scenarios::Experiment>(), check.warnings);
-    return;
+  switch (file_kind(document)) {
+    case FileKind::experiment:
+      experiments_.push_back({i, {file, document, read_experiment(document, file)}});
+      find_implausible(document, list_fields<scenarios::Experiment>(), check.warnings);
+      return;
+    case FileKind::campaign:
+      check.text = checked_campaign(file);
+      return;
+    case FileKind::error_model:
+      check.text = checked_error_model(file);
+      return;
+    case FileKind::study:
+      check.text = checked_study(file);
+      return;
+    case FileKind::measurement:
+      return read_record(file, i);
+    case FileKind::candidates:
+      candidates_.emplace_back(i, read_candidate_rules(file));
+      return;
+    case FileKind::machine:
+      return read_machine(file, document, check);
   }
-  if (has_any(document, {"experiments", "grid", "latin_hypercube"}))
-    check.text = checked_campaign(file);
-  else if (has_any(document, {"predicts", "model"}))
-    check.text = checked_error_model(file);
-  else if (has_any(document, {"world", "selections", "models"}))
-    check.text = checked_study(file);
-  else if (has_any(document, {"table"}))
-    read_record(file, i);
-  else if (has_any(document, {"site", "body", "forbidden", "most", "budget"}))
-    candidates_.emplace_back(i, read_candidate_rules(file));
-  else
-    read_machine(file, document, check);
 }
 
 void FileChecker::read_machine(std::filesystem::path const& file, Value const& document, FileCheck& check) {
@@ -242,9 +244,24 @@ CheckedMachine FileChecker::machine_for(CheckedExperiment const& checked) const 
   return {file, document, Machine::build(document)};
 }
 
+/// Whether it is one of the files, and has a mistake that is told there.
+bool FileChecker::is_found_wrong(std::filesystem::path const& file) const {
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    std::error_code ignored;
+    if (!checks_[i].mistake.empty() && std::filesystem::equivalent(files_[i], file, ignored)) return true;
+  }
+  return false;
+}
+
 void FileChecker::check_experiment(CheckedExperiment const& checked, FileCheck& check) const {
+  auto const& named = checked.experiment.machine;
+  if (is_found_wrong(checked.experiment.directory / named)) {
+    check.text = fmt::format("an experiment of {:.2f} h, not looked at together with '{}', which has a mistake",
+                             checked.experiment.duration / 3600.0, named);
+    return;
+  }
   auto const machine = machine_for(checked);
-  check_together(checked, machine);
+  check_together(checked.document, checked.experiment, machine.document, machine.machine);
   auto const remarks = experiment_remarks(checked.document, checked.experiment, machine.machine);
   check.warnings.insert(check.warnings.end(), remarks.begin(), remarks.end());
   check.text =
@@ -293,5 +310,22 @@ std::filesystem::path file_to_check(std::string const& name_or_path) {
 }
 
 std::vector<FileCheck> check_files(std::vector<std::filesystem::path> const& files) { return FileChecker(files)(); }
+
+void check_together(Value const& experiment_document, scenarios::Experiment const& experiment,
+                    Value const& machine_document, Machine const& machine) {
+  std::optional<scenarios::ExperimentCourse> course;
+  try {
+    course.emplace(experiment, machine.limits);
+    check_laser(machine, experiment);
+  } catch (thermal::InputError const& error) {
+    throw located_in(experiment_document, error);
+  }
+  try {
+    thermal::CourseInputs const inputs(machine.network(), *course);
+  } catch (thermal::InputError const& error) {
+    std::string const what = error.what();
+    throw FileError(place_of(machine_document, what.substr(0, what.find(';'))), what);  // not at what it offers
+  }
+}
 
 }  // namespace thermotwin::twin

@@ -29,6 +29,11 @@ std::string unusable(output::Dataset const& shown, std::string const& sensor) {
 std::vector<std::string> usable_sensors(std::vector<RecordedRun>& runs) {
   std::vector<std::string> sensors;
   for (auto const& channel : runs.front().shown.readings) sensors.push_back(channel.name);
+  if (sensors.empty())
+    throw thermal::InputError(
+        fmt::format("{}: no sensor is in it, and an error model follows sensors; give the "
+                    "machine some, as [[temperature_sensor]]",
+                    runs.front().file));
   for (auto& run : runs)
     std::erase_if(sensors, [&](std::string const& sensor) {
       auto const why = unusable(run.shown, sensor);

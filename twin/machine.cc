@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
+#include "scenarios/course.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
 #include "twin/bodies.h"
@@ -14,6 +17,7 @@
 #include "twin/file/document.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/tables.h"
+#include "twin/file_kind.h"
 #include "twin/instruments/temperature_specimen.h"
 #include "twin/uncertain_range.h"
 #include "twin/volumetric/volumetric_machine.h"
@@ -83,9 +87,21 @@ HeadDescription head_of(Value const& document) {
 void check_keys(Value const& document) {
   auto const known = known_keys();
   for (auto const& entry : std::get<Value::Table>(document.content))
-    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
+      refuse_other_kind(document, FileKind::machine);
       throw FileError(entry.where,
                       fmt::format("unknown key '{}'; {}", entry.key, thermal::did_you_mean(entry.key, known)));
+    }
+}
+
+/// Files are called by it; a machine that gives none has none.
+void check_machine_name(Value const& document, std::string const& name) {
+  Value const* given = document.find("name");
+  if (given && (name.empty() || name.find('/') != std::string::npos))
+    throw FileError(given->where,
+                    fmt::format("'{}' cannot be the name of a machine: files are called by it; a word without '/' is "
+                                "due, for example \"v450\"",
+                                name));
 }
 
 /// Data sets and their CSV files hold each channel by its name.
@@ -131,16 +147,19 @@ class MachineBuilder {
 
  private:
   [[nodiscard]] double spindle_limit() const;
+  void claim_channel(Value const& table, std::string const& name, std::string const& kind);
   void read_head();
   void read_parts();
   void check_ends(Value const& table) const;
   void check_terms() const;
   void read_sensors();
   void read_displacements();
+  void check_moves(DisplacementDescription const& description) const;
   void read_screws();
   void read_displacement_instruments();
   void check_volumetric() const;
   void build_network();
+  void refuse_names_of_inputs() const;
   void hang_bodies();
 
   Value const& document_;
@@ -150,6 +169,7 @@ class MachineBuilder {
   Bodies bodies_;
   Assembly assembly_;
   StructuralLoop loop_;
+  std::map<std::string, std::string> channels_;  ///< of readings, by name: the kind of table that has it
 };
 
 double MachineBuilder::spindle_limit() const {
@@ -157,10 +177,25 @@ double MachineBuilder::spindle_limit() const {
   Value const* table = document_.find("spindle");
   if (!table) return 0.0;
   read_fields(*table, spindle);
+  if (!(spindle.maximum_speed > 0.0)) {
+    Value const& given = *table->find("maximum_speed");
+    throw FileError(given.where, fmt::format("'maximum_speed' is {}; it must be positive; a machine without a spindle "
+                                             "has no [spindle]",
+                                             given.text()));
+  }
   return spindle.maximum_speed;
 }
 
+/// Sensors and displacements are read under one name each.
+void MachineBuilder::claim_channel(Value const& table, std::string const& name, std::string const& kind) {
+  check_channel_name(table, name);
+  auto const [known, is_new] = channels_.emplace(name, kind);
+  if (!is_new)
+    throw FileError(table.find("name")->where, fmt::format("the name '{}' is taken by a [[{}]]", name, known->second));
+}
+
 void MachineBuilder::read_head() {
+  check_machine_name(document_, head_.name);
   machine_.name = head_.name;
   machine_.title = head_.title;
   machine_.up = head_.upwards();
@@ -231,7 +266,7 @@ void MachineBuilder::check_terms() const {
 void MachineBuilder::read_sensors() {
   for (auto& [description, table] : tables_.read<SensorDescription>("temperature_sensor"))
     located(*table, [&, &d = description, &table = *table] {
-      check_channel_name(table, d.name);
+      claim_channel(table, d.name, "temperature_sensor");
       Sensor sensor{d, {}, {0.0, 0.0, 0.0}};
       check_places(d);
       for (std::size_t i = 0; i < d.at.size(); ++i) {
@@ -249,19 +284,37 @@ void MachineBuilder::read_sensors() {
 
 void MachineBuilder::read_displacements() {
   std::vector<Tabled<DisplacementDescription>> all;
-  for (bool const rotation : {true, false})
-    for (auto& tabled : tables_.read<DisplacementDescription>(rotation ? "rotation" : "displacement")) {
+  for (std::string const kind : {"rotation", "displacement"})
+    for (auto& tabled : tables_.read<DisplacementDescription>(kind)) {
       located(*tabled.table, [&, &d = tabled.description, &table = *tabled.table] {
-        check_channel_name(table, d.name);
-        auto const& others = loop_.channels();
-        if (std::any_of(others.begin(), others.end(), [&](auto const& other) { return other.name == d.name; }))
-          throw FileError(table.find("name")->where, fmt::format("the name '{}' is taken by a [[rotation]]", d.name));
-        loop_.add(d, rotation);
+        claim_channel(table, d.name, kind);
+        loop_.add(d, kind == "rotation");
       });
       all.push_back(std::move(tabled));
     }
-  for (auto const& tabled : all) located(*tabled.table, [&] { loop_.add_beyond(tabled.description); });
+  for (auto const& tabled : all)
+    located(*tabled.table, [&] {
+      loop_.add_beyond(tabled.description);
+      check_moves(tabled.description);
+    });
   machine_.displacements = loop_.channels();
+}
+
+/// InputError for a channel that nothing moves: neither its loop, nor a part.
+void MachineBuilder::check_moves(DisplacementDescription const& d) const {
+  auto const moves = [&](auto const& terms, auto channel_of) {
+    return std::any_of(terms.begin(), terms.end(), [&](auto const& term) { return channel_of(term) == d.name; });
+  };
+  auto const displaced = [](auto const& term) { return term.displacement; };
+  if (!d.segment.empty() || !d.influence.empty() || !d.beyond.empty() || moves(assembly_.input_terms(), displaced) ||
+      moves(assembly_.temperature_terms(), displaced) || moves(assembly_.reading_terms(), [](auto const& term) {
+        return term.of_displacement ? term.channel : std::string();
+      }))
+    return;
+  throw InputError(
+      fmt::format("nothing moves '{}'; give it steps of the loop, for example segment = [{{ of = "
+                  "\"column\", length = \"1 m\" }}]",
+                  d.name));
 }
 
 void MachineBuilder::read_screws() {
@@ -357,6 +410,24 @@ void MachineBuilder::build_network() {
     machine_.geometry.push_back(thermal::geometry_of(bodies_.all().at(name), assembly_.first_node(name)));
 }
 
+/// A table of numbers tells inputs and readings apart by their names.
+void MachineBuilder::refuse_names_of_inputs() const {
+  scenarios::Experiment standstill;
+  standstill.duration = 3600.0;
+  scenarios::ExperimentCourse const course(standstill, machine_.limits);
+  auto const& network = *machine_.network_;
+  std::set<std::string> inputs(network.channel_names().begin(),
+                               network.channel_names().begin() + network.external_channels());
+  for (auto const& channel : course.channels()) inputs.insert(channel.name);
+  for (auto const& [name, kind] : channels_) {
+    if (!inputs.contains(name)) continue;
+    for (auto const& table : tables_.of(kind))
+      if (name_in(table) == name)
+        throw FileError(table.find("name")->where,
+                        fmt::format("'{}' is the name of an input channel; a [[{}]] needs another", name, kind));
+  }
+}
+
 void MachineBuilder::hang_bodies() {
   std::vector<HungBody> hung;
   for (auto const& name : bodies_.order())
@@ -395,6 +466,7 @@ Machine MachineBuilder::operator()() {
   machine_.reading_terms = assembly_.reading_terms();
   assembly_.add_air_terms();
   build_network();
+  refuse_names_of_inputs();
   hang_bodies();
   return std::move(machine_);
 }

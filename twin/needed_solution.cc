@@ -52,10 +52,7 @@ BlockDescription const& find_block(std::vector<BlockDescription> const& blocks, 
 
 /// Only its shape counts here.
 thermal::Body shape_of(BlockDescription const& d) {
-  if (d.cells.size() != 3)
-    throw InputError(fmt::format("'{}': cells has {} entries; three are due", d.name, d.cells.size()));
-  std::array<int, 3> const cells = {int(d.cells[0]), int(d.cells[1]), int(d.cells[2])};
-  return thermal::make_body(d.name, thermal::Block{thermal::material("C45"), d.corner, d.size, cells, 1.0});
+  return thermal::make_body(d.name, thermal::Block{thermal::material("C45"), d.corner, d.size, d.cell_counts(), 1.0});
 }
 
 class Collector {

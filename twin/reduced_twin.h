@@ -44,9 +44,9 @@ struct ReducedResult {
 ///
 ///   bound = 2 max_t |fine − coarse| + error of the fine model in the training runs + what one coarse step may err by
 ///
-/// for every channel: an estimate, no proof. It holds if the finer model errs no more than twice what they differ
-/// (saturation; Hain, Ohlberger, Radic & Urban, Adv. Comput. Math. 45 (2019) 2155); tests and docs/reduced_model.md
-/// compare it with full runs.
+/// for every channel, but for errors of position along a screw, of which only the first is known: an estimate, no
+/// proof. It holds if the finer model errs no more than twice what they differ (saturation; Hain, Ohlberger, Radic &
+/// Urban, Adv. Comput. Math. 45 (2019) 2155); tests and docs/reduced_model.md compare it with full runs.
 ///
 /// Refuses, with InputError that names channel, value and range, whatever lies outside the range for which it was made.
 class ReducedTwin {

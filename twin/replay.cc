@@ -1,13 +1,10 @@
 #include "twin/replay.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
-#include <sstream>
 
-#include "output/atomic_file.h"
 #include "output/dataset_file.h"
-#include "output/error.h"
+#include "output/temporary_folder.h"
 #include "thermal/error.h"
 #include "twin/experiment_file.h"
 #include "twin/file/text_file.h"
@@ -22,31 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string recording_key(std::size_t number) { return fmt::format("recorded.{}", number); }
-
-/// A folder of its own for the files that a run was made from; it goes with the object.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "thermotwin-replay.XXXXXX").string();
-    if (!::mkdtemp(pattern.data())) throw output::OutputError("cannot make a folder in " + pattern);
-    path_ = pattern;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(Folder const&) = delete;
-  Folder& operator=(Folder const&) = delete;
-
-  fs::path put(std::string const& name, std::string const& text) const {
-    output::write_atomically(path_ / name, text);
-    return path_ / name;
-  }
-  [[nodiscard]] fs::path operator/(std::string const& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 /// What the data set says of itself, by key.
 class Origin {
@@ -68,20 +40,13 @@ class Origin {
   fs::path file_;
 };
 
-std::vector<Setting> settings_of(std::string const& lines) {
-  std::vector<Setting> settings;
-  std::istringstream text(lines);
-  for (std::string line; std::getline(text, line);) settings.push_back(setting(line));
-  return settings;
-}
-
 /// Machine and experiment from the texts alone.
-std::pair<Machine, scenarios::Experiment> made_from(Origin const& origin, Folder const& folder) {
+std::pair<Machine, scenarios::Experiment> made_from(Origin const& origin, output::TemporaryFolder const& folder) {
   auto const machine_path = folder.put("machine.toml", origin["machine.file"]);
   if (origin.has("machine.weights")) folder.put("machine.weights", origin["machine.weights"]);
   auto const experiment_path = folder.put("experiment.toml", origin["experiment.file"]);
   Value machine = read_toml(machine_path), experiment = read_toml(experiment_path);
-  for (auto const& setting : settings_of(origin["settings"])) apply(setting, machine, experiment);
+  for (auto const& setting : settings_in(origin["settings"])) apply(setting, machine, experiment);
   auto programme = read_experiment(experiment, experiment_path);
   for (std::size_t i = 0; i < programme.recorded.size(); ++i)
     programme.recorded[i].file = folder.put(recording_key(i) + ".csv", origin[recording_key(i)]).filename();
@@ -96,9 +61,12 @@ std::string difference(std::string const& group, std::vector<output::Channel> co
   for (std::size_t c = 0; c < a.size(); ++c) {
     if (a[c].name != b[c].name || a[c].values.size() != b[c].values.size())
       return fmt::format("  {}: not the same channels or times\n", group);
-    double const gap =
-        (a[c].values - b[c].values).array().isNaN().select(0.0, (a[c].values - b[c].values)).cwiseAbs().maxCoeff();
+    auto const difference = (a[c].values - b[c].values).array();
+    double const gap = difference.isNaN().select(0.0, difference).abs().maxCoeff();
+    auto const one_is_missing = (a[c].values.array().isNaN() != b[c].values.array().isNaN()).count();
     if (gap > 0.0) text += fmt::format("  {} {}: up to {:.3g} {}\n", group, a[c].name, gap, a[c].unit);
+    if (one_is_missing > 0)
+      text += fmt::format("  {} {}: {} values are there in one only\n", group, a[c].name, one_is_missing);
   }
   return text;
 }
@@ -111,8 +79,11 @@ std::string differences(output::Dataset const& a, output::Dataset const& b) {
                   ? fmt::format("  {}: not the same\n", key)
                   : fmt::format("  {}: {} instead of {}\n", key, other->second, value);
   text += difference("input", a.inputs, b.inputs) + difference("reading", a.readings, b.readings) +
-          difference("displacement", a.displacements, b.displacements);
-  return text.empty() ? "  only what stands around the numbers\n" : text;
+          difference("displacement", a.displacements, b.displacements) +
+          difference("true reading", a.truth_readings, b.truth_readings) +
+          difference("true displacement", a.truth_displacements, b.truth_displacements) +
+          difference("heat", a.heat, b.heat);
+  return text.empty() ? "  only what stands around these numbers\n" : text;
 }
 
 }  // namespace
@@ -139,7 +110,7 @@ Replay replay(fs::path const& dataset, fs::path const& output, std::function<voi
         "can be",
         dataset.string()));
   Origin const origin(data, dataset);
-  Folder const folder;
+  output::TemporaryFolder const folder;
   auto const [machine, experiment] = made_from(origin, folder);
   RunOptions options;
   options.integration.relative_tolerance = std::stod(origin["tolerance.relative"]);

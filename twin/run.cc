@@ -47,6 +47,8 @@ class Recorder {
   void operator()(thermal::Sample const& sample);
   output::Dataset finish(std::map<std::string, std::string> const& provenance);
   [[nodiscard]] output::Dataset const& dataset() const { return dataset_; }
+  /// "; the rows so far are in run.h5.partial", if there are any.
+  [[nodiscard]] std::string rows_so_far() const;
 
  private:
   output::Dataset make_head() const;
@@ -246,8 +248,12 @@ void Recorder::operator()(thermal::Sample const& sample) {
   show_field(sample);
   if (options_.progress) options_.progress(experiment_.duration > 0.0 ? sample.time / experiment_.duration : 1.0);
   if (options_.stop && *options_.stop)
-    throw Interrupted(fmt::format("stopped at t = {:.0f} s of {:.0f} s{}", sample.time, experiment_.duration,
-                                  writer_ ? "; the rows so far are in " + writer_->partial_path().string() : ""));
+    throw Interrupted(
+        fmt::format("stopped at t = {:.0f} s of {:.0f} s{}", sample.time, experiment_.duration, rows_so_far()));
+}
+
+std::string Recorder::rows_so_far() const {
+  return writer_ && !rows_.empty() ? "; the rows so far are in " + writer_->partial_path().string() : "";
 }
 
 /// Turns the rows into the data set's courses.
@@ -370,11 +376,17 @@ RunResult run(Machine const& machine, scenarios::Experiment const& experiment, R
     recorder(sample);
     if (checkpoint) checkpoint->keep(sample);
   };
-  for (std::size_t const end : stretches(times, options.checkpoint_interval)) {
-    if (end <= done) continue;
-    integrate(network, course, state, std::span(times).subspan(done, end - done), options.integration, observe);
-    done = end;
-    if (checkpoint && done < times.size()) checkpoint->write(state);
+  try {
+    for (std::size_t const end : stretches(times, options.checkpoint_interval)) {
+      if (end <= done) continue;
+      integrate(network, course, state, std::span(times).subspan(done, end - done), options.integration, observe);
+      done = end;
+      if (checkpoint && done < times.size()) checkpoint->write(state);
+    }
+  } catch (thermal::InputError const& error) {
+    throw thermal::InputError(error.what() + recorder.rows_so_far());
+  } catch (thermal::IntegrationError const& error) {
+    throw thermal::IntegrationError(error.what() + recorder.rows_so_far());
   }
   RunResult result;
   result.summary = state.summary;

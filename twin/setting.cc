@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sstream>
 
 #include "scenarios/programmed_channels.h"
 #include "thermal/error.h"
@@ -79,6 +80,13 @@ Setting setting(std::string const& text) {
   auto& value = result.value;
   if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
   return result;
+}
+
+std::vector<Setting> settings_in(std::string const& lines) {
+  std::vector<Setting> settings;
+  std::istringstream text(lines);
+  for (std::string line; std::getline(text, line);) settings.push_back(setting(line));
+  return settings;
 }
 
 std::string text_of(Setting const& setting) {

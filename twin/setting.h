@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "scenarios/experiment.h"
 #include "twin/file/value.h"
@@ -18,6 +19,9 @@ struct Setting {
 
 /// "bearing.front.grease_factor=0.8"; quotes around the value fall. InputError without an equals sign.
 [[nodiscard]] Setting setting(std::string const& text);
+
+/// One in each line, as the provenance of a run keeps them.
+[[nodiscard]] std::vector<Setting> settings_in(std::string const& lines);
 
 /// As a word of a command line: experiment.duration="2 h".
 [[nodiscard]] std::string text_of(Setting const& setting);

@@ -37,6 +37,11 @@ double StructuralLoop::segment_length(LoopSegment const& segment) const {
   auto const open = segment.of.find('[');
   if (open == std::string::npos) return high - low;
   auto const dots = segment.of.find("..");
+  if (dots == std::string::npos)
+    throw InputError(
+        fmt::format("segment of '{}': a point does not grow; write a stretch, as in 'shaft[0 mm .. 40 mm]', "
+                    "or give its 'length'",
+                    segment.of));
   auto const length = [&](std::string const& text) { return thermal::parse_value(text, dimension::length); };
   return length(segment.of.substr(dots + 2, segment.of.size() - dots - 3)) -
          length(segment.of.substr(open + 1, dots - open - 1));

@@ -32,26 +32,21 @@ std::size_t width_of(std::string const& text) {
   return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-struct Widths {
-  std::size_t name = 14, title = 34;
-};
-
-/// As wide as the longest name and title.
-Widths widths_of(std::vector<output::Channel> const& channels) {
-  Widths widths;
-  for (auto const& channel : channels) {
-    widths.name = std::max(widths.name, width_of(channel.name));
-    widths.title = std::max(widths.title, width_of(channel.long_name));
-  }
-  return widths;
-}
-
 /// Missing: a dead sensor.
 std::string in_table(double value, int width) {
   return std::isfinite(value) ? fmt::format("{:>{}.2f}", value, width) : fmt::format("{:>{}}", "-", width);
 }
 
 }  // namespace
+
+ChannelWidths channel_widths(std::vector<output::Channel> const& channels) {
+  ChannelWidths widths;
+  for (auto const& channel : channels) {
+    widths.name = std::max(widths.name, width_of(channel.name));
+    widths.title = std::max(widths.title, width_of(channel.long_name));
+  }
+  return widths;
+}
 
 nlohmann::ordered_json extremes_json(std::vector<output::Channel> const& channels) {
   auto json = nlohmann::ordered_json::array();
@@ -72,7 +67,7 @@ std::string summary_table(Machine const& machine, RunResult const& result) {
   auto const& s = result.summary;
   std::string text = fmt::format("\n{}, {:.2f} h, {} nodes\n\n", data.title,
                                  data.time_s[data.time_s.size() - 1] / 3600.0, machine.network().nodes());
-  auto const sensors = widths_of(data.readings), displacements = widths_of(data.displacements);
+  auto const sensors = channel_widths(data.readings), displacements = channel_widths(data.displacements);
   text += fmt::format("  {:<{}} {:<{}} {:>9} {:>9} {:>14}\n", "sensor", sensors.name, "", sensors.title, "start °C",
                       "end °C", "largest rise K");
   for (auto const& channel : data.readings) {

@@ -9,6 +9,12 @@
 
 namespace thermotwin::twin {
 
+/// Of a table with a row per channel: as wide as the longest name and title.
+struct ChannelWidths {
+  std::size_t name = 14, title = 34;
+};
+[[nodiscard]] ChannelWidths channel_widths(std::vector<output::Channel> const& channels);
+
 /// What a run prints at its end: rise of every sensor, drift of every channel, what the solver did, the energy balance.
 [[nodiscard]] std::string summary_table(Machine const& machine, RunResult const& result);
 

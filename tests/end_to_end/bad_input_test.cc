@@ -83,6 +83,17 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"UnknownUnit", "length = \"200 mm\"", "length = \"200 mn\"", "",
                 "unknown unit 'mn'; did you mean 'mm'?"},
         Mistake{"Negative", "mass = \"70 kg\"", "mass = \"-70 kg\"", "", "must not be negative"},
+        Mistake{"Zero", "base = \"450 mm\"", "base = \"0 mm\"", "", "'base' is \"0 mm\"; it must be positive"},
+        Mistake{"NoSpeed", "maximum_speed = \"6000 rpm\"", "maximum_speed = \"0 rpm\"", "",
+                "'maximum_speed' is \"0 rpm\"; it must be positive; a machine without a spindle has no [spindle]"},
+        Mistake{"NoName", "name = \"v450\"", "name = \"\"  # none", "", "'' cannot be the name of a machine"},
+        Mistake{"NameOfAFolder", "name = \"v450\"", "name = \"shop/v450\"", "",
+                "'shop/v450' cannot be the name of a machine: files are called by it"},
+        Mistake{"UnknownInput", "name = \"stator\"", "name = \"stator\"\nwhile_on = \"machin.on\"",
+                "while_on = \"machin.on\"",
+                "the machine needs the input 'machin.on', which the experiment does not give; did you mean "
+                "'machine.on'?"},
+        Mistake{"ListForTable", "[spindle]", "[[spindle]]", "", "here one table is due"},
         Mistake{"NotANumber", "mass = \"70 kg\"", "mass = nan", "", "must be finite"},
         Mistake{"TextForNumber", "cells = 8", "cells = \"eight\"", "", "a whole number without unit is due"},
         Mistake{"UnknownBody", "from = \"front_ring\"", "from = \"frnt_ring\"", "",
@@ -250,6 +261,7 @@ TEST(BadInput, NamesThatDoNotExist) {
             "parameter experiment.duratoin: unknown key 'duratoin'; did you mean 'duration'?"},
         Row{"run golden_b_2000 -m v450 --set ambient.mean=22degC", "did you mean 'experiment.ambient.mean'?"},
         Row{"run golden_b_2000 -m v450 --fieldz x", "run: unknown option '--fieldz'; did you mean '--fields'?"},
+        Row{"run golden_b_2000 --tolernce=1e-5", "run: unknown option '--tolernce'; did you mean '--tolerance'?"},
         Row{"run golden_b_2000 v450", "run: 'v450' is an argument too many"},
         Row{"diagnose v450 a.h5 --without radiation,hot_neighbor", "did you mean 'hot_neighbour'?"},
         Row{"effects bering", "did you mean 'bearing'?"}, Row{"describe machin", "machine"},
@@ -278,6 +290,60 @@ TEST(BadInput, CommandsThatLackSomething) {
   }
 }
 
+TEST(BadInput, OptionsBeforeTheirCommand) {
+  for (auto const& [arguments, shown] : {std::pair{"--json run golden_b_2000", "run --json ..."},
+                                         {"-m v450 run golden_b_2000", "run -m ..."},
+                                         {"--tolerance=1e-5 run golden_b_2000", "run --tolerance ..."},
+                                         {"--hold-out a.h5 run golden_b_2000", "diagnose --hold-out ..."},
+                                         {"--checkpoint '2 h'", "run --checkpoint ..."}}) {
+    auto const answer = program(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find(std::string("' is an option of a command: thermotwin ") + shown), std::string::npos)
+        << answer.text;
+  }
+}
+
+/// A file that is right, where one of another kind is due.
+TEST(BadInput, FilesOfAnotherKind) {
+  tests::TemporaryDirectory const directory;
+  auto const machine = (source / "twin/machines/v450.toml").string(),
+             experiment = (source / "scenarios/catalogue/golden_b_2000.toml").string();
+  for (auto const& [arguments, message] : std::map<std::string, std::string>{
+           {"report " + machine + " -o x.html", "v450.toml: is a machine file; a measurement file is due"},
+           {"report " + experiment + " -o x.html", "golden_b_2000.toml: is an experiment; a measurement file is due"},
+           {"diagnose v450 " + machine, "v450.toml: is a machine file; a measurement file is due"},
+           {"diagnose v450 a.h5 --hold-out " + machine, "v450.toml: is a machine file; a measurement file is due"},
+           {"calibrate v450 " + experiment, "golden_b_2000.toml: is an experiment; a measurement file is due"},
+           {"fit " + machine + " --error E_Z -o m.toml", "v450.toml: is a machine file; a measurement file is due"},
+           {"run " + machine, "v450.toml: is a machine file; an experiment is due"},
+           {"run golden_b_2000 -m " + experiment, "golden_b_2000.toml: is an experiment; a machine file is due"},
+           {"campaign " + experiment + " -o x", "golden_b_2000.toml: is an experiment; a campaign is due"}}) {
+    auto const answer = tests::run_command("cd " + directory.path().string() + " && " +
+                                           std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1");
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find(message), std::string::npos) << arguments << "\n" << answer.text;
+  }
+  EXPECT_TRUE(fs::is_empty(directory.path()));
+}
+
+TEST(BadInput, AnswersThatWereCut) {
+  tests::TemporaryDirectory const directory;
+  write_text(directory / "cut.json", "{\"verdict\": {\n  \"found\": [");
+  for (std::string const command : {"report", "figure"}) {
+    auto const answer =
+        program(command + " " + (directory / "cut.json").string() + (command == "report" ? " -o x.html" : ""));
+    EXPECT_EQ(answer.code, 2) << command;
+    EXPECT_NE(answer.text.find("cut.json: damaged at line 2, column 13: not JSON"), std::string::npos) << answer.text;
+  }
+}
+
+TEST(BadInput, HelpSaysOfWhichOptionsOneIsDue) {
+  auto const help = program("challenge --help").text;
+  EXPECT_NE(help.find("\nOne of these is due:\n  -o,--output TEXT "), std::string::npos) << help;
+  EXPECT_EQ(help.find('['), help.find("[OPTIONS]")) << help;
+  EXPECT_EQ(help.rfind('['), help.find("[OPTIONS]")) << help;
+}
+
 TEST(BadInput, HelpAndVersionUnderTheirOtherNames) {
   EXPECT_EQ(program("help").text, program("--help").text);
   EXPECT_EQ(program("help run").text, program("run --help").text);
@@ -285,7 +351,7 @@ TEST(BadInput, HelpAndVersionUnderTheirOtherNames) {
 }
 
 TEST(BadInput, NumbersThatCannotBe) {
-  for (std::string const tolerance : {"-1", "0", "5", "nan"}) {
+  for (std::string const tolerance : {"-1", "0", "5", "nan", "abc"}) {
     auto const answer = program("run golden_b_2000 --tolerance " + tolerance);
     EXPECT_EQ(answer.code, 2);
     EXPECT_NE(answer.text.find("allowed is 1e-12 to 0.01"), std::string::npos) << answer.text;
@@ -307,7 +373,11 @@ TEST(BadInput, NumbersTooLargeForWhatTheyCount) {
         Row{"run golden_b_2000 --set experiment.seed=4294967297", "'seed' is 4294967297; allowed is"},
         Row{"run golden_b_2000 --set 'experiment.sampling=1 us'", "at most 1e+08 are possible"},
         Row{"run golden_b_2000 --fields fields --field-interval '0 s'", "--field-interval 0 s: a time above 0 is due"},
-        Row{"place v450 -k 3 --unseen 0", "0 unseen members; at least 1 is due"}}) {
+        Row{"place v450 -k 3 --unseen 0", "0 unseen members; at least 1 is due"},
+        Row{"place v450 -k three", "'three' is no whole number; one is due"},
+        Row{"figure a.h5 -p heat -o x.svg --height 5", "figure: --height: 5 is out of range; allowed is 20 to 1000 mm"},
+        Row{"figure a.h5 -p heat -o x.svg --width wide", "'wide' is no number; allowed is 30 to 1000 mm"},
+        Row{"view a.h5 --port 99999", "view: --port: 99999 is out of range; allowed is 0 to 65535"}}) {
     auto const answer = program(arguments);
     EXPECT_EQ(answer.code, 2) << arguments;
     EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
@@ -340,6 +410,8 @@ TEST(BadInput, FilesThatAreReadAreNeverWritten) {
       {"machine.toml", read_text(source / "twin/machines/v450.toml")},
       {"experiment", read_text(source / "scenarios/catalogue/golden_b_2000.toml")},
       {"sites.toml", "budget = 3\n"},
+      {"measurement.toml", "[[table]]\nfile = \"logged\"\n"},
+      {"logged", "what a logger wrote"},
       {"monday.h5", "a day of measurements"},
       {"model", "an error model"}};
   for (auto const& [name, text] : files) write_text(directory.path() / name, text);
@@ -351,8 +423,8 @@ TEST(BadInput, FilesThatAreReadAreNeverWritten) {
         "volumetric machine.toml --picture picture.png", "export link.h5 -o monday.h5", "export monday -o monday",
         "fit monday.h5 --error E_Z -o ./monday.h5", "fit link.h5 monday -o monday", "play monday.h5 -o $PWD/monday.h5",
         "play monday -o monday", "replay link.h5 -o monday.h5", "place machine.toml -k 3 -o link.toml",
-        "place machine.toml -k 3 --candidates sites.toml -o ./sites.toml",
-        "compensate --model model --record ./model"}) {
+        "place machine.toml -k 3 --candidates sites.toml -o ./sites.toml", "predict model measurement.toml -o logged",
+        "calibrate machine.toml measurement.toml -o logged", "compensate --model model --record ./model"}) {
     write_text(directory.path() / "monday", "a day of measurements");
     auto const answer = tests::run_command("cd " + directory.path().string() + " && " +
                                            std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1");

@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include "tests/output/temporary_directory.h"
+#include "tests/scenarios/refusal.h"
 #include "thermal/error.h"
 
 namespace thermotwin::output {
@@ -98,6 +99,27 @@ TEST(CampaignFile, RunsAreReadBackAllOrSome) {
   EXPECT_EQ(read_runs(directory / "part.h5", {"readings"}, 100).find("readings"), nullptr);
   tests::put(directory / "none.h5", "no HDF5");
   EXPECT_THROW(static_cast<void>(read_runs(directory / "none.h5", {})), thermal::InputError);
+}
+
+TEST(CampaignFile, APartIsCheckedForItsRunsAndVariables) {
+  tests::TemporaryDirectory const directory;
+  write_part(layout(), part(3, 2), directory / "part.h5");
+  auto const said = [&](CampaignLayout const& due, std::int64_t first, std::int64_t count) {
+    return tests::refusal([&] { check_part(due, first, count, directory / "part.h5"); });
+  };
+  auto const has = [](std::string const& text, std::string const& words) {
+    return text.find("part.h5' is no whole part of this campaign: " + words) != std::string::npos;
+  };
+  EXPECT_EQ(said(layout(), 3, 2), "accepted");
+  EXPECT_TRUE(has(said(layout(), 4, 2), "it does not hold the runs 4 to 5")) << said(layout(), 4, 2);
+  EXPECT_TRUE(has(said(layout(), 3, 3), "it does not hold the runs 3 to 5")) << said(layout(), 3, 3);
+  auto more = layout(), longer = layout();
+  more.variables.push_back({Kind::whole, "rows", "1", "", {}});
+  longer.axes[0].values = Eigen::VectorXd(Eigen::VectorXd::LinSpaced(4, 0.0, 180.0));
+  EXPECT_TRUE(has(said(more, 3, 2), "rows")) << said(more, 3, 2);
+  EXPECT_TRUE(has(said(longer, 3, 2), "'readings' has another shape")) << said(longer, 3, 2);
+  tests::put(directory / "part.h5", "junk");
+  EXPECT_TRUE(has(said(layout(), 3, 2), "")) << said(layout(), 3, 2);
 }
 
 TEST(CampaignFile, FailuresAreReadBack) {

@@ -124,10 +124,17 @@ TEST(DatasetWriter, TakesThePlaceOfAnInterruptedRunAndOfNothingElse) {
   expect_refusal(contents(directory / "run.h5"));
 }
 
-TEST(DatasetWriter, LeavesNothingWhenThereIsNoRow) {
+TEST(DatasetWriter, LeavesWhatWasThereWhenThereIsNoRow) {
   TemporaryDirectory const directory;
   { DatasetWriter const writer(directory / "run.h5", head()); }
   EXPECT_THAT(directory.files(), IsEmpty());
+  {
+    DatasetWriter interrupted(directory / "run.h5", head(), always);
+    interrupted.append(row_at(0));
+  }
+  auto const rows = contents(directory / "run.h5.partial");
+  { DatasetWriter const refused(directory / "run.h5", head()); }
+  EXPECT_EQ(contents(directory / "run.h5.partial"), rows);
 }
 
 TEST(DatasetWriter, RefusesADirectoryThatIsNotThereAtOnce) {

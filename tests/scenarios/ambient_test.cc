@@ -1,6 +1,7 @@
 #include "scenarios/ambient.h"
 
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/scenarios/refusal.h"
@@ -80,7 +81,7 @@ TEST(Door, IsOpenFromItsTimeToItsEnd) {
 }
 
 TEST(Ambient, RefusesTimesThatCannotBe) {
-  auto const refused = [](Ambient const& ambient) { return refusal([&] { check(ambient); }); };
+  auto const refused = [](Ambient const& ambient) { return refusal([&] { check(ambient, 0.0, 3600.0); }); };
   Ambient ambient;
   ambient.air_conditioning = AirConditioning{0.5, 0.0};
   EXPECT_EQ(refused(ambient), "ambient.air_conditioning.period: 0 min must be above 0 s");
@@ -96,11 +97,18 @@ TEST(Ambient, RefusesTimesThatCannotBe) {
 TEST(Ambient, IsThatOfARoomInWhichPeopleWork) {
   Ambient ambient;
   ambient.mean = 22.0;
-  EXPECT_EQ(refusal([&] { check(ambient); }), "ambient.mean: 22 K; allowed is -50 degC to 80 degC");
+  EXPECT_EQ(refusal([&] { check(ambient, 0.0, 3600.0); }), "ambient.mean: 22 K; allowed is -50 degC to 80 degC");
   ambient.mean = 273.15 + 2200.0;
-  EXPECT_EQ(refusal([&] { check(ambient); }), "ambient.mean: 2200 degC; allowed is -50 degC to 80 degC");
+  EXPECT_EQ(refusal([&] { check(ambient, 0.0, 3600.0); }), "ambient.mean: 2200 degC; allowed is -50 degC to 80 degC");
   ambient.mean = 273.15 + 45.0;
-  EXPECT_EQ(refusal([&] { check(ambient); }), "accepted");
+  EXPECT_EQ(refusal([&] { check(ambient, 0.0, 3600.0); }), "accepted");
+  ambient.drift = 1.0 / 60.0;
+  EXPECT_EQ(refusal([&] { check(ambient, 0.0, 1800.0); }), "accepted");
+  EXPECT_THAT(refusal([&] { check(ambient, 0.0, 3.0 * 3600.0); }), testing::StartsWith("ambient: the air reaches 80."));
+  ambient.drift = 0.0;
+  ambient.door_openings = {{600.0, 3600.0, -200.0, 300.0}};
+  EXPECT_THAT(refusal([&] { check(ambient, 0.0, 3.0 * 3600.0); }),
+              testing::StartsWith("ambient.door_openings[0].step: the air reaches 118."));
 }
 
 }  // namespace

@@ -60,6 +60,38 @@ TEST(ExperimentCourse, JumpsAtBlockBordersAndNowhereElse) {
   EXPECT_EQ(minutes, (std::vector<double>{30, 60, 90, 120, 135, 165, 195, 240}));
 }
 
+/// A pulse of ten minutes in a record of a day, of which the integrator would see nothing once all is steady.
+TEST(ExperimentCourse, BendsWhereARecordedLineDoes) {
+  Experiment e = experiment(86400.0);
+  e.driven.push_back({{"ambient.temperature", "K", "recorded"},
+                      Signal({0.0, 72000.0, 72060.0, 72600.0, 72660.0, 86400.0},
+                             {295.0, 295.0, 290.0, 290.0, 295.0, 295.0}, Interpolation::linear)});
+  ExperimentCourse const course(e, machine());
+  std::vector<double> bends;
+  for (double t = course.next_bend(0.0); t != infinity; t = course.next_bend(t)) bends.push_back(t);
+  EXPECT_EQ(bends, (std::vector<double>{72000.0, 72060.0, 72600.0, 72660.0, 86400.0}));
+}
+
+TEST(ExperimentCourse, AStepFollowsAirConditioningAndDoors) {
+  Experiment e = experiment();
+  EXPECT_EQ(ExperimentCourse(e, machine()).longest_step(), infinity);
+  e.ambient.air_conditioning = AirConditioning{0.5, 1200.0};
+  EXPECT_EQ(ExperimentCourse(e, machine()).longest_step(), 100.0);
+  e.ambient.door_openings = {{60.0, 60.0, -3.0, 150.0}};
+  EXPECT_EQ(ExperimentCourse(e, machine()).longest_step(), 75.0);
+}
+
+TEST(ExperimentCourse, ARecordedFloorTemperatureStands) {
+  Experiment e = experiment();
+  e.ambient.mean = 295.15;
+  e.driven.push_back({{"ambient.floor_temperature", "K", "recorded"}, Signal(298.15)});
+  ExperimentCourse const course(e, machine());
+  EXPECT_EQ(at(course, "ambient.floor_temperature", 0.0), 298.15);
+  EXPECT_EQ(std::count_if(course.channels().begin(), course.channels().end(),
+                          [](auto const& c) { return c.name == "ambient.floor_temperature"; }),
+            1);
+}
+
 TEST(ExperimentCourse, NextJumpIsStrictlyAfter) {
   ExperimentCourse const course(spectrum(), machine());
   EXPECT_EQ(course.next_jump(-1.0), 1800.0);

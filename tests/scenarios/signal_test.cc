@@ -32,6 +32,21 @@ TEST(Signal, JumpsOnlyWhereItsValueChanges) {
   EXPECT_TRUE(slopes().jumps().empty());
 }
 
+TEST(Signal, BendsWhereAStraightLineWouldMissIt) {
+  auto const bends = [](std::vector<double> const& values) {
+    std::vector<double> times(values.size());
+    for (std::size_t k = 0; k < times.size(); ++k) times[k] = 60.0 * double(k);
+    auto seconds = Signal(times, values, Interpolation::linear).bends();
+    for (double& t : seconds) t /= 60.0;
+    return seconds;
+  };
+  EXPECT_EQ(bends({3, 3, 3, 6, 6, 6, 3, 3, 3}), (std::vector<double>{0, 2, 3, 5, 6, 8}));
+  EXPECT_EQ(bends({0, 1, 2, 3, 4, 3, 2, 1, 0}), (std::vector<double>{0, 4, 8}));
+  EXPECT_EQ(bends({0, 1.04, 1.96, 3.04, 3.96, 5}), (std::vector<double>{0, 5}));  // but for less than a twentieth
+  EXPECT_EQ(bends({295.0, 295.08, 295.0, 295.08, 295.0}), (std::vector<double>{0, 4}));  // and 0.09 K of air
+  EXPECT_TRUE(Signal({0, 1}, {1, 2}, Interpolation::step).bends().empty());
+}
+
 TEST(Signal, APieceStandsInPlaceOfWhatWasThere) {
   auto const changed = steps().with_piece(5.0, 20.0, 3.0);
   EXPECT_EQ(changed.jumps(), (std::vector<double>{5.0, 20.0}));

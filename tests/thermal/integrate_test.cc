@@ -46,6 +46,33 @@ TEST(Integrate, AJumpOfTheInputIsMetExactly) {
 }
 
 /// Global error against tolerance: a line of slope 1 (physics.md §9; integrator's own promise).
+/// A lump of 1 ks in air that is 5 K warmer for ten minutes, on straight lines, after it has stood for a day: a ramp r
+/// from t₀ on raises it by r (s − τ(1 − e^{−s/τ})), s = t − t₀.
+TEST(Integrate, SeesWhatComesAndGoesWithinAStepWhereTheInputBends) {
+  NetworkBuilder builder;
+  int const part = builder.part("p");
+  Port const lump = builder.add_body("lump", {1000.0});
+  Port const air = builder.add_boundary({"air", 293.15, {{builder.channel("warmer"), 1.0}}});
+  builder.connect(part, lump, air, 1.0);
+  Network const network = builder.build();
+  std::vector<double> const bends = {86400.0, 86460.0, 87000.0, 87060.0};
+  auto const ramps = [&](double t, auto const& of_ramp) {
+    double sum = 0.0;
+    for (std::size_t b = 0; b < bends.size(); ++b)
+      if (t > bends[b]) sum += (b == 0 || b == 3 ? 5.0 : -5.0) / 60.0 * of_ramp(t - bends[b]);
+    return sum;
+  };
+  FunctionCourse const course(
+      {"warmer"}, [&](double t, std::span<double> values) { values[0] = ramps(t, [](double s) { return s; }); }, {},
+      bends);
+  std::vector<double> const times = {0.0, 86460.0, 87000.0, 87060.0, 90000.0};
+  IntegrationOptions options;
+  integrate(network, course, std::vector{293.15}, times, options, [&](Sample const& sample) {
+    double const due = ramps(sample.time, [](double s) { return s - 1000.0 * (1.0 - std::exp(-s / 1000.0)); });
+    EXPECT_NEAR(sample.temperatures[0] - 293.15, due, 100.0 * options.tolerance()) << sample.time;
+  });
+}
+
 TEST(Integrate, ErrorFollowsTheTolerance) {
   NetworkBuilder builder;
   int const part = builder.part("bar");

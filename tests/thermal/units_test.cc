@@ -114,6 +114,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"8 m/", "'8 m/': the unit ends too early"},
                     Refusal{"8 m^x", "'8 m^x': an integer is due after '^'"},
                     Refusal{"8 m9", "'8 m9': an exponent is 1 to 6 or -6 to -1"},
+                    Refusal{"2 104 rpm", "'2 104 rpm': unexpected '104 rpm'; a number is written without spaces"},
+                    Refusal{"8 m-2147483648", "'8 m-2147483648': an exponent is 1 to 6 or -6 to -1"},
                     Refusal{"8 m?", "'8 m?': unexpected '?'"}, Refusal{"nan mm", "'nan mm': a finite number is due"},
                     Refusal{"inf", "'inf': a finite number is due"},
                     Refusal{"1e999 m", "'1e999 m': beyond what a double holds"},

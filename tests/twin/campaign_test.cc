@@ -10,6 +10,7 @@
 #include "output/locked_file.h"
 #include "tests/end_to_end/program.h"
 #include "tests/output/temporary_directory.h"
+#include "tests/scenarios/refusal.h"
 #include "thermal/error.h"
 #include "twin/campaign/latin_hypercube.h"
 #include "twin/campaign/run_campaign.h"
@@ -306,6 +307,27 @@ TEST(Campaign, AFolderOfAnotherCampaignIsRefused) {
   EXPECT_THROW(run_campaign(campaign, {directory / "out", {}, {}, nullptr}), output::OutputError);
 }
 
+TEST(Campaign, APartThatIsNoneIsRefusedAndLeftAsItIs) {
+  TemporaryDirectory const directory;
+  auto const campaign = read(directory, example);
+  static_cast<void>(made(campaign, directory / "out", 2));
+  auto const part = directory / "out/parts/000003.h5";
+  auto const whole = contents(part);
+  for (auto const& other :
+       {std::string("junk"), whole.substr(0, whole.size() / 2), contents(directory / "out/parts/000004.h5")}) {
+    tests::put(part, other);
+    auto const what = tests::refusal([&] {
+      static_cast<void>(run_campaign(campaign, {directory / "out", {}, {}, nullptr}));
+    });
+    EXPECT_NE(what.find("000003.h5' is no whole part of this campaign: "), std::string::npos) << what;
+    EXPECT_NE(what.find("; delete the file, and its runs are made again"), std::string::npos) << what;
+    EXPECT_TRUE(contents(part) == other);
+  }
+  fs::remove(part);
+  EXPECT_EQ(run_campaign(campaign, {directory / "out", {}, {}, nullptr}).made, 7);
+  EXPECT_TRUE(contents(part) == whole);
+}
+
 TEST(Campaign, AFolderWithOtherFilesIsRefusedAndLeftAsItIs) {
   TemporaryDirectory const directory;
   auto const campaign = read(directory, example);  // its file is in the folder
@@ -382,6 +404,25 @@ TEST(Campaign, MistakesAreToldWithTheirPlace) {
   EXPECT_NE(refusal(changed("golden_b_6000", "etve")).find("give 'every'"), std::string::npos);
   EXPECT_NE(refusal(changed("count = 2", "count = 1000000000")).find("at most"), std::string::npos);
   EXPECT_NE(refusal(changed("part = 7", "prt = 7")).find("unknown key 'prt'; did you mean 'part'?"), std::string::npos);
+}
+
+TEST(Campaign, CallsABlockAsASettingDoes) {
+  auto const said = [](std::string const& path) {
+    TemporaryDirectory const directory;
+    tests::put(directory / "day.toml",
+               "machine = \"v450\"\nduration = \"2 h\"\n[spindle]\nblocks = [{duration = \"2 h\", speed = \"900 "
+               "rpm\"}]\n");
+    auto const what = tests::refusal([&] {
+      static_cast<void>(read(directory, "experiments = [\"day.toml\"]\n[[grid]]\npath = \"" + path +
+                                            "\"\nvalues = [\"900 rpm\", \"9000 rpm\"]\n"));
+    });
+    return what.substr(what.find("campaign.toml"));
+  };
+  EXPECT_EQ(said("experiment.spindle.blocks.0.speed"),
+            "campaign.toml:3:8: experiment.spindle.blocks.0.speed: 9000 rpm is above the machine's maximum, 6000 rpm");
+  EXPECT_EQ(said("experiment.spindle.blocks[0].speed"),
+            "campaign.toml:3:8: parameter 'experiment.spindle.blocks[0].speed': there is no 'blocks[0]'; did you mean "
+            "'experiment.spindle.blocks.0.speed'?");
 }
 
 /// Of long lists the first twenty are tried, but each keeps to the time axis.

@@ -57,7 +57,9 @@ TEST(FileCheck, KnowsTheNamesOfWhatIsShipped) {
   EXPECT_EQ(file_to_check("paper_004"), source / "scenarios/studies/paper_004.toml");
   EXPECT_EQ(file_to_check("v450_small"), source / "scenarios/campaigns/v450_small.toml");
   for (std::string const path : {"v450.toml", "some/v450", "v45"}) EXPECT_EQ(file_to_check(path), path);
-  EXPECT_THAT(check_files({file_to_check("v45")})[0].mistake, HasSubstr("v45: there is no such file"));
+  EXPECT_EQ(check_files({file_to_check("v45")})[0].mistake, "v45: there is no such file; did you mean 'v450'?");
+  EXPECT_EQ(check_files({file_to_check("paper_04")})[0].mistake,
+            "paper_04: there is no such file; did you mean 'paper_004'?");
 }
 
 TEST(FileCheck, WarnsOfWhatIsNotPlausible) {
@@ -152,6 +154,58 @@ TEST(FileCheck, RefusesNamesThatNoChannelCanHave) {
   EXPECT_THAT(mistake("[[heat]]\nname = \"a/b\"\nat = \"bed\"\npower = \"60 W\"\n"),
               HasSubstr("'heat.a/b' cannot be the name of a channel"));
   EXPECT_THAT(mistake("[[rotation]]\nname = \"E_Z\"\n"), HasSubstr("the name 'E_Z' is taken by a [[rotation]]"));
+}
+
+TEST(FileCheck, RefusesOneNameForTwoChannels) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& table) {
+    put(folder / "mine.toml", machine_with(table));
+    return check_files({folder / "mine.toml"})[0].mistake;
+  };
+  EXPECT_THAT(mistake("[[displacement]]\nname = \"T1\"\n"),
+              MatchesRegex(".*mine.toml:[0-9]+:8: the name 'T1' is taken by a \\[\\[temperature_sensor\\]\\]"));
+  EXPECT_THAT(mistake("[[temperature_sensor]]\nname = \"spindle.speed\"\nat = \"bed\"\n"),
+              MatchesRegex(".*mine.toml:[0-9]+:8: 'spindle.speed' is the name of an input channel; a "
+                           "\\[\\[temperature_sensor\\]\\] needs another"));
+  EXPECT_THAT(mistake("[[heat]]\nname = \"pump\"\nat = \"bed\"\npower = \"60 W\"\nwhile_on = \"pump.on\"\n"
+                      "[[temperature_sensor]]\nname = \"pump.on\"\nat = \"bed\"\n"),
+              HasSubstr("'pump.on' is the name of an input channel"));
+  EXPECT_EQ(mistake("[[temperature_sensor]]\nname = \"bed.side\"\nat = \"bed\"\n"), "");
+}
+
+TEST(FileCheck, RefusesADisplacementThatNothingMoves) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& table) {
+    put(folder / "mine.toml", machine_with("[[displacement]]\nname = \"E_Q\"\n" + table));
+    return check_files({folder / "mine.toml"})[0].mistake;
+  };
+  EXPECT_THAT(mistake(""), MatchesRegex(".*mine.toml:[0-9]+:[0-9]+: nothing moves 'E_Q'; .*"));
+  EXPECT_EQ(mistake("segment = [{ of = \"bed\", length = \"1 m\" }]\n"), "");
+  for (std::string const part : {"[[displacement_step]]\nfollows = \"spindle.running\"\nstep = \"2 um\"\n",
+                                 "[[probe_drift]]\ndrift = \"1 um/h\"\n"})
+    EXPECT_EQ(mistake(part + "name = \"jump\"\ndisplacement = \"E_Q\"\n"), "") << part;
+}
+
+TEST(FileCheck, RefusesALumpWithoutAThickness) {
+  TemporaryDirectory const folder;
+  for (std::string const edge : {"0 mm", "-20 mm"}) {
+    put(folder / "mine.toml", machine_with("[[lump]]\nname = \"plate\"\nheat_capacity = \"1 kJ/K\"\n"
+                                           "size = [\"120 mm\", \"" +
+                                           edge + "\", \"120 mm\"]\n"));
+    EXPECT_THAT(check_files({folder / "mine.toml"})[0].mistake,
+                HasSubstr("'size' is [\"120 mm\", \"" + edge + "\", \"120 mm\"]; every edge must be positive"));
+  }
+}
+
+TEST(FileCheck, TellsAMistakeOfAMachineOnce) {
+  TemporaryDirectory const folder;
+  put(folder / "mine.toml", machine_with("[[heat]]\nname = \"pump\"\nat = \"bed\"\npower = \"60 K\"\n"));
+  put(folder / "experiment.toml", "machine = \"mine.toml\"\nduration = \"1 h\"\n");
+  auto const checks = check_files({folder / "experiment.toml", folder / "mine.toml"});
+  EXPECT_EQ(checks[0].mistake, "");
+  EXPECT_EQ(checks[0].text, "an experiment of 1.00 h, not looked at together with 'mine.toml', which has a mistake");
+  EXPECT_THAT(checks[1].mistake, HasSubstr("mine.toml:"));
+  EXPECT_EQ(check_files({folder / "experiment.toml"})[0].mistake, checks[1].mistake);
 }
 
 /// What a run would refuse only when its readings are taken.

@@ -100,6 +100,16 @@ TEST_F(FitErrorModel, FindsTheErrorAndSaysOfWhatItIs) {
   EXPECT_NEAR(coefficients(fitted({{file}, "B_Y", {"T1"}}))(0), 4.0, 1e-9);
 }
 
+TEST_F(FitErrorModel, NeedsASensor) {
+  auto data = warming(1.5);
+  data.readings.clear();
+  auto const file = put_run(data, "monday.h5");
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z"});
+              }),
+              HasSubstr("monday.h5: no sensor is in it, and an error model follows sensors"));
+}
+
 TEST_F(FitErrorModel, PredictsTheSameBytesReadBack) {
   auto const monday = put_run(warming(1.5), "monday.h5"), tuesday = put_run(warming(0.7, 24.0), "tuesday.csv");
   for (auto const* error : {"E_Z", "slope z"})

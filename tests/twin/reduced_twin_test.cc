@@ -2,12 +2,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <set>
+#include <sstream>
 
 #include "output/dataset_file.h"
 #include "tests/output/temporary_directory.h"
 #include "thermal/error.h"
 #include "twin/file/document.h"
 #include "twin/live_twin.h"
+#include "twin/reduced_summary.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -139,6 +142,22 @@ TEST(ReducedTwin, StaysWithinItsBoundOnSpectraThatItHasNotSeen) {
 TEST(ReducedTwin, IsSmallerThanTheMachine) {
   EXPECT_LT(small_twin().network().size(), small_machine().network().nodes() / 3);
   EXPECT_LT(small_twin().coarse_network().size(), small_twin().network().size());
+}
+
+TEST(ReducedTwin, TableKeepsItsColumnsBesideLongTitles) {
+  auto result = small_twin().run(random_experiment(1));
+  result.dataset.truth_readings[1].long_name = "head, on the side of the operator and below the second cover";
+  std::istringstream lines(reduced_table(small_twin(), result));
+  std::set<std::size_t> columns;
+  std::size_t rows = 0;
+  for (std::string line; std::getline(lines, line);) {
+    auto const column = std::min(line.find("± "), line.find("against the full model"));
+    if (column == std::string::npos) continue;
+    columns.insert(column);
+    ++rows;
+  }
+  EXPECT_EQ(rows, 1U + 3U + 1U);  // the head, sensors, displacement
+  EXPECT_EQ(columns.size(), 1U);
 }
 
 TEST(ReducedTwin, GivesTheSameBytesWhetherItWasMadeOrReadFromDisk) {

@@ -5,6 +5,7 @@
 
 #include "output/atomic_file.h"
 #include "output/campaign_file.h"
+#include "thermal/error.h"
 
 namespace thermotwin::twin {
 
@@ -55,6 +56,17 @@ std::int64_t CampaignParts::done() const {
   return done_;
 }
 
+/// A file is written whole or not at all: what is there and is no whole part is somebody else's, or was damaged.
+/// InputError.
+void CampaignParts::check_file(std::int64_t part) {
+  std::lock_guard const lock(writing_);
+  try {
+    output::check_part(form_.layout(), first_run(part), size(part), folder_ / part_file(part));
+  } catch (thermal::InputError const& error) {
+    throw thermal::InputError(fmt::format("{}; delete the file, and its runs are made again", error.what()));
+  }
+}
+
 /// False when there is no further part. A part whose file is there is done; one whose journal is whole only needs its
 /// file.
 bool CampaignParts::open_next() {
@@ -63,6 +75,7 @@ bool CampaignParts::open_next() {
     auto const file = folder_ / part_file(next_part_);
     auto const journal = fs::path(file).replace_extension(".journal");
     if (fs::exists(file)) {
+      check_file(next_part_);
       fs::remove(journal);
       done_ += size(next_part_);
       continue;

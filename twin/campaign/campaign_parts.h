@@ -20,7 +20,7 @@ namespace thermotwin::twin {
 
 /// The runs that are still to be made by one process, and where their results go. Every result goes to the journal of
 /// its part at once; when a part is whole it is written as one file, atomically, and its journal goes. What is in a
-/// file or a journal is not made again. Threads share one object.
+/// file or a journal is not made again. InputError for a file that is no whole part. Threads share one object.
 class CampaignParts {
  public:
   CampaignParts(Campaign const& campaign, CampaignForm const& form, std::filesystem::path folder, Share share);
@@ -39,6 +39,7 @@ class CampaignParts {
 
   [[nodiscard]] std::int64_t first_run(std::int64_t part) const { return part * campaign_.runs_per_part(); }
   [[nodiscard]] std::int64_t size(std::int64_t part) const;
+  void check_file(std::int64_t part);
   bool open_next();
   void close(Part& part);
 

@@ -10,6 +10,7 @@
 #include "twin/experiment_file.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/text_file.h"
+#include "twin/file_kind.h"
 #include "twin/machine.h"
 #include "twin/run.h"
 
@@ -176,7 +177,7 @@ void Campaign::try_setting(Location const& where, std::vector<Setting> const& se
       scenarios::ExperimentCourse const course(programme, machine.limits);
     }
   } catch (thermal::InputError const& error) {
-    throw FileError(where, error.what());
+    throw FileError(where, as_setting(error.what()));
   }
 }
 
@@ -240,7 +241,7 @@ Campaign Campaign::read(fs::path const& file) {
   Value document = read_toml(file);
   campaign.text = text_of_file(file);
   make_texts(document);
-  read_fields(document, campaign.description);
+  read_file_fields(document, FileKind::campaign, campaign.description);
   auto const& description = campaign.description;
   check_keep(document, description.keep);
   if (!(description.tolerance >= finest_tolerance && description.tolerance <= coarsest_tolerance))

@@ -89,6 +89,18 @@ void vary_capacities(Value& document, Variation& vary) {
              std::string(key) == "solidity" ? 1.0 : INFINITY);
 }
 
+/// What a drawing does not show of them.
+void vary_bars(Value& document, std::uint64_t seed, std::map<std::string, double>& drawn) {
+  RandomStream stream(seed, "bars");
+  Variation vary(document, stream, 1.0, drawn);
+  for (std::string const kind : {"bar", "hollow_cylinder"})
+    for (auto* table : tables_of(document, kind)) {
+      if (!table->find("capacity_factor")) set_key(*table, "capacity_factor", 1.0);
+      vary(*table, fmt::format("{}.{}", kind, name_in(*table)), "capacity_factor", dimension::dimensionless,
+           capacity_spread);
+    }
+}
+
 bool is_coefficient(FieldRecord const& field) {
   static std::set<std::string> const others = {"grease_factor", "torque_load",     "drag_torque",
                                                "preload",       "constant_torque", "resistance"};
@@ -362,6 +374,7 @@ HiddenWorld draw_hidden_world(Value const& nominal, std::uint64_t seed, CaseKind
   world.seed = seed;
   RefinedForm const form(nominal);
   world.healthy = vary_parameters(form.document(), seed, 1.0, world.drawn);
+  vary_bars(world.healthy, seed, world.drawn);
   RandomStream sensors(seed, "sensors"), effects(seed, "effects");
   draw_sensors(world.healthy, sensors, world.drawn);
   world.hidden = world.healthy;

@@ -15,7 +15,7 @@ output::Dataset head_of(std::vector<ModelInput> const& inputs, std::string const
   head.title = "Compensation of " + axis;
   for (auto const& input : inputs)
     (input.sensor ? head.readings : head.inputs).push_back({input.name, input.unit, input.name, {}});
-  head.inputs.push_back({"support", "1", "what the offset rests on: 0 waiting, 1 good, 2 held, 3 fading, 4 off", {}});
+  head.inputs.push_back({"support", "1", "what the offset rests on: 1 good, 2 held, 3 fading, 4 off", {}});
   head.displacements = {{"error", "um", "what the model tells", {}}, {"offset", "um", "origin shift of " + axis, {}}};
   return head;
 }
@@ -55,6 +55,7 @@ output::Row CompensationRecord::row_of(Decision const& decision, Compensator con
 }
 
 void CompensationRecord::add(Decision const& decision, Compensator const& compensator) {
+  if (decision.support == Support::waiting) return;
   if (failed_ || (rows_ > 0 && decision.time <= last_)) return;
   if (rows_ == 0) first_ = decision.time;
   last_ = decision.time;

@@ -12,9 +12,10 @@ namespace thermotwin::twin {
 
 /// What a live compensation saw and decided, as a data set that grows: `thermotwin view` shows it while it goes on.
 ///
-/// A row per decision; time counts from the first one. Readings are those believed, missing while a sensor is at fault.
-/// Displacements: `error` that the model tells and `offset` that the controller shall have [µm]; inputs: those of the
-/// machine and `support` (0 waiting, 1 good, 2 held, 3 fading, 4 off).
+/// A row per decision, from the first one on for which every input had been read; time counts from that. Where it does
+/// not come to one, no file is left. Readings are those believed, missing while a sensor is at fault. Displacements:
+/// `error` that the model tells and `offset` that the controller shall have [µm]; inputs: those of the machine and
+/// `support` (1 good, 2 held, 3 fading, 4 off).
 ///
 /// A record that cannot be written is no reason to stop compensating: it says so once and ends there.
 class CompensationRecord {

@@ -103,6 +103,8 @@ std::string played_text(PlayedRun const& run) {
       run.largest_error(), run.rms_error(), run.largest_residual(), run.rms_residual(), run.worst_excess(),
       run.accepted);
   if (run.refused > 0) text += fmt::format(", {} refused", run.refused);
+  if (auto const rows = run.unmeasured(); rows > 0)
+    text += fmt::format("\n{} of {} rows are left out: no value of the error", rows, run.time.size());
   return text + "\n";
 }
 

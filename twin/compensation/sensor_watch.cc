@@ -1,12 +1,19 @@
 #include "twin/compensation/sensor_watch.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 #include "thermal/error.h"
 
 namespace thermotwin::twin {
+namespace {
+
+constexpr double most_left = 0.25;  ///< of a jump, after a leap back
+
+}  // namespace
 
 std::string_view name_of(SensorFault fault) {
   constexpr std::array<std::string_view, 6> names{"good", "missing", "stale", "stuck", "jumped", "out of range"};
@@ -21,19 +28,30 @@ SensorWatch::SensorWatch(WatchSettings const& settings) : settings_(settings) {
                     settings.lowest, settings.highest));
 }
 
-bool SensorWatch::within_reach(double value, double time, Point const& from) const {
-  return std::abs(value - from.value) <= settings_.jump + settings_.fastest * (time - from.time);
+/// A step that takes most of a jump back is a leap even where noise makes it smaller than one.
+bool SensorWatch::leapt_back(Point const& before) {
+  double const step = last_.value - before.value;
+  double const quiet = reach(std::min(last_.time - before.time, settings_.stale_time));
+  double const sum = jump_->left + step;
+  bool const leaps = std::abs(step) > quiet || std::abs(sum) <= most_left * std::abs(jump_->left);
+  if (leaps) jump_->left = sum;
+  jump_->most = std::max(jump_->most, std::abs(jump_->left));
+  return std::abs(jump_->left) <= (leaps ? quiet : most_left * jump_->most);
 }
 
 SensorFault SensorWatch::judge(double value, double time) {
   if (std::isnan(value)) return SensorFault::missing;
   if (value < settings_.lowest || value > settings_.highest) return SensorFault::out_of_range;
-  bool const leapt = last_.time > never && !within_reach(value, time, last_);
-  if (value != last_.value || last_.time == never) changed_ = time;
-  last_ = {value, time};
+  Point const before = std::exchange(last_, {value, time});
+  if (value != before.value || before.time == never) changed_ = time;
   if (!ever_read()) return SensorFault::none;
-  if (seen_ == SensorFault::jump && !leapt) return SensorFault::jump;
-  return within_reach(value, time, believed_) ? SensorFault::none : SensorFault::jump;
+  double const off = value - believed_.value;
+  bool const plausible = std::abs(off) <= reach(time - believed_.time);
+  if (!jump_ && !plausible)
+    jump_ = Jump{off, std::abs(off)};
+  else if (jump_ && leapt_back(before) && plausible)
+    jump_.reset();
+  return jump_ ? SensorFault::jump : SensorFault::none;
 }
 
 bool SensorWatch::take(double value, double time) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string_view>
 
 namespace thermotwin::twin {
@@ -35,8 +36,12 @@ struct WatchSettings {
 ///
 ///   |x − x₀| ≤ jump + fastest · (t − t₀),   (x₀, t₀) the last one believed.
 ///
-/// A fault ends with the next reading that is believed; after a jump, which time would make plausible, only a leap back
-/// ends it.
+/// A fault ends with the next reading that is believed. Not so a jump, which time would make plausible: it lasts, over
+/// readings that are missing or out of range too, until the sensor leaps back. Its leaps are added up: changes from one
+/// reading to the next beyond jump + fastest · min(Δt, stale_time); what it does in between may be its body's doing.
+/// The jump is over when a leap brings their sum below that bound, or to at most a quarter of the largest that it was,
+/// and the next reading stays there: an unplugged sensor does not see how far the body goes meanwhile, and a loose
+/// contact does not stay.
 class SensorWatch {
  public:
   /// InputError unless the highest reading is above the lowest.
@@ -59,13 +64,18 @@ class SensorWatch {
   struct Point {
     double value = 0.0, time = never;
   };
-  [[nodiscard]] bool within_reach(double value, double time, Point const& from) const;
+  struct Jump {
+    double left = 0.0, most = 0.0;  ///< sum of the leaps; its largest amount [K]
+  };
+  [[nodiscard]] double reach(double elapsed) const { return settings_.jump + settings_.fastest * elapsed; }
   [[nodiscard]] SensorFault judge(double value, double time);
+  [[nodiscard]] bool leapt_back(Point const& before);
   [[nodiscard]] bool stuck() const { return last_time_ - changed_ >= settings_.stuck_time; }
 
   WatchSettings settings_;
   SensorFault seen_ = SensorFault::none;  ///< of the last reading
   double since_ = never;                  ///< that fault
+  std::optional<Jump> jump_;              ///< that has not ended, whatever fault was seen last
   Point believed_, last_;                 ///< last_: within the range, believed or not
   double last_time_ = never, changed_ = never;
 };

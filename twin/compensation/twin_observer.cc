@@ -192,9 +192,13 @@ void TwinObserver::correct(std::span<double const> values, double elapsed) {
   auto const readings = values.last(sensors_.size());
   for (std::size_t j = 0; j < sensors_.size(); ++j) {
     if (std::isnan(readings[j])) continue;
-    if (std::isnan(zero_readings_[Index(j)])) zero_readings_[Index(j)] = readings[j];
     auto const& weights = machine_.sensors[sensors_[j]].weights;
-    double const missed = readings[j] - zero_readings_[Index(j)] - (seen(weights) - zero_seen_[j]);
+    double const change = seen(weights) - zero_seen_[j];
+    if (std::isnan(zero_readings_[Index(j)])) {
+      zero_readings_[Index(j)] = readings[j] - change;
+      continue;
+    }
+    double const missed = readings[j] - zero_readings_[Index(j)] - change;
     VectorXd const h = gradient(weights);
     VectorXd const gain = covariance_ * h / (h.dot(covariance_ * h) + variance);
     state_ += gain * missed;

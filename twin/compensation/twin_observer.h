@@ -27,8 +27,9 @@ struct ObserverOptions {
 /// order 2), its sensors taken one by one. The error is what its displacement channel makes of its nodes.
 ///
 /// The machine is at the temperature of the air around it when the first readings come; readings count as changes since
-/// then, so that constant offsets of the sensors do not matter. A sensor that is not believed is left out, and the twin
-/// goes on; an input that is missing leaves it without an estimate.
+/// then, so that constant offsets of the sensors do not matter. A sensor that is first heard later is taken to have
+/// changed by what the twin says its place has. One that is not believed is left out, and the twin goes on; an input
+/// that is missing leaves it without an estimate.
 class TwinObserver {
  public:
   /// InputError for a displacement that the machine does not have, a machine with relays (whose switching the observer
@@ -74,8 +75,8 @@ class TwinObserver {
 
   bool started_ = false;
   double time_ = 0.0;
-  Eigen::VectorXd state_, zero_readings_;
-  std::vector<double> zero_seen_;  ///< per sensor [K]
+  Eigen::VectorXd state_, zero_readings_;  ///< of a reading [degC], NaN until the sensor is heard
+  std::vector<double> zero_seen_;          ///< per sensor [K]
   Eigen::MatrixXd covariance_;
   double zero_displaced_ = 0.0;
 };

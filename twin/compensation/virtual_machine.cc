@@ -25,16 +25,22 @@ Eigen::VectorXd course_of(output::Dataset const& data, std::string const& name) 
       fmt::format("the run has no displacement '{}'; {}", name, thermal::did_you_mean(name, known)));
 }
 
+std::vector<double> measured(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  return values;
+}
+
 double largest(std::vector<double> const& values) {
   double most = 0.0;
-  for (double const value : values) most = std::max(most, std::abs(value));
+  for (double const value : measured(values)) most = std::max(most, std::abs(value));
   return most;
 }
 
 double rms(std::vector<double> const& values) {
+  auto const known = measured(values);
   double sum = 0.0;
-  for (double const value : values) sum += value * value;
-  return std::sqrt(sum / double(std::max<std::size_t>(1, values.size())));
+  for (double const value : known) sum += value * value;
+  return std::sqrt(sum / double(std::max<std::size_t>(1, known.size())));
 }
 
 std::vector<double> residuals(PlayedRun const& run) {
@@ -49,6 +55,8 @@ double PlayedRun::largest_error() const { return largest(error); }
 double PlayedRun::largest_residual() const { return largest(residuals(*this)); }
 double PlayedRun::rms_error() const { return rms(error); }
 double PlayedRun::rms_residual() const { return rms(residuals(*this)); }
+
+std::size_t PlayedRun::unmeasured() const { return error.size() - measured(error).size(); }
 
 double PlayedRun::worst_excess() const {
   double worst = 0.0;

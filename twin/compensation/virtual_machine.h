@@ -19,11 +19,13 @@ struct VirtualMachineSettings {
   FadingHold fallback;                    ///< when offsets stop coming
 };
 
-/// What a compensated run was like, one row per sample of the recorded one [µm].
+/// What a compensated run was like, one row per sample of the recorded one [µm]. Rows without an error count in none of
+/// the figures.
 struct PlayedRun {
   std::vector<double> time, error, offset;
   long accepted = 0, refused = 0;  ///< offsets
 
+  [[nodiscard]] std::size_t unmeasured() const;  ///< rows whose error is missing
   [[nodiscard]] double largest_error() const;
   [[nodiscard]] double largest_residual() const;  ///< of error + offset
   [[nodiscard]] double rms_error() const;

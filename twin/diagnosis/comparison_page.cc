@@ -63,7 +63,7 @@ std::string comparison_table(Comparison const& comparison) {
   text += "\nall channels and runs\n";
   for (auto const* unit : units)
     if (auto const gap = total(comparison, unit); gap.samples > 0)
-      text += fmt::format("  {:<14} {:>5} {:>8.3g} {:>8.3g}  {:+.0f} %\n", "", unit, gap.before, gap.after,
+      text += fmt::format("  {:<14} {:>5} {:>8.3g} {:>8.3g}  {:+.1f} %\n", "", unit, gap.before, gap.after,
                           100.0 * (gap.after / gap.before - 1.0));
   return text;
 }

@@ -99,7 +99,7 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   options.start = files.start;
   options.progress = files.progress;
   report.diagnosis = with_doubts(report.doubts, [&] { return diagnose(document, fitted, options, held_out); });
-  if (identify_nothing(report.diagnosis))
+  if (!report.diagnosis.suspicion && identify_nothing(report.diagnosis))
     report.remarks.emplace_back(
         "the data identify no number of the machine and no effect: the runs are too short, or too little happens in "
         "them; nothing can be said about what is missing");

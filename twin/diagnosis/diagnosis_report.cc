@@ -61,7 +61,8 @@ std::string words_of(Watts const& watts) {
 Json json_of(FreeHeat const& heat) {
   Json runs = Json::array();
   for (std::size_t r = 0; r < heat.heat.size(); ++r) {
-    auto const error = heat.standard_error(r);
+    Eigen::VectorXd error = heat.standard_error(r);
+    for (Eigen::Index k = 0; k < error.size(); ++k) error[k] = whole_error(error[k], heat.heat[r][k]);
     runs.push_back({{"time_s", std::vector<double>(heat.knots[r].begin(), heat.knots[r].end())},
                     {"watts", std::vector<double>(heat.heat[r].begin(), heat.heat[r].end())},
                     {"standard_error", std::vector<double>(error.begin(), error.end())}});
@@ -224,12 +225,10 @@ std::string words_of_silence(Diagnosis const& diagnosis) {
 
 /// Where they speak against what was found.
 std::string words_of_vote(Diagnosis const& diagnosis) {
-  if (!diagnosis.is_refuted()) return "";
+  if (diagnosis.vote.value_or(0.0) > -1.0) return "";
   return fmt::format(
-      "The runs held out speak against it, more than the others for it: they are likelier by calibration alone, by "
-      "{:.0f} "
-      "of 2 ln.\n\n",
-      -*diagnosis.vote);
+      "The runs held out speak against it, {}: they are likelier by calibration alone, by {:.0f} of 2 ln.\n\n",
+      diagnosis.is_refuted() ? "more than the others for it" : "though less than the others for it", -*diagnosis.vote);
 }
 
 /// "Were it the air at the machine, warmer than its record by −1.2 to 0.8 K".
@@ -267,7 +266,7 @@ std::string words_of_heat(Diagnosis const& diagnosis) {
 }
 
 /// Numbers that no longer are what the file says: "bearing.front.grease_factor = 2.04 (5.5)".
-std::string words_of_numbers(Diagnosis const& diagnosis) {
+std::vector<std::string> far_numbers(Diagnosis const& diagnosis) {
   std::vector<std::string> far;
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
     auto const& unknown = diagnosis.unknowns[u];
@@ -277,6 +276,11 @@ std::string words_of_numbers(Diagnosis const& diagnosis) {
       if (change.path == unknown.name)
         far.push_back(fmt::format("{} = {} ({:.1f})", change.path, change.text, departure));
   }
+  return far;
+}
+
+std::string words_of_numbers(Diagnosis const& diagnosis) {
+  auto const far = far_numbers(diagnosis);
   if (far.empty()) return "";
   return fmt::format(
       "Numbers that had to leave the file, by more than {:g} of their prior deviations: {}. Is the file right "
@@ -315,19 +319,22 @@ bool disagrees(Diagnosis const& diagnosis) {
 }
 
 /// That are missing, or suspected.
-std::size_t things(Diagnosis const& diagnosis) { return diagnosis.suspicion ? 1 : diagnosis.explanations.size(); }
+std::size_t things_of(Diagnosis const& diagnosis) { return diagnosis.suspicion ? 1 : diagnosis.explanations.size(); }
 
 }  // namespace
 
-std::string headline(Diagnosis::Verdict verdict, std::size_t things, bool disagrees) {
-  switch (verdict) {
+std::string headline(Diagnosis const& diagnosis) {
+  auto const things = things_of(diagnosis);
+  switch (diagnosis.verdict) {
     case Diagnosis::Verdict::nothing:
       if (things > 0) return "No effect is evident, but one is suspected.";
-      return disagrees ? "No effect is evident, though the machine leaves more than noise in parts of the data."
-                       : "Nothing is missing: the machine explains these data to within their noise.";
+      if (!far_numbers(diagnosis).empty())
+        return "No effect is evident, but numbers had to go far from what the file says.";
+      return disagrees(diagnosis)
+                 ? "No effect is evident, though the machine leaves more than noise in parts of the data."
+                 : "Nothing is missing: the machine explains these data to within their noise.";
     case Diagnosis::Verdict::none_known:
-      return things == 0 ? "Something is missing that none of the effects tried explains."
-                         : "Something is missing that none of the effects tried explains. What stands in for it:";
+      return std::string(no_name) + (things == 0 ? "" : " What stands in for it:");
     case Diagnosis::Verdict::sensor:
       return "An instrument is at fault, not the machine.";
     case Diagnosis::Verdict::effect:
@@ -339,9 +346,7 @@ std::string headline(Diagnosis::Verdict verdict, std::size_t things, bool disagr
 
 std::string report_json(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
-  Json json = {{"verdict", name_of(diagnosis.verdict)},
-               {"headline", headline(diagnosis.verdict, things(diagnosis), disagrees(diagnosis))},
-               {"effects", Json::array()}};
+  Json json = {{"verdict", name_of(diagnosis.verdict)}, {"headline", headline(diagnosis)}, {"effects", Json::array()}};
   for (std::size_t g = 0; g < diagnosis.explanations.size(); ++g)
     for (auto const& finding : diagnosis.explanations[g].alternatives) json["effects"].push_back(json_of(finding, g));
   if (auto const& suspicion = diagnosis.suspicion) {
@@ -398,6 +403,9 @@ std::string report_json(DiagnosisReport const& report) {
                                  {"standard_error", std::sqrt(diagnosis.amended.covariance(i, i))},
                                  {"prior", diagnosis.unknowns[u].deviation}});
   }
+  json["cautions"] = Json::array();
+  for (auto words : {words_of_numbers(diagnosis), words_of_loop(diagnosis), words_of_vote(diagnosis)})
+    if (!words.empty()) json["cautions"].push_back(words.substr(0, words.find_last_not_of('\n') + 1));
   json["doubts"] = doubts_json(report.doubts);
   json["remarks"] = report.remarks;
   return json.dump(2) + "\n";
@@ -405,8 +413,7 @@ std::string report_json(DiagnosisReport const& report) {
 
 std::string report_text(DiagnosisReport const& report) {
   auto const& diagnosis = report.diagnosis;
-  std::string text =
-      doubt_lines(report.doubts) + "\n" + headline(diagnosis.verdict, things(diagnosis), disagrees(diagnosis)) + "\n\n";
+  std::string text = doubt_lines(report.doubts) + "\n" + headline(diagnosis) + "\n\n";
   for (auto const& explanation : diagnosis.explanations) text += words_of(explanation) + "\n";
   text += words_of_silence(diagnosis);
   if (auto const loudest = loud_channels(diagnosis); !loudest.empty())

@@ -17,9 +17,11 @@ struct DiagnosisReport {
   std::vector<std::string> remarks;  ///< the same, of less weight
 };
 
-/// A verdict in one sentence; what stands in for something unknown follows a colon. `things`: how many are missing,
-/// stand in, or are suspected; `disagrees`: somewhere the calibrated machine leaves more than noise.
-[[nodiscard]] std::string headline(Diagnosis::Verdict verdict, std::size_t things, bool disagrees);
+/// Before what stands in for something unknown.
+inline constexpr char const* no_name = "Something is missing that none of the effects tried explains.";
+
+/// The verdict in one sentence; what stands in for something unknown follows a colon.
+[[nodiscard]] std::string headline(Diagnosis const& diagnosis);
 
 /// Verdict, effects with their intervals and weights, unaccounted heat, gaps per channel, estimates: everything, for
 /// programs.

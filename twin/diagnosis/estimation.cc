@@ -23,39 +23,12 @@ constexpr double most_lag = 900.0;      // that a sensor may have [s]
 constexpr double relative_step = 1e-4;
 constexpr int start_halvings = 4;
 
-void scale(thermal::NetworkDerivative& d, double factor) {
-  auto const times = [&](std::vector<double>& values) {
-    for (double& v : values) v *= factor;
-  };
-  times(d.capacity);
-  times(d.boundary_offset);
-  for (auto& group : d.coefficients) times(group);
-  for (auto& weights : d.boundary_weights) times(weights);
-}
-
-bool moves_tool(MachineDerivative const& derivative) {
-  return std::any_of(derivative.displacements.begin(), derivative.displacements.end(), [](auto const& weights) {
-    return std::any_of(weights.begin(), weights.end(), [](auto const& w) { return w.second != 0.0; });
-  });
-}
-
 bool changes_heat(thermal::NetworkDerivative const& d) {
   auto const any = [](std::vector<double> const& values) {
     return std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
   };
   return any(d.capacity) || any(d.boundary_offset) || std::any_of(d.coefficients.begin(), d.coefficients.end(), any) ||
          std::any_of(d.boundary_weights.begin(), d.boundary_weights.end(), any);
-}
-
-/// By more than a hundredth in a group.
-bool differs(std::vector<std::vector<double>> const& one, std::vector<std::vector<double>> const& other) {
-  for (std::size_t g = 0; g < one.size() && g < other.size(); ++g) {
-    if (one[g].empty() || one[g].size() != other[g].size()) continue;
-    Eigen::Map<Eigen::VectorXd const> const a(one[g].data(), Eigen::Index(one[g].size()));
-    Eigen::Map<Eigen::VectorXd const> const b(other[g].data(), a.size());
-    if ((a - b).norm() > 0.01 * b.norm()) return true;
-  }
-  return false;
 }
 
 /// Every sensor one second slower.
@@ -104,7 +77,7 @@ Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::
                        std::vector<ChannelNoise> const& noise)
     : document_(std::move(document)), data_(&data), channels_(channels) {
   numbers_ = uncertain_numbers(document_);
-  differentiate_numbers();
+  derivatives_ = std::make_shared<NumberDerivatives const>(document_, numbers_);
   for (auto const& run : data) {
     first_rows_.push_back(rows_);
     rows_ += run.values.size();
@@ -114,31 +87,6 @@ Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::
   first_linear_ = Eigen::Index(unknowns_.size());
   unknowns_.insert(unknowns_.end(), linear_->all().begin(), linear_->all().end());
   hear(noise);
-}
-
-void Estimation::differentiate_numbers() {
-  number_derivatives_.resize(numbers_.size());
-  is_bent_.assign(numbers_.size(), 0);
-  in_parallel(numbers_.size(), [&](std::size_t i) {
-    auto const& number = numbers_[i];
-    number_derivatives_[i] = differentiate(document_, number.path);
-    Value moved = document_;
-    double const x = std::clamp(0.5 * number.deviation, number.lower, number.upper);
-    set_number(moved, {number.path, number.nominal, number.dimension, false}, number.value(x));
-    try {
-      auto const there = differentiate(moved, number.path).network;
-      is_bent_[i] = differs(there.coefficients, number_derivatives_[i].network.coefficients) ? 1 : 0;
-    } catch (thermal::InputError const&) {  // so much of it no machine may have
-    }
-  });
-}
-
-/// How the network changes with x of a number at these estimates.
-thermal::NetworkDerivative Estimation::network_derivative(std::size_t number, Value const& at, double x) const {
-  auto const& own = numbers_[number];
-  auto derivative = is_bent_[number] ? differentiate(at, own.path).network : number_derivatives_[number].network;
-  scale(derivative, own.slope(x));
-  return derivative;
 }
 
 void Estimation::add_numbers_and_lags() {
@@ -382,9 +330,9 @@ void Estimation::add_run(std::size_t run, Traced const& traced, thermal::Paramet
       for (std::size_t c = 0; c < data.run->channels.size(); ++c)
         if (data.run->channels[c].name == channels_[unknown.index])
           column.segment(Eigen::Index(c) * rows, rows) = (prediction - slower).col(Eigen::Index(c));
-    if (unknown.kind == Unknown::Kind::number && moves_tool(number_derivatives_[unknown.index]))
-      column -= numbers_[unknown.index].slope(value) *
-                twin.growth(number_derivatives_[unknown.index].displacements).reshaped();
+    if (unknown.kind == Unknown::Kind::number)
+      if (auto const& weights = derivatives_->displacements(unknown.index); !weights.empty())
+        column -= numbers_[unknown.index].slope(value) * twin.growth(weights).reshaped();
     if (unknown.kind == Unknown::Kind::amplitude && effects_[unknown.index].is_read_directly()) {
       double const step = relative_step * std::max(std::abs(value), 1e-3);
       Eigen::VectorXd plus = traced.x;
@@ -416,7 +364,7 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const
     auto const& unknown = unknowns_[std::size_t(unknowns[k])];
     if (unknown.kind == Unknown::Kind::lag) continue;
     auto own = unknown.kind == Unknown::Kind::number
-                   ? network_derivative(unknown.index, traced->document, x[unknowns[k]])
+                   ? derivatives_->network(unknown.index, traced->document, x[unknowns[k]])
                    : amplitudes[unknown.index].network;
     if (!changes_heat(own)) continue;
     heat.push_back(thermal::lengthened(std::move(own), network));

@@ -14,6 +14,7 @@
 #include "twin/diagnosis/linear_unknowns.h"
 #include "twin/diagnosis/linearised_run.h"
 #include "twin/diagnosis/noise_model.h"
+#include "twin/diagnosis/number_derivatives.h"
 #include "twin/diagnosis/uncertain_number.h"
 #include "twin/diagnosis/unknown.h"
 #include "twin/sensitivity.h"
@@ -110,8 +111,6 @@ class Estimation {
   void add_run(std::size_t run, Traced const& traced, thermal::ParameterColumns const& heat,
                std::vector<Eigen::Index> const& heated, Linearisation& at) const;
   [[nodiscard]] std::vector<MachineDerivative> amplitude_derivatives(Eigen::VectorXd const& x) const;
-  void differentiate_numbers();
-  [[nodiscard]] thermal::NetworkDerivative network_derivative(std::size_t number, Value const& at, double x) const;
   [[nodiscard]] Fit fit_at(Eigen::VectorXd const& x, Linearisation const& at) const;
 
   Value document_;
@@ -119,8 +118,7 @@ class Estimation {
   std::vector<std::string> channels_;
   std::vector<ChannelNoise> noise_;
   std::vector<UncertainNumber> numbers_;
-  std::vector<MachineDerivative> number_derivatives_;  ///< at the nominal values
-  std::vector<char> is_bent_;  ///< the network does not follow the number in proportion: joints in series
+  std::shared_ptr<NumberDerivatives const> derivatives_;
   std::vector<Hypothesis> effects_;
   std::vector<Unknown> unknowns_;  ///< numbers and lags, what is linear, amplitudes
   std::shared_ptr<LinearUnknowns const> linear_;

@@ -11,6 +11,7 @@
 #include "thermal/error.h"
 #include "thermal/unit.h"
 #include "thermal/units.h"
+#include "twin/file/document.h"
 #include "twin/file/tables.h"
 #include "twin/file/temperature_limits.h"
 
@@ -29,10 +30,17 @@ LoadedTable load(MeasuredTable const& table, std::filesystem::path const& direct
                  std::vector<std::string>& remarks) {
   if (table.inputs.empty() && table.readings.empty())
     throw InputError(fmt::format("'{}' has neither an input nor a reading; name its columns", table.file));
-  std::vector<std::string> columns;
-  for (auto const& input : table.inputs) columns.push_back(input.column);
-  for (auto const& reading : table.readings) columns.push_back(reading.column);
+  std::vector<std::string> columns, units;
+  for (auto const& input : table.inputs) {
+    columns.push_back(input.column);
+    units.push_back(input.unit);
+  }
+  for (auto const& reading : table.readings) {
+    columns.push_back(reading.column);
+    units.push_back(std::abs(reading.factor) == 1.0 ? reading.unit : "");  // another factor converts
+  }
   auto logged = reader.read(table, scenarios::resolved_path(table.file, directory), columns);
+  scenarios::check_units(logged, table, columns, units);
   if (!logged.remark.empty()) remarks.push_back(logged.remark);
   auto const first_reading = logged.columns.begin() + std::ptrdiff_t(table.inputs.size());
   return {std::move(logged.times), {logged.columns.begin(), first_reading}, {first_reading, logged.columns.end()}};
@@ -166,6 +174,18 @@ void add_columns(MeasuredTable const& table, Value const& place, LoadedTable con
   }
 }
 
+/// As it calls itself, where its file is named.
+std::string name_of_machine(std::string const& named, std::filesystem::path const& directory) {
+  for (auto const& file : {directory / named, directory / (named + ".toml")}) {
+    if (named.empty() || file.extension() != ".toml" || !std::filesystem::is_regular_file(file)) continue;
+    try {
+      if (auto const name = name_in(read_toml(file)); !name.empty()) return name;
+    } catch (InputError const&) {  // told where the machine is read
+    }
+  }
+  return named;
+}
+
 void check_names(MeasuredData const& data) {
   std::set<std::string> names;
   auto const claim = [&](std::string const& name, std::string const& what) {
@@ -196,7 +216,7 @@ MeasuredData read_measurement_file(std::filesystem::path const& path) {
       throw FileError(words.empty() ? places[t].where : place_of(places[t], "'" + words.front() + "'"), error.what());
     }
 
-  data.machine = file.machine;
+  data.machine = name_of_machine(file.machine, directory);
   data.initial_temperature = file.initial_temperature;
   located(document, [&] {
     Window const window = window_of(file, tables);

@@ -45,10 +45,10 @@ std::string effects_text(Plan const& plan) {
       "{} of {} effects at their sites, each in its clearest shape, would be seen ({:.0f} σ or more at half of the "
       "largest plausible size).\n"
       "Hardly or not, the clearest first; kept: what calibration leaves of the signature\n\n"
-      "  {:<22} {:<44} {:>7} {:>7}\n",
+      "  {:<22} {:<44} {:>8} {:>7}\n",
       clear, plan.effects.size(), wanted_distance, "effect", "site", "seen", "kept");
   for (std::size_t e = clear; e < std::min(plan.effects.size(), clear + most_lines); ++e)
-    text += fmt::format("  {:<22} {:<44} {:>5.1f} σ {:>5.1f} %\n", plan.effects[e].hypothesis.effect->name,
+    text += fmt::format("  {:<22} {:<44} {:>6.2f} σ {:>5.1f} %\n", plan.effects[e].hypothesis.effect->name,
                         plan.effects[e].hypothesis.site, plan.effects[e].seen, 100.0 * plan.effects[e].kept);
   if (plan.effects.size() > clear + most_lines)
     text += fmt::format("  … and {} more\n", plan.effects.size() - clear - most_lines);

@@ -21,7 +21,7 @@ std::optional<double> deviation_of(std::string const& table, std::string const& 
   if (table == "film" && (key == "area" || key == "coefficient" || key == "factor")) return 0.20;
   if (of == dimension::conductance || of == dimension::film_coefficient) return 0.30;
   if (of == dimension::power) return 0.25;
-  if (key == "mass" || key == "heat_capacity") return 0.10;
+  if (key == "mass" || key == "heat_capacity" || key == "capacity_factor") return 0.10;
   return std::nullopt;
 }
 
@@ -62,10 +62,8 @@ bool is_nothing(Value const& value) {
   return (number && *number == 0.0) || (whole && *whole == 0);
 }
 
-/// A film of which the file says neither area nor coefficient is as uncertain as its correlation.
-void add_factor(Value& film) {
-  if (film.find("area") || film.find("coefficient") || film.find("factor")) return;
-  std::get<Value::Table>(film.content).push_back({"factor", film.where, {film.where, 1.0}});
+void add_factor(Value& table, char const* key) {
+  if (!table.find(key)) std::get<Value::Table>(table.content).push_back({key, table.where, {table.where, 1.0}});
 }
 
 /// Every step of the structural loop may do more or less than it was computed to.
@@ -79,8 +77,7 @@ void add_growth(Value& channel, std::string const& kind, Value const& document, 
     bool const unknown = weight && is_nothing(*weight);
     if (unknown) weight->content = 0.0;  // not a whole number: it can change
     char const* key = unknown ? "weight" : "growth_factor";
-    if (!list[i].find(key))
-      std::get<Value::Table>(list[i].content).push_back({key, list[i].where, {list[i].where, 1.0}});
+    add_factor(list[i], key);
     UncertainNumber number;
     number.path = fmt::format("{}.{}.segment.{}.{}", kind, std::get<std::string>(name->content), i, key);
     number.nominal = unknown ? 0.0 : find_number(document, number.path).value;
@@ -118,9 +115,13 @@ std::vector<UncertainNumber> uncertain_numbers(Value& document) {
     if (tables && is_list_of_tables(*tables))
       for (auto& table : std::get<Value::List>(tables->content)) action(table);
   };
+  for (std::string const kind : {"bar", "hollow_cylinder"})
+    with_tables(kind, [](Value& table) { add_factor(table, "capacity_factor"); });
   for (std::string const kind : {"lump", "bar", "hollow_cylinder", "block"})
     with_tables(kind, [&](Value& table) { add_numbers(document, kind, table, numbers); });
-  with_tables("film", add_factor);
+  with_tables("film", [](Value& film) {  // as uncertain as its correlation
+    if (!film.find("area") && !film.find("coefficient")) add_factor(film, "factor");
+  });
   for (auto const& entry : effect_catalogue())
     with_tables(entry.name, [&](Value& table) { add_numbers(document, entry.name, table, numbers); });
   for (std::string const kind : {"rotation", "displacement"})

@@ -38,7 +38,7 @@ struct UncertainNumber {
 /// | power of a loss                          | 0.25      |
 /// | area of a film, film coefficient         | 0.20      |
 /// | flow, resistance of a winding            | 0.20      |
-/// | mass, heat capacity                      | 0.10      |
+/// | mass, heat capacity, capacity_factor     | 0.10      |
 /// | growth of a segment of the loop          | 0.10      |
 ///
 /// A segment of weight 0 stands for a machine without drawings: nobody knows what this body does to the channel. Its
@@ -47,7 +47,8 @@ struct UncertainNumber {
 /// A number of which the file states a range (`[[uncertain]]`), of whatever kind but a temperature, stays within it,
 /// with the deviation of an even distribution there (JCGM 100:2008, 4.3.7).
 ///
-/// `document` gets a growth_factor of 1 wherever a segment has none, so that every path can be set.
+/// `document` gets a growth_factor, or a capacity_factor, of 1 wherever a segment or a bar has none, so that every path
+/// can be set.
 [[nodiscard]] std::vector<UncertainNumber> uncertain_numbers(Value& document);
 
 }  // namespace thermotwin::twin

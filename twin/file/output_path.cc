@@ -5,7 +5,10 @@
 #include <fmt/ranges.h>
 
 #include "output/display.h"
+#include "scenarios/recorded.h"
 #include "thermal/error.h"
+#include "twin/file/document.h"
+#include "twin/file/value.h"
 
 namespace thermotwin::twin {
 
@@ -20,6 +23,21 @@ void require_folder(fs::path const& output, fs::path const& made) {
   if (!rest.empty() && *rest.begin() != "..") return;
   throw thermal::InputError(fmt::format("cannot write '{}': there is no folder '{}'; make it, or name another one",
                                         output.string(), folder.string()));
+}
+
+/// With the tables that a measurement or an experiment names.
+std::vector<fs::path> read_with(fs::path const& file) {
+  std::vector<fs::path> files = {file};
+  if (file.extension() != ".toml" || !fs::is_regular_file(file)) return files;
+  try {
+    Value document = read_toml(file);
+    for (auto const* kind : {"table", "recorded"})
+      for (auto const* table : tables_of(document, kind))
+        for (auto const& name : texts_of(*table, "file"))
+          files.push_back(scenarios::resolved_path(name, file.parent_path()));
+  } catch (thermal::InputError const&) {  // told where it is read
+  }
+  return files;
 }
 
 [[noreturn]] void wrong_suffix(fs::path const& output, std::string_view what,
@@ -38,12 +56,13 @@ void refuse_to_overwrite(fs::path const& output, fs::path const& machine, std::v
     throw thermal::InputError(fmt::format("cannot write '{}': it is a folder; a file is due", output.string()));
   auto inputs = others;
   inputs.push_back(machine);
-  for (auto const& input : inputs)
-    if (fs::exists(input) && fs::equivalent(input, output))
-      throw thermal::InputError(
-          fmt::format("{}: that is one of the files to be read, which are never overwritten; "
-                      "name another one",
-                      output.string()));
+  for (auto const& named : inputs)
+    for (auto const& input : read_with(named))
+      if (fs::exists(input) && fs::equivalent(input, output))
+        throw thermal::InputError(
+            fmt::format("{}: that is one of the files to be read, which are never overwritten; "
+                        "name another one",
+                        output.string()));
 }
 
 void check_suffix(fs::path const& output, std::string_view what, std::vector<std::string> const& suffixes) {

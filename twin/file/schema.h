@@ -29,6 +29,7 @@ namespace thermotwin::twin {
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
+  bool without_low = false;  ///< and so is `low` itself: others are divided by the number
 };
 
 /// One field as the documentation shows it.
@@ -256,9 +257,10 @@ class FieldReader {
       throw FileError(value.where, fmt::format("'{}' is {}; it must be finite", key, value.text()));
     if (!value.is_text() && !(dimension == thermal::dimension::dimensionless))
       throw FileError(value.where, fmt::format("'{}': {}", key, thermal::missing_unit(value.text(), dimension)));
-    if (range.low >= 0.0 && result < 0.0)
-      throw FileError(value.where, fmt::format("'{}' is {}; it must not be negative (plausible: {})", key, value.text(),
-                                               range_text(range, dimension)));
+    if (range.low >= 0.0 && (result < 0.0 || (range.without_low && result == range.low)))
+      throw FileError(value.where,
+                      fmt::format("'{}' is {}; it must {} (plausible: {})", key, value.text(),
+                                  range.without_low ? "be positive" : "not be negative", range_text(range, dimension)));
     return result;
   }
 
@@ -267,7 +269,7 @@ class FieldReader {
   static std::string range_text(Range range, thermal::Dimension dimension) {
     auto const side = [&](double x) { return thermal::format_quantity(x, dimension); };
     if (std::isfinite(range.low) && std::isfinite(range.high)) return side(range.low) + " to " + side(range.high);
-    if (std::isfinite(range.low)) return "from " + side(range.low);
+    if (std::isfinite(range.low)) return (range.without_low ? "above " : "from ") + side(range.low);
     return std::isfinite(range.high) ? "up to " + side(range.high) : "any";
   }
 
@@ -408,6 +410,7 @@ std::vector<FieldRecord> list_fields() {
 
 template <class T>
 void read_fields(Value const& table, T& object) {
+  if (!table.is_table()) throw FileError(table.where, "here one table is due, as [name] begins it, not a list");
   FieldReader<T> reader(table, object);
   T::fields(reader);
   reader.finish();

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace thermotwin::twin {
 
@@ -10,5 +11,8 @@ namespace thermotwin::twin {
 /// InputError "there is no <kind> …" with the nearest name.
 [[nodiscard]] std::filesystem::path shipped_file(std::string const& kind, std::filesystem::path const& folder,
                                                  std::string const& name_or_path);
+
+/// The names of what comes with the program in such a folder, in order.
+[[nodiscard]] std::vector<std::string> shipped_names(std::filesystem::path const& folder);
 
 }  // namespace thermotwin::twin

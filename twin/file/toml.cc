@@ -60,6 +60,8 @@ Value convert(toml::node const& node, std::string const& file) {
 }  // namespace
 
 Value parse_toml(std::string_view text, std::string const& file_name) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw FileError({file_name, 0, 0}, "is written in UTF-16; UTF-8 is due");
   try {
     toml::table const table = toml::parse(text, file_name);
     return {{file_name, 1, 1}, convert_table(table, file_name)};

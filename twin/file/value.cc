@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
 
 #include "thermal/nearest_name.h"
@@ -34,6 +35,14 @@ std::vector<std::string> split(std::string_view path) {
       begin = i + 1;
     }
   return parts;
+}
+
+/// "blocks.0" of "blocks[0]", as messages call a table; any other part as it is.
+std::string with_dot(std::string const& part) {
+  auto const open = part.find('[');
+  if (open == std::string::npos || part.back() != ']' || open + 2 >= part.size()) return part;
+  auto const index = part.substr(open + 1, part.size() - open - 2);
+  return index.find_first_not_of("0123456789") == std::string::npos ? part.substr(0, open) + "." + index : part;
 }
 
 /// The table that the parts from `first` on name, all but the last, and how many of them make up its name, which may
@@ -122,6 +131,13 @@ std::pair<Value*, std::string> find_parameter(Value& document, std::string_view 
   std::size_t next = 0;
   for (; next + 1 < parts.size(); ++next) {
     Value* found = here->find(parts[next]);
+    auto const dotted = with_dot(parts[next]);
+    if (!found && dotted != parts[next] && here->find(dotted.substr(0, dotted.find('.')))) {
+      std::vector<std::string> all(parts.size());
+      std::transform(parts.begin(), parts.end(), all.begin(), with_dot);
+      throw thermal::InputError(fmt::format("parameter '{0}{1}': there is no '{2}'; did you mean '{0}{3}'?", prefix,
+                                            path, parts[next], fmt::join(all, ".")));
+    }
     if (!found) fail(fmt::format("there is no '{}'", parts[next]), here->keys(), parts[next]);
     if (found->is_list()) {
       auto& list = std::get<Value::List>(found->content);

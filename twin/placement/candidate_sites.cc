@@ -10,6 +10,7 @@
 #include "twin/assembly.h"
 #include "twin/file/document.h"
 #include "twin/file/tables.h"
+#include "twin/file_kind.h"
 #include "twin/turning_bodies.h"
 
 namespace thermotwin::twin {
@@ -165,7 +166,7 @@ class RulesCheck {
 CandidateRules read_candidate_rules(std::filesystem::path const& path) {
   Value const document = read_toml(path);
   CandidateRules rules;
-  read_fields(document, rules);
+  read_file_fields(document, FileKind::candidates, rules);
   rules.document = document;
   Tables names(document);
   for (auto const& table : names.of("site")) {
@@ -210,7 +211,8 @@ std::vector<CandidateSite> with_spares(std::vector<CandidateSite> sites, int spa
   auto const once = sites;
   for (int i = 1; i <= spares; ++i)
     for (auto const& site : once)
-      sites.push_back({site.name + (i == 1 ? " (spare)" : fmt::format(" (spare {})", i)), site.at, site.cost});
+      sites.push_back(
+          {site.name + (i == 1 ? " (spare)" : fmt::format(" (spare {})", i)), site.at, site.cost, site.shares});
   return sites;
 }
 
@@ -221,6 +223,7 @@ Value with_sensors_at(Value document, std::vector<CandidateSite> const& sites) {
     set_key(table, "name", fmt::format("candidate {}", ++number));
     set_key(table, "title", site.name);
     set_key(table, "at", list_of(site.at));
+    if (!site.shares.empty()) set_key(table, "shares", site.shares);
     append_table(document, "temperature_sensor", std::move(table));
   }
   return document;

@@ -16,6 +16,7 @@ struct CandidateSite {
   std::string name;
   std::vector<std::string> at;  ///< place on a body, as in a machine file; several: their mean; "ambient": room air
   double cost = 1.0;
+  Value::List shares = {};  ///< of its places, as a sensor of the machine has them; none: equal
 
   template <class Fields>
   static void fields(Fields& f) {

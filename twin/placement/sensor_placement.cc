@@ -48,8 +48,11 @@ class Proposal {
  public:
   Proposal(Value const& document, std::vector<CandidateSite>& sites) : sites_(sites), tables_(document) {
     Value copy = document;
-    for (auto const* table : tables_of(copy, "temperature_sensor"))
-      sensors_.push_back({name_in(*table), texts_of(*table, "at")});
+    for (auto const* table : tables_of(copy, "temperature_sensor")) {
+      auto& sensor = sensors_.emplace_back(CandidateSite{name_in(*table), texts_of(*table, "at")});
+      if (auto const* shares = table->find("shares"); shares && shares->is_list())
+        sensor.shares = std::get<Value::List>(shares->content);
+    }
   }
 
   /// The sites of these names; those that are not among the sites are appended.

@@ -94,19 +94,39 @@ std::string title_of(std::string_view kind, Json const& answer, fs::path const& 
 
 }  // namespace
 
+Json read_json(fs::path const& file) {
+  auto const text = text_of_file(file);
+  try {
+    return Json::parse(text);
+  } catch (Json::parse_error const& error) {
+    auto const before = std::string_view(text).substr(0, std::max<std::size_t>(error.byte, 1) - 1);
+    auto const line = 1 + std::count(before.begin(), before.end(), '\n');
+    auto const column = before.size() - before.rfind('\n');  // npos + 1 is 0
+    throw thermal::InputError(fmt::format("{}: damaged at line {}, column {}: not JSON", file.string(), line, column));
+  }
+}
+
+/// Without the library's name for what it complains of, which stands in brackets.
+thermal::InputError no_answer(fs::path const& file, std::exception const& error) {
+  std::string const what = error.what();
+  auto const end = what.starts_with('[') ? what.find("] ") : std::string::npos;
+  return thermal::InputError(fmt::format("{}: damaged, or no answer of thermotwin: {}", file.string(),
+                                         end == std::string::npos ? what : what.substr(end + 2)));
+}
+
 bool is_answer(fs::path const& path) { return path.extension() == ".json" || is_campaign(path); }
 
 std::string add_answer(fs::path const& file, fs::path const& machine, ReportPage& page) {
-  if (is_campaign(file)) {
-    auto const progress = campaign_progress(file), shown = campaign_json(file, page);
-    bool const done = progress["done"].get<bool>();
-    if (!done) page.add_section("progress", progress);
-    if (!shown.is_null()) page.add_section("campaign", shown);
-    if (done) page.add_section("progress", progress);
-    return (shown.is_null() ? progress : shown)["title"].get<std::string>();
-  }
   try {
-    Json const answer = Json::parse(text_of_file(file));
+    if (is_campaign(file)) {
+      auto const progress = campaign_progress(file), shown = campaign_json(file, page);
+      bool const done = progress["done"].get<bool>();
+      if (!done) page.add_section("progress", progress);
+      if (!shown.is_null()) page.add_section("campaign", shown);
+      if (done) page.add_section("progress", progress);
+      return (shown.is_null() ? progress : shown)["title"].get<std::string>();
+    }
+    Json const answer = read_json(file);
     auto const kind = kind_of(answer);
     if (kind == "diagnosis")
       page.add_section(kind, diagnosis_json(answer, file.stem().string()));
@@ -123,7 +143,9 @@ std::string add_answer(fs::path const& file, fs::path const& machine, ReportPage
                       file.string()));
     return title_of(kind, answer, file);
   } catch (Json::exception const& error) {
-    throw thermal::InputError(fmt::format("{}: damaged, or no answer of thermotwin: {}", file.string(), error.what()));
+    throw no_answer(file, error);
+  } catch (std::logic_error const&) {  // of std::stoll
+    throw thermal::InputError(fmt::format("{}: damaged: a number is none", file.string()));
   }
 }
 

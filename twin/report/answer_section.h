@@ -4,11 +4,18 @@
 #include <string>
 
 #include "output/report_page.h"
+#include "thermal/error.h"
 
 namespace thermotwin::twin {
 
 /// Whether a report shows the path as an answer: `.json`, or the folder of a campaign; else it is a data set.
 [[nodiscard]] bool is_answer(std::filesystem::path const& path);
+
+/// A file's JSON; InputError "damaged at line 2, column 1: not JSON".
+[[nodiscard]] output::Json read_json(std::filesystem::path const& file);
+
+/// What the library says of JSON that lacks something, or has something else in its place.
+[[nodiscard]] thermal::InputError no_answer(std::filesystem::path const& file, std::exception const& error);
 
 /// Adds the section for what another command answered as JSON, known by its keys: `diagnose` ("diagnosis"), `study`
 /// ("study"), `place` ("placement"), `volumetric` ("volumetric"), or how far one has come ("progress"); of a campaign's

@@ -68,18 +68,10 @@ std::string watts_text(Json const& heat) {
                      half > 0.0 ? fmt::format(" ± {:.1f}", half) : "");
 }
 
-bool disagrees(Json const& diagnosis) {
-  if (!diagnosis.contains("disagreement")) return false;
-  auto const& cells = diagnosis["disagreement"]["before"];
-  return std::any_of(cells.begin(), cells.end(), [](Json const& cell) { return cell["significant"].get<bool>(); });
-}
-
 std::string sentence(Json const& diagnosis) {
-  using Verdict = Diagnosis::Verdict;
   auto const verdict = diagnosis["verdict"].get<std::string>();
   auto const& effects = diagnosis["effects"];
-  if (verdict == "nothing")
-    return headline(Verdict::nothing, diagnosis.contains("suspicion") ? 1 : 0, disagrees(diagnosis));
+  if (verdict == "nothing") return diagnosis.value("headline", std::string("Nothing is missing."));
   if (verdict == "sensor" && diagnosis.contains("sensor"))
     return fmt::format("The sensor {} is at fault, not the machine.", diagnosis["sensor"]["name"].get<std::string>());
   if (verdict == "none_known" && diagnosis.contains("heat") && diagnosis["heat"].contains("watts_per_kelvin_of_air"))
@@ -90,9 +82,8 @@ std::string sentence(Json const& diagnosis) {
   if (verdict == "none_known" && diagnosis.contains("heat"))
     return fmt::format("Heat of {} on average into {} is missing, and none of the effects tried explains it.",
                        watts_text(diagnosis["heat"]), diagnosis["heat"]["body"].get<std::string>());
-  if (effects.empty()) return headline(Verdict::none_known, 0, true);
-  if (verdict == "none_known")
-    return fmt::format("{} {}.", headline(Verdict::none_known, effects.size(), true), missing_things(effects));
+  if (effects.empty()) return no_name;
+  if (verdict == "none_known") return fmt::format("{} What stands in for it: {}.", no_name, missing_things(effects));
   return fmt::format("The machine file lacks {}.", missing_things(effects));
 }
 
@@ -102,6 +93,11 @@ Json diagnosis_json(Json diagnosis, std::string const& name) {
   for (auto& finding : diagnosis["effects"]) explain(finding);
   if (diagnosis.contains("suspicion"))
     for (auto& finding : diagnosis["suspicion"]["effects"]) explain(finding);
+  if (diagnosis.contains("cautions")) {
+    Json remarks = diagnosis["cautions"];
+    for (auto const& remark : diagnosis["remarks"]) remarks.push_back(remark);
+    diagnosis["remarks"] = std::move(remarks);
+  }
   diagnosis["name"] = name;
   diagnosis["sentence"] = sentence(diagnosis);
   return diagnosis;

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "thermal/error.h"
+#include "thermal/nearest_name.h"
 #include "twin/file/output_path.h"
 
 namespace thermotwin::twin {
@@ -52,11 +53,22 @@ bool is_of(std::string const& curve, std::string const& name) {
   return curve == name || curve.starts_with(name + ", ");
 }
 
+/// What `only` takes.
+std::vector<std::string> curves_of(FigurePanel const& panel) {
+  std::vector<std::string> curves;
+  for (auto const& line : panel.figure.lines) add_new(curves, channel_of(line));
+  for (auto const& line : panel.figure.lines) add_new(curves, line.name);
+  return curves;
+}
+
 void keep(FigurePanel& panel, std::vector<std::string> const& names) {
   auto& lines = panel.figure.lines;
+  if (lines.empty())
+    throw thermal::InputError(fmt::format("--only: the panel '{}' has rows, and no curves to choose from", panel.name));
   for (auto const& name : names)
     if (std::none_of(lines.begin(), lines.end(), [&](auto const& line) { return is_of(line.name, name); }))
-      throw thermal::InputError(fmt::format("the panel has no curve '{}'", name));
+      throw thermal::InputError(fmt::format("the panel '{}' has no curve '{}'; {}", panel.name, name,
+                                            thermal::did_you_mean(name, curves_of(panel))));
   for (std::size_t i = lines.size(); i-- > 0;) {
     auto const& line = lines[i];
     if (std::any_of(names.begin(), names.end(), [&](auto const& name) { return is_of(line.name, name); })) continue;

@@ -11,7 +11,7 @@
 #include "output/viridis.h"
 #include "thermal/error.h"
 #include "twin/diagnosis/estimate_text.h"
-#include "twin/file/text_file.h"
+#include "twin/report/answer_section.h"
 #include "twin/report/figure_files.h"
 #include "twin/report/shown_run.h"
 
@@ -335,7 +335,7 @@ Figure drift(Json const& points) {
 
 void add_answer_panels(std::vector<FigurePanel>& panels, std::filesystem::path const& path) {
   try {
-    Json const answer = Json::parse(text_of_file(path));
+    Json const answer = read_json(path);
     if (answer.contains("heat")) panels.push_back({"unknown_heat", free_heat(answer["heat"])});
     if (answer.contains("unaccounted_heat") && !answer["unaccounted_heat"].empty())
       panels.push_back({"unaccounted_heat", free_heat(answer["unaccounted_heat"][0])});
@@ -350,7 +350,7 @@ void add_answer_panels(std::vector<FigurePanel>& panels, std::filesystem::path c
         panels.push_back({"functions_" + axis["axis"].get<std::string>(), functions(axis)});
     if (answer.contains("drift") && !answer["drift"].empty()) panels.push_back({"drift", drift(answer["drift"])});
   } catch (Json::exception const& error) {
-    throw thermal::InputError(fmt::format("{}: damaged, or no answer of thermotwin: {}", path.string(), error.what()));
+    throw no_answer(path, error);
   }
 }
 

@@ -4,14 +4,15 @@
 #include <fmt/format.h>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "output/field_mesh.h"
 #include "output/field_modes.h"
 #include "output/surface.h"
+#include "output/temporary_folder.h"
 #include "thermal/error.h"
 #include "thermal/growth_field.h"
 #include "twin/file/value.h"
+#include "twin/setting.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -25,22 +26,11 @@ constexpr int most_modes = 40;
 constexpr double least_tolerance = 0.01;     // K
 constexpr double tolerance_of_span = 0.001;  // 1
 
-/// As `run --set` did; experiment.… says nothing of the machine.
-void apply_settings(std::string const& settings, Value& document) {
-  std::istringstream lines(settings);
-  for (std::string line; std::getline(lines, line);) {
-    auto const equals = line.find('=');
-    if (equals == std::string::npos || line.starts_with("experiment.")) continue;
-    std::string value = line.substr(equals + 1);
-    if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
-    set_parameter(document, line.substr(0, equals), value);
-  }
-}
-
-/// A body's influence weights lie beside its file: with the machines that come with the program, or with the data set.
+/// A body's influence weights lie beside its file.
 Machine build_beside(std::string const& text, std::string const& settings, std::filesystem::path const& folder) {
   Value document = parse_toml(text, (folder / "machine.toml").string());
-  apply_settings(settings, document);
+  for (auto const& setting : settings_in(settings))
+    if (!setting.of_experiment()) set_parameter(document, setting.path, setting.value);
   return Machine::build(document);
 }
 
@@ -176,7 +166,12 @@ std::optional<Machine> machine_of(ShownRun const& run) {
   if (text == provenance.end()) return named_machine(run);
   auto const settings = provenance.find("settings");
   std::string const set = settings == provenance.end() ? "" : settings->second;
-  try {
+  if (auto const weights = provenance.find("machine.weights"); weights != provenance.end()) {
+    output::TemporaryFolder const folder;
+    folder.put("machine.weights", weights->second);
+    return build_beside(text->second, set, folder.path());
+  }
+  try {  // of a machine that comes with the program, or beside the data set
     return build_beside(text->second, set, machine_file("v450").parent_path());
   } catch (thermal::InputError const&) {
     return build_beside(text->second, set, run.path.parent_path());

@@ -12,6 +12,7 @@
 #include "twin/file/shipped_file.h"
 #include "twin/file/tables.h"
 #include "twin/file/value.h"
+#include "twin/file_kind.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -217,7 +218,7 @@ thermal::InputError about(StudyWorld const& world, std::string const& complaint)
 Study read_study(std::filesystem::path const& file) {
   Value const document = read_toml(file);
   Study study;
-  read_fields(document, study.description);
+  read_file_fields(document, FileKind::study, study.description);
   study.directory = file.has_parent_path() ? file.parent_path() : ".";
   check_study(document, study.description);
   for (std::size_t w = 0; w < study.description.worlds.size(); ++w)

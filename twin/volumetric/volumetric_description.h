@@ -39,7 +39,7 @@ struct HarmonicDescription {
   static void fields(Fields& f) {
     using H = HarmonicDescription;
     f("amplitude", &H::amplitude, of, "of the sine");
-    f("period", &H::period, dimension::length, "along the axis", positive);
+    f("period", &H::period, dimension::length, "along the axis", above_zero);
     f("phase", &H::phase, dimension::angle, "at `from`");
   }
 };

@@ -52,12 +52,12 @@ function roomFor(low: number, high: number): [number, number] {
 }
 
 const pointer = new Set<(x: number | null) => void>();
-const plots = new Set<uPlot>();
+const charts = new Set<Chart>();
 
-/** Ends every chart of a page that is drawn anew. */
+/** Ends every chart of a page that is drawn anew: the window would keep those that wait, with all their numbers. */
 export function forgetCharts(): void {
-  for (const plot of plots) plot.destroy();
-  plots.clear();
+  for (const chart of charts) chart.end();
+  charts.clear();
   pointer.clear();
 }
 
@@ -70,15 +70,23 @@ export function watchPointer(watcher: (x: number | null) => void): void {
 export class Chart {
   readonly element: HTMLElement;
   private plot: uPlot | null = null;
+  /** Ends its waiting, or the watch over its size. */
+  private release = (): void => {};
   private readonly host = make('div', {class: 'plot'});
   private readonly now = make('div', {class: 'now'});
 
   constructor(private readonly options: ChartOptions) {
     this.element = make('div', {class: 'chart', role: 'img', 'aria-label': options.describe}, this.host);
     this.host.style.setProperty('--height', `${options.height ?? 190}px`);
+    charts.add(this);
     this.waitUntilNear();
     options.dark.watch(() => this.redraw());
     options.time?.watch(() => this.placeNow());
+  }
+
+  end(): void {
+    this.release();
+    this.plot?.destroy();
   }
 
   redraw(): void {
@@ -95,9 +103,14 @@ export class Chart {
       if (entries.some((entry) => entry.isIntersecting)) begin();
     }, {rootMargin: '800px'});
     const begin = (): void => {
+      this.release();
+      const size = new ResizeObserver(() => this.resized());
+      size.observe(this.host);
+      this.release = () => size.disconnect();
+    };
+    this.release = () => {
       near.disconnect();
       removeEventListener('beforeprint', begin);
-      new ResizeObserver(() => this.resized()).observe(this.host);
     };
     near.observe(this.host);
     addEventListener('beforeprint', begin);
@@ -112,7 +125,7 @@ export class Chart {
     if (width === 0 || !this.element.isConnected) return;
     const height = this.options.height ?? 190;
     if (this.plot) this.plot.setSize({width, height});
-    else plots.add(this.plot = new uPlot(this.settings(width, height), this.data(), this.host));
+    else this.plot = new uPlot(this.settings(width, height), this.data(), this.host);
     this.plot.over.append(this.now);
     this.placeNow();
   }

@@ -2,7 +2,7 @@
 
 export interface Column {
   name: string;
-  values: ArrayLike<number> | string[];
+  values: ArrayLike<number | null> | string[];
 }
 
 /** Seven digits are what single precision holds. */

@@ -113,12 +113,13 @@ export interface FreeHeat {
   runs: {time_s: number[]; watts: number[]; standard_error: number[]}[];
 }
 
+/** null: of a channel without readings. */
 export interface Gap {
   run: string;
   channel: string;
   unit: string;
-  before: number;
-  after: number;
+  before: number | null;
+  after: number | null;
 }
 
 /** Of one channel in one part of a run. */
@@ -128,10 +129,10 @@ export interface Disagreement {
   unit: string;
   cut: string;
   part: string;
-  mean: number;
-  rms: number;
-  power: number;
-  p_value: number;
+  mean: number | null;
+  rms: number | null;
+  power: number | null;
+  p_value: number | null;
   significant: boolean;
 }
 
@@ -153,7 +154,7 @@ export interface DiagnosisSection {
   experiment?: string;
   experiment_distance?: number;
   experiment_wanted_distance?: number;
-  estimates: {name: string; estimate: number; standard_error: number; prior: number}[];
+  estimates: {name: string; estimate: number | null; standard_error: number | null; prior: number | null}[];
   doubts?: {run: string; channel: string; text: string}[];
   remarks: string[];
 }
@@ -231,10 +232,10 @@ export interface VolumetricSection {
   kind: 'volumetric';
   travel_mm: [number, number, number];
   compensated_by: string;
-  predictions: {method: string; remark: string; rms_um: number; largest_um: number; mape_percent: number; training_s: number}[];
+  predictions: {method: string; remark: string; rms_um: number; largest_um: number; mape_percent: number | null; training_s: number}[];
   before: VolumeState;
   after: VolumeState;
-  reduction: number;
+  reduction: number | null;
   misleading: boolean;
   field?: {points: [number, number, number]; position_mm: Components; before_um: Components; after_um: Components};
   functions?: {axis: string; position_mm: number[]; predicted_um: Components; true_um: Components}[];

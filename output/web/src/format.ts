@@ -31,6 +31,11 @@ export function valueText(value: number, unit: string): string {
   return minus(value.toFixed(small ? 2 : decimals));
 }
 
+/** As `write` has it; a dash where nobody knows the number, which JSON then has as null. */
+export function orDash(x: number | null | undefined, write: (x: number) => string): string {
+  return Number.isFinite(x) ? write(x!) : '–';
+}
+
 export function minus(text: string): string {
   return /^-0(\.0*)?$/.test(text) ? text.slice(1) : text.replace('-', '−');
 }

@@ -8,7 +8,7 @@ export function launch(): Promise<Browser> {
   return chromium.launch({executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: flags});
 }
 
-/** A page from disk, and what went wrong on it: requests beyond its own file, errors, warnings. */
+/** A page from disk, and what went wrong on it: requests beyond its own file, errors, warnings, sections not drawn. */
 export interface Opened {
   page: Page;
   complaints: string[];
@@ -30,8 +30,13 @@ export async function open(browser: Browser, file: string, width: number, theme:
   await page.locator('#page[data-ready]').waitFor({timeout: 60_000});
   if (await page.locator('.stage').count()) await page.locator('.stage .caption:not(:empty)').first().waitFor();
   await settled(page);
+  complaints.push(...await failures(page));
   return {page, complaints};
 }
+
+/** What sections that could not be drawn say. */
+export const failures = async (page: Page): Promise<string[]> =>
+  (await page.locator('.failure').allTextContents()).map((text) => `failure: ${text}`);
 
 /** Two pictures: of what is seen first, and of the whole page with every chart drawn. */
 export async function photograph(page: Page, folder: string, name: string): Promise<void> {

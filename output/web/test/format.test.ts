@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {csv} from '../src/csv';
-import {axisText, roundDown, roundTicks, statesOf, timeText, timeUnitFor, valueText} from '../src/format';
+import {axisText, orDash, roundDown, roundTicks, statesOf, timeText, timeUnitFor, valueText} from '../src/format';
 import {cividis, viridis} from '../src/colours';
 import {edgesAround} from '../src/edges';
 
@@ -15,6 +15,10 @@ test('every axis has its unit', () => {
   assert.equal(axisText('Temperature', 'degC'), 'Temperature / °C');
   assert.equal(axisText('Tilt', 'urad'), 'Tilt / µrad');
   assert.equal(axisText('Setting', '1'), 'Setting');
+});
+
+test('a number that nobody knows is a dash', () => {
+  assert.deepEqual([1.5, 0, null, undefined, NaN].map((x) => orDash(x, (known) => known.toFixed(1))), ['1.5', '0.0', '–', '–', '–']);
 });
 
 test('values have the digits of their unit and a minus sign', () => {

@@ -1,9 +1,19 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {misfit} from '../src/sections/run_data';
+import {misfit, worst} from '../src/sections/run_data';
 
 test('an offset counts in the RMS, and not in what is left when a constant is taken off', () => {
   const {rms, largest, offset, spread} = misfit('T1', 'K', [3, NaN, 5, 4]);
   assert.deepEqual([rms, largest, offset, spread], [Math.sqrt(50 / 3), 5, 4, Math.sqrt(2 / 3)]);
-  assert.ok(Number.isNaN(misfit('T1', 'K', [NaN]).spread));
+});
+
+test('of a channel without any residual nothing is known', () => {
+  const {rms, largest, offset, spread} = misfit('T1', 'K', [NaN, NaN]);
+  assert.deepEqual([rms, largest, offset, spread], [NaN, NaN, NaN, NaN]);
+});
+
+test('the worst channel is found among those of which something is known', () => {
+  const of = (name: string, x: number) => misfit(name, 'K', [x]);
+  assert.equal(worst([of('T1', 2), of('T2', NaN), of('T3', 3), of('T4', NaN), of('T5', 1)])?.name, 'T3');
+  assert.equal(worst([of('T1', NaN)]), undefined);
 });

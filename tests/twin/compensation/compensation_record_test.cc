@@ -61,6 +61,21 @@ TEST_F(Recorded, TakesThePlaceOfNoOtherRecordEvenOfAKilledOne) {
   EXPECT_TRUE(said_.empty());
 }
 
+/// As where an input does not come within --start.
+TEST_F(Recorded, LeavesNothingWhereNothingWasDecided) {
+  models::LinearForm const form{0.0, {0}, Eigen::MatrixXd::Ones(2, 1)};
+  compensator_ = Compensator(SavedModel({"linear", {"T1", "T2"}, 0.0, 2.0, form, ""}), {});
+  for (bool const stopped : {false, true}) {
+    {
+      auto waiting = record();
+      for (int i = 0; i < 3; ++i) decide(waiting);
+      if (stopped) waiting.finish();
+    }
+    EXPECT_EQ(folder_.files(), std::vector<std::string>{}) << stopped;
+  }
+  EXPECT_TRUE(said_.empty());
+}
+
 TEST_F(Recorded, OnAFullDiskItSaysSoOnceAndKeepsWhatItHas) {
   {
     auto full = record();

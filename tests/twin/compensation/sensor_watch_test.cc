@@ -83,6 +83,64 @@ TEST_F(Watched, ASpikeIsOneReadingLong) {
   warm_up(3);
 }
 
+TEST_F(Watched, AReadingThatIsMissingOrOutOfRangeEndsNoJump) {
+  warm_up(3);
+  for (double const none : {std::nan(""), 850.0}) {
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(after(value_ + 5.0 + 0.01 * i), SensorFault::jump) << i;
+    EXPECT_NE(after(none), SensorFault::none);
+    EXPECT_EQ(after(value_ + 5.0), SensorFault::jump) << none;
+  }
+  EXPECT_DOUBLE_EQ(watch_.value(), value_);
+  EXPECT_EQ(after(value_), SensorFault::none);
+}
+
+TEST_F(Watched, ALeapFurtherAwayOrHalfBackEndsNoJump) {
+  warm_up(3);
+  for (double const wrong : {5.0, 2.5, 10.0, 5.0, -5.0})
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(after(value_ + wrong + 0.01 * i), SensorFault::jump) << wrong << " " << i;
+  EXPECT_DOUBLE_EQ(watch_.value(), value_);
+  EXPECT_EQ(after(value_), SensorFault::none);
+}
+
+TEST_F(Watched, ALooseContactIsNotBelieved) {
+  warm_up(3);
+  for (double const any : {85.0, value_ + 2.0, 60.0, value_ - 7.0, 90.0})
+    EXPECT_EQ(after(any), SensorFault::jump) << any;
+  EXPECT_EQ(after(value_), SensorFault::none);
+}
+
+TEST_F(Watched, ASensorThatWasPulledOutAndReadsRightAgainIsBelieved) {
+  warm_up(3);
+  EXPECT_EQ(after(value_ + 5.0), SensorFault::jump);
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(after(std::nan("")), SensorFault::missing);
+  EXPECT_EQ(after(value_ + 0.5), SensorFault::none);
+}
+
+/// As a worn connector does: its sensor goes on with the body, off by as much as it leapt.
+TEST_F(Watched, ALeapBackCountsFromWhereTheBodyIsMeanwhile) {
+  warm_up(3);
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(after((value_ += 0.2) + 5.0), SensorFault::jump);
+  EXPECT_EQ(after(value_ += 0.2), SensorFault::none);
+  warm_up(3);
+}
+
+/// As a sensor does that shows 85 degC without its supply.
+TEST_F(Watched, MostOfTheWayBackIsEnoughForAReadingThatStays) {
+  warm_up(3);
+  for (int i = 0; i < 30; ++i) EXPECT_EQ(after(85.0), SensorFault::jump);
+  value_ += 6.0;
+  EXPECT_EQ(after(value_), SensorFault::jump);
+  warm_up(3);
+}
+
+/// 1.5 K in a minute is no leap yet.
+TEST_F(Watched, WhatOnlyJustLeaptComesBackWithLessThanALeap) {
+  warm_up(3);
+  EXPECT_EQ(after(value_ + 1.6), SensorFault::jump);
+  EXPECT_EQ(after(value_ + 1.6), SensorFault::jump);
+  EXPECT_EQ(after(value_ + 0.2), SensorFault::none);
+}
+
 TEST_F(Watched, RefusesTimesThatAreNotLater) {
   warm_up(3);
   EXPECT_FALSE(watch_.take(50.0, time_));

@@ -16,6 +16,21 @@ using tests::simulated;
 
 Machine g200() { return Machine::read(machine_file("g200")); }
 
+/// A row of a run in the order of an observer's inputs.
+std::vector<double> values_of(output::Dataset const& data, Eigen::Index row, std::vector<ModelInput> const& inputs,
+                              bool with_sensors) {
+  std::vector<double> values;
+  for (auto const& input : inputs)
+    for (auto const* channels : {&data.inputs, &data.readings})
+      for (auto const& channel : *channels)
+        if (channel.name == input.name) {
+          EXPECT_EQ(channel.unit, input.unit) << input.name;
+          values.push_back(input.sensor && !with_sensors ? std::nan("") : channel.values[row]);
+        }
+  EXPECT_EQ(values.size(), inputs.size());
+  return values;
+}
+
 /// What the observer makes of a run: its estimate of a displacement against the truth [um], with or without its
 /// sensors.
 double largest_miss(output::Dataset const& data, bool with_sensors, std::string const& machine = "g200",
@@ -23,18 +38,9 @@ double largest_miss(output::Dataset const& data, bool with_sensors, std::string 
   TwinObserver observer(Machine::read(machine_file(machine)), displacement);
   auto const truth = std::find_if(data.truth_displacements.begin(), data.truth_displacements.end(),
                                   [&](auto const& channel) { return channel.name == displacement; });
-  std::vector<output::Channel> channels = data.inputs;
-  channels.insert(channels.end(), data.readings.begin(), data.readings.end());
   double worst = 0.0;
   for (Eigen::Index row = 0; row < data.time_s.size(); ++row) {
-    std::vector<double> values;
-    for (auto const& input : observer.inputs())
-      for (auto const& channel : channels)
-        if (channel.name == input.name) {
-          EXPECT_EQ(channel.unit, input.unit) << input.name;
-          values.push_back(input.sensor && !with_sensors ? std::nan("") : channel.values[row]);
-        }
-    EXPECT_EQ(values.size(), observer.inputs().size());
+    auto const values = values_of(data, row, observer.inputs(), with_sensors);
     worst = std::max(worst, std::abs(observer.error(data.time_s[row], values) - truth->values[row]));
   }
   return worst;
@@ -72,6 +78,23 @@ TEST(TwinObserver, SensorsMakeItFollowAMachineThatIsNotQuiteIts) {
   double const alone = largest_miss(data, false), corrected = largest_miss(data, true);
   EXPECT_GT(alone, 2.0);
   EXPECT_LT(corrected, 0.5);
+}
+
+/// The twin is the machine's own, and knows what the sensor missed: 10 K.
+TEST(TwinObserver, TakesASensorThatIsHeardLateFromWhatItSeesThen) {
+  auto data = simulated("duty_003", 10.0);
+  auto& late = *std::find_if(data.readings.begin(), data.readings.end(), [](auto const& r) { return r.name == "T3"; });
+  Eigen::VectorXd const shown = late.values.array() - late.values[0];
+  constexpr Eigen::Index silent = 200, heard = 90;
+  ASSERT_GT(shown[silent], 8.0);
+  late.values.head(silent).setConstant(std::nan(""));
+  TwinObserver observer(g200(), "E_X");
+  for (Eigen::Index row = 0; row < silent + heard; ++row) {
+    static_cast<void>(observer.error(data.time_s[row], values_of(data, row, observer.inputs(), true)));
+    if (row >= silent) {
+      ASSERT_NEAR(observer.change("T3"), shown[row], 0.5) << data.time_s[row] << " s";
+    }
+  }
 }
 
 TEST(TwinObserver, InTheLoopLeavesThreeMicrometresOfTheDiameter) {

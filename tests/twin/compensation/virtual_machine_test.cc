@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "thermal/error.h"
+#include "twin/compensation/play.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -73,6 +74,23 @@ TEST(VirtualMachine, LetsGoOfTheLastOffsetWhenNoMoreCome) {
   EXPECT_DOUBLE_EQ(machine.played().offset[30], -6.0);
   EXPECT_NEAR(machine.played().offset[40], -3.0, 1e-3);
   EXPECT_DOUBLE_EQ(machine.played().offset[51], 0.0);
+}
+
+TEST(VirtualMachine, RowsWithoutAnErrorCountInNoFigure) {
+  auto gappy = run();
+  gappy.displacements[0].values.segment(20, 11).setConstant(std::nan(""));
+  VirtualMachine machine(gappy, {});
+  for (std::size_t row = 0; row < machine.rows(); ++row) {
+    static_cast<void>(machine.begin(row));
+    machine.take(offset(row < 50 ? 0.0 : -6.0, machine.time(row)));
+  }
+  auto const& played = machine.played();
+  EXPECT_EQ(played.unmeasured(), 11U);
+  EXPECT_DOUBLE_EQ(played.rms_error(), 8.0);
+  EXPECT_NEAR(played.rms_residual(), std::sqrt((40 * 64.0 + 50 * 4.0) / 90), 1e-9);
+  EXPECT_DOUBLE_EQ(played.largest_residual(), 8.0);
+  EXPECT_EQ(played.worst_excess(), 0.0);
+  EXPECT_THAT(played_text(played), testing::EndsWith("\n11 of 101 rows are left out: no value of the error\n"));
 }
 
 TEST(VirtualMachine, NamesTheDisplacementsThatItHas) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <random>
@@ -75,6 +76,15 @@ inline MeasuredRun measured(Value const& truth, scenarios::Experiment const& exp
   for (auto& sensor : machine.sensors)
     if (!sensor.description.lag) sensor.description.lag = 30.0;
   return measured_run(without_rows(run(machine, experiment, {}).dataset, gap_from, gap_to), machine, "hidden");
+}
+
+/// Value of a course's channel there [SI].
+inline double value_at(thermal::Course const& course, std::string const& name, double time) {
+  auto const& channels = course.channels();
+  std::vector<double> values(channels.size());
+  course.evaluate(time, values);
+  auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
+  return values.at(std::size_t(it - channels.begin()));
 }
 
 /// White noise on every sample: of the sensors [K], of the displacements [m].

@@ -37,6 +37,36 @@ TEST(DiagnosisReport, TellsNoGainOfADeadDisplacement) {
   EXPECT_THAT(report_text(report), Not(HasSubstr("the error of the twin at")));
 }
 
+TEST(DiagnosisReport, SaysThatRunsHeldOutSpeakAgainstIt) {
+  auto report = heat_in_the_bed();
+  report.diagnosis.explanations[0].alternatives[0].strength = 20.0;
+  report.diagnosis.vote = -8.0;
+  std::string const against =
+      "The runs held out speak against it, though less than the others for it: they are "
+      "likelier by calibration alone, by 8 of 2 ln.";
+  EXPECT_THAT(report_text(report), HasSubstr(against));
+  EXPECT_EQ(nlohmann::json::parse(report_json(report))["cautions"], nlohmann::json::array({against}));
+  report.diagnosis.vote = 8.0;
+  EXPECT_THAT(report_text(report), Not(HasSubstr("speak against")));
+}
+
+/// 30 W of iron loss in the file, and 135 W needed, is not nothing.
+TEST(DiagnosisReport, SilenceWithNumbersFarFromTheFileIsTold) {
+  auto report = heat_in_the_bed();
+  auto& diagnosis = report.diagnosis;
+  diagnosis.explanations.clear();
+  diagnosis.verdict = Diagnosis::Verdict::nothing;
+  diagnosis.unknowns = {
+      {Unknown::Kind::number, "motor_loss.stator.eddy", 0.0, 0.25, -INFINITY, INFINITY, std::size_t{0}, -1}};
+  diagnosis.changes = {{.path = "motor_loss.stator.eddy", .text = "135 W", .comment = ""}};
+  diagnosis.amended.covariance = Eigen::MatrixXd::Constant(1, 1, 0.01);
+  for (double const x : {0.5, 1.5}) {
+    diagnosis.written.x = diagnosis.amended.x = Eigen::VectorXd::Constant(1, x);
+    EXPECT_THAT(headline(diagnosis), HasSubstr(x < 1.0 ? "Nothing is missing" : "numbers had to go far"));
+  }
+  EXPECT_THAT(report_text(report), HasSubstr("motor_loss.stator.eddy = 135 W (6.0)"));
+}
+
 /// Beside something that was found, agreement in every part would read like a contradiction.
 TEST(DiagnosisReport, SaysThatAFindingMayShowInAllTogetherOnly) {
   auto report = heat_in_the_bed();

@@ -38,6 +38,7 @@ TEST(UncertainNumbers, OfTheLumpedMachineAreItsJointsFilmsLossesMassesAndGrowth)
         Expected{"motor_loss.rotor.hysteresis", 7.5, 0.25}, Expected{"belt.belt.loss", 45.0, 0.25},
         Expected{"film.head_front.area", 0.55, 0.20}, Expected{"film.motor.coefficient", 22.0, 0.20},
         Expected{"lump.column_rear.mass", 230.0, 0.10}, Expected{"lump.front_ring.heat_capacity", 282.0, 0.10},
+        Expected{"bar.test_bar.capacity_factor", 1.0, 0.10}, Expected{"bar.shaft.capacity_factor", 1.0, 0.10},
         Expected{"displacement.E_Z.segment.0.growth_factor", 1.0, 0.10},
         Expected{"displacement.E_Z.segment.6.growth_factor", 1.0, 0.10},
         Expected{"rotation.A.segment.1.growth_factor", 1.0, 0.10}}) {
@@ -45,6 +46,18 @@ TEST(UncertainNumbers, OfTheLumpedMachineAreItsJointsFilmsLossesMassesAndGrowth)
     ASSERT_TRUE(number) << path;
     EXPECT_NEAR(number->nominal, nominal, 1e-9 * nominal) << path;
     EXPECT_EQ(number->deviation, deviation) << path;
+  }
+}
+
+TEST(UncertainNumbers, ABarsCapacityFactorIsAFactorOfItsCapacities) {
+  Uncertain v450(tests::v450());
+  auto const before = Machine::build(v450.document).network().capacity();
+  auto const range = Machine::build(v450.document).network().range("test_bar");
+  set_number(v450.document, find_number(v450.document, "bar.test_bar.capacity_factor"), 1.2);
+  auto const after = Machine::build(v450.document).network().capacity();
+  for (int i = 0; i < int(before.size()); ++i) {
+    bool const inside = i >= range.first && i < range.first + range.count;
+    EXPECT_DOUBLE_EQ(after[std::size_t(i)], (inside ? 1.2 : 1.0) * before[std::size_t(i)]) << i;
   }
 }
 

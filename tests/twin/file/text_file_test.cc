@@ -28,6 +28,11 @@ TEST(TextFile, IsTomlWithSomethingInIt) {
   EXPECT_EQ(text_of_file(directory / "empty.toml"), "");
   EXPECT_THAT(refusal([&] { (void)read_toml(directory / "empty.toml"); }), EndsWith("empty.toml: the file is empty"));
   EXPECT_THAT(refusal([&] { (void)read_toml(directory / "run.h5"); }), HasSubstr("run.h5: is a data set (HDF5)"));
+  for (std::string const mark : {"\xFF\xFE", "\xFE\xFF"}) {
+    thermotwin::tests::put(directory / "wide.toml", mark + "name = \"v450\"\n");
+    EXPECT_THAT(refusal([&] { (void)read_toml(directory / "wide.toml"); }),
+                EndsWith("wide.toml: is written in UTF-16; UTF-8 is due"));
+  }
 }
 
 }  // namespace

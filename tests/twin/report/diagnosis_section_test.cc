@@ -8,14 +8,13 @@ namespace {
 
 using output::Json;
 
-TEST(DiagnosisSection, TellsThatNothingIsEvidentFromThatNothingIsLeft) {
-  Json diagnosis = Json::parse(R"({"verdict": "nothing", "effects": [],
-    "disagreement": {"before": [{"significant": false}, {"significant": true}], "after": []}})");
-  EXPECT_EQ(diagnosis_json(diagnosis, "silent")["sentence"],
-            "No effect is evident, though the machine leaves more than noise in parts of the data.");
-  diagnosis["disagreement"]["before"][1]["significant"] = false;
-  EXPECT_EQ(diagnosis_json(diagnosis, "silent")["sentence"],
-            "Nothing is missing: the machine explains these data to within their noise.");
+TEST(DiagnosisSection, TakesTheHeadlineOfSilenceAndTellsCautionsBeforeRemarks) {
+  Json const shown =
+      diagnosis_json(Json::parse(R"({"verdict": "nothing", "effects": [], "headline": "No effect is evident.",
+    "cautions": ["a number is far from the file"], "remarks": ["a gap"]})"),
+                     "silent");
+  EXPECT_EQ(shown["sentence"], "No effect is evident.");
+  EXPECT_EQ(shown["remarks"], Json::parse(R"(["a number is far from the file", "a gap"])"));
 }
 
 TEST(DiagnosisSection, TakesWhatStandsInForAnUnknownShiftForNothingFound) {

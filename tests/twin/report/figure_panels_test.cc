@@ -202,7 +202,9 @@ TEST_F(FigurePanels, AreChosenByNameAndTheirCurves) {
                              HasSubstr("\nresidual_sensor_temperatures_degC  T1, T2\n")));
   EXPECT_THAT(write_figure_files({{path}, "heat", {}, folder / "heat.pdf"}), HasSubstr("84 mm by 56 mm"));
   EXPECT_THAT(refusal({{path}, "heats", {}, folder / "x.svg"}), HasSubstr("they have input_rpm, sensor_"));
-  EXPECT_THAT(refusal({{path}, "heat", {"T1"}, folder / "x.svg"}), HasSubstr("no curve 'T1'"));
+  EXPECT_THAT(refusal({{path}, "heat", {"T1"}, folder / "x.svg"}), HasSubstr("the panel 'heat' has no curve 'T1'; "));
+  EXPECT_THAT(refusal({{path}, "sensor_temperatures_degC", {"T1", "T22"}, folder / "x.svg"}),
+              HasSubstr("no curve 'T22'; did you mean 'T2'?"));
   EXPECT_THAT(refusal({{path}, "heat", {}, path}), HasSubstr("a.h5"));
   EXPECT_FALSE(std::filesystem::exists(folder / "x.svg"));
 }

@@ -274,6 +274,7 @@ TEST_F(Report, ShowsAStudyWithoutTheValuesOfEachRepetition) {
 TEST_F(Report, TakesNoOtherJson) {
   EXPECT_THROW(report({text("other.json", "{\"verdict\": 3}")}), thermal::InputError);
   EXPECT_THROW(report({text("broken.json", "{")}), thermal::InputError);
+  EXPECT_THROW(report({text("partial.json", R"({"steps": [], "title": 3})")}), thermal::InputError);
   EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
 }
 

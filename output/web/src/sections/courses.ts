@@ -78,14 +78,18 @@ export function coursesPanel(options: CoursesOptions): HTMLElement {
   });
   const chips = chipRow(options, channels, swatchOf, chosen);
   state.selection.watch(() => chart.redraw());
-  const columns = (): Column[] => [{name: 'time_s', values: runs[0]!.channels[0]!.time},
-    ...runs.flatMap((run) => run.channels.map((c) => ({
-      name: `${runs.length > 1 ? `${run.name}.` : ''}${c.name}_${unit}`,
-      values: c.time === runs[0]!.channels[0]!.time ? c.values : Array.from(runs[0]!.channels[0]!.time, (t) => valueAt(c, t)),
-    })))];
-  const whole = panel(options.title, options.file, columns, chart.element, ...chips, runs.length > 1 && setKey(runs, state, () => (byRun() ? colourOfRun : null)));
+  const whole = panel(options.title, options.file, () => courseColumns(runs), chart.element, ...chips, runs.length > 1 && setKey(runs, state, () => (byRun() ? colourOfRun : null)));
   if (channels.length === 1) whole.querySelector('h3')!.after(chips[0]!);
   return whole;
+}
+
+/** On the reference's times: all of them, of which a constant course has but the ends. */
+export function courseColumns(runs: ShownRun[]): Column[] {
+  const {time} = runs[0]!.channels.reduce((most, c) => (c.time.length > most.time.length ? c : most));
+  return [{name: 'time_s', values: time}, ...runs.flatMap((run) => run.channels.map((c) => ({
+    name: `${runs.length > 1 ? `${run.name}.` : ''}${c.name}_${c.unit}`,
+    values: c.time === time ? c.values : Array.from(time, (t) => valueAt(c, t)),
+  })))];
 }
 
 function chipRow(options: CoursesOptions, channels: NamedCourse[], swatchOf: (i: number) => string,

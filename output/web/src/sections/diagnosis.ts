@@ -2,7 +2,7 @@ import {cividis, gradient} from '../colours';
 import type {Column} from '../csv';
 import type {DiagnosisSection, Finding, Gap} from '../data';
 import {colourBar, make, panel, trackAxis} from '../dom';
-import {roundTicks, unitText} from '../format';
+import {minus, orDash, roundTicks, unitText} from '../format';
 import type {PageState} from '../signal';
 import {disagreementPanel} from './disagreement';
 import {freeHeatPanel} from './free_heat';
@@ -36,7 +36,7 @@ export function diagnosisSection(section: DiagnosisSection, state: PageState): H
       make('div', {}, make('p', {class: 'tag'}, tagOf(section)), make('h2', {}, section.sentence)),
       make('dl', {class: 'figures'},
         figure('gap before', size(before)), figure('gap after', size(after)),
-        section.verdict !== 'nothing' && figure('left of it', `${((100 * after) / before).toFixed(0)} %`)),
+        section.verdict !== 'nothing' && before > 0 && figure('left of it', `${((100 * after) / before).toFixed(0)} %`)),
       make('p', {class: 'remark'}, `Gap: root mean square over all channels ${section.gaps.held_out.length ? 'held out' : 'fitted'}, ${unitsOf([...section.gaps.fitted, ...section.gaps.held_out])}; one constant per channel and run taken off.`),
       ...actsOn(section.where).map((words) => make('p', {class: 'remark'}, words))),
     make('div', {class: 'flow'}, ...panels),
@@ -59,7 +59,7 @@ function actsOn(where: DiagnosisSection['where']): string[] {
 /** Of a file, as commands name it. */
 const stem = (path: string): string => path.replace(/^.*\//, '').replace(/\.toml$/, '');
 
-const size = (x: number): string => (x < 10 ? x.toFixed(2) : x.toFixed(1));
+const size = (x: number | null): string => orDash(x, (known) => known.toFixed(known < 10 ? 2 : 1));
 
 function figure(label: string, value: string): HTMLElement {
   return make('div', {}, make('dt', {}, label), make('dd', {}, value));
@@ -119,12 +119,12 @@ function gapColumns(gaps: Gap[]): Column[] {
   ];
 }
 
-/** A row per channel: from the ring, before, to the disc, after. */
+/** A row per channel: from the ring, before, to the disc, after; neither where nothing was read. */
 function gapPanel(title: string, file: string, gaps: Gap[]): HTMLElement {
   const units = [...new Set(gaps.map((g) => g.unit))], runs = [...new Set(gaps.map((g) => g.run))];
   const blocks = runs.flatMap((run) => units.map((unit) => {
     const all = gaps.filter((g) => g.unit === unit), shown = all.filter((g) => g.run === run);
-    const ticks = roundTicks(0, Math.max(...all.map((g) => Math.max(g.before, g.after)))), highest = ticks[ticks.length - 1]!;
+    const ticks = roundTicks(0, Math.max(...all.map((g) => Math.max(g.before ?? 0, g.after ?? 0)))), highest = ticks[ticks.length - 1]!;
     return shown.length > 0 && make('div', {class: 'gap-block'},
       make('p', {class: 'label'}, runs.length > 1 || units.length > 1 ? `${run}, ${unitText(unit)}` : unitText(unit)),
       ...shown.map((gap) => gapRow(gap, highest)), gapAxis(ticks, `RMS / ${unitText(unit)}`));
@@ -133,15 +133,20 @@ function gapPanel(title: string, file: string, gaps: Gap[]): HTMLElement {
   ...blocks);
 }
 
-function gapRow(gap: Gap, highest: number): HTMLElement {
+function gapRow({channel, before, after}: Gap, highest: number): HTMLElement {
+  const marks = before === null || after === null ? [] : fromTo(before, after, highest);
+  return make('div', {class: 'gap-row'}, make('span', {}, channel), make('span', {class: 'track'}, ...marks),
+    make('span', {class: 'number'}, marks.length > 0 ? `${size(before)} → ${size(after)}` : '–'));
+}
+
+function fromTo(before: number, after: number, highest: number): HTMLElement[] {
   const at = (x: number): string => `${(100 * x) / highest}%`;
-  const line = make('i', {class: `link ${gap.after > gap.before ? 'worse' : ''}`}), ring = make('i', {class: 'ring'}), disc = make('i', {class: 'disc'});
-  line.style.left = at(Math.min(gap.before, gap.after));
-  line.style.width = at(Math.abs(gap.before - gap.after));
-  ring.style.left = at(gap.before);
-  disc.style.left = at(gap.after);
-  return make('div', {class: 'gap-row'}, make('span', {}, gap.channel), make('span', {class: 'track'}, line, ring, disc),
-    make('span', {class: 'number'}, `${size(gap.before)} → ${size(gap.after)}`));
+  const line = make('i', {class: `link ${after > before ? 'worse' : ''}`}), ring = make('i', {class: 'ring'}), disc = make('i', {class: 'disc'});
+  line.style.left = at(Math.min(before, after));
+  line.style.width = at(Math.abs(before - after));
+  ring.style.left = at(before);
+  disc.style.left = at(after);
+  return [line, ring, disc];
 }
 
 function gapAxis(ticks: number[], label: string): HTMLElement {
@@ -159,11 +164,11 @@ function unitsOf(gaps: Gap[]): string {
 function residualHeatMap(gaps: Gap[]): HTMLElement | false {
   if (gaps.length === 0) return false;
   const channels = [...new Set(gaps.map((g) => g.channel))], runs = [...new Set(gaps.map((g) => g.run))];
-  const scaled = (gap: Gap, x: number): number => (gap.unit === 'K' ? 10 * x : x);
+  const scaled = (gap: Gap, x: number | null): number => (gap.unit === 'K' ? 10 : 1) * (x ?? 0);
   const ticks = roundTicks(0, Math.max(...gaps.map((g) => Math.max(scaled(g, g.before), scaled(g, g.after)))));
   const highest = ticks[ticks.length - 1]!;
-  const cell = (gap: Gap | undefined, x: number | undefined): HTMLElement => {
-    if (!gap || x === undefined) return make('td', {}, '–');
+  const cell = (gap: Gap | undefined, x: number | null | undefined): HTMLElement => {
+    if (!gap || x === null || x === undefined) return make('td', {}, '–');
     return heatCell(scaled(gap, x) / highest, `${x.toPrecision(3)} ${unitText(gap.unit)}`, size(x));
   };
   const rows = channels.map((channel) => {
@@ -181,9 +186,9 @@ function residualHeatMap(gaps: Gap[]): HTMLElement | false {
 
 function estimatesPanel(section: DiagnosisSection): HTMLElement {
   const estimates = section.estimates;
-  const known = estimates.filter((e) => e.standard_error < 0.5 * e.prior);
+  const known = estimates.filter((e) => e.standard_error !== null && e.prior !== null && e.standard_error < 0.5 * e.prior);
   const rows = (known.length ? known : estimates).map((e) => make('tr', {}, make('th', {scope: 'row'}, e.name),
-    ...[e.estimate, e.standard_error, e.prior].map((x) => make('td', {class: 'number'}, x.toPrecision(2).replace('-', '−')))));
+    ...[e.estimate, e.standard_error, e.prior].map((x) => make('td', {class: 'number'}, orDash(x, (number) => minus(number.toPrecision(2)))))));
   return panel('Unknowns of the final fit', 'estimates', () => [
     {name: 'name', values: estimates.map((e) => e.name)}, {name: 'estimate', values: estimates.map((e) => e.estimate)},
     {name: 'standard_error', values: estimates.map((e) => e.standard_error)}, {name: 'prior', values: estimates.map((e) => e.prior)},

@@ -1,7 +1,7 @@
 import {cividis, gradient} from '../colours';
 import type {Disagreement} from '../data';
 import {colourBar, make, panel} from '../dom';
-import {minus, unitText} from '../format';
+import {minus, orDash, unitText} from '../format';
 import {heatCell} from './heat_cell';
 
 const cuts: Record<string, string> = {regime: 'by regime', speed: 'by speed', time: 'over time'};
@@ -50,9 +50,10 @@ function table(all: Disagreement[], left: Map<string, Disagreement>): HTMLElemen
 }
 
 function cell(found: Disagreement, after: Disagreement | undefined, unit: string): HTMLElement {
-  const share = Math.min(1, Math.max(0, Math.log10(found.power) / Math.log10(largest_power)));
-  const mean = minus(found.mean.toFixed(Math.abs(found.mean) < 10 ? 2 : 1));
-  const words = [`mean ${mean} ${unit}, RMS ${found.rms.toPrecision(3)} ${unit}`,
-    `power ${found.power.toPrecision(3)}${after ? `, with the effects ${after.power.toPrecision(3)}` : ''}`];
+  const share = Math.min(1, Math.max(0, Math.log10(found.power ?? 1) / Math.log10(largest_power)));
+  const mean = orDash(found.mean, (x) => minus(x.toFixed(Math.abs(x) < 10 ? 2 : 1)));
+  const precise = (x: number | null): string => orDash(x, (known) => known.toPrecision(3));
+  const words = [`mean ${mean} ${unit}, RMS ${precise(found.rms)} ${unit}`,
+    `power ${precise(found.power)}${after ? `, with the effects ${precise(after.power)}` : ''}`];
   return heatCell(share, `${found.run}, ${found.channel}, ${found.part}: ${words.join('; ')}`, found.significant ? make('strong', {}, mean) : mean);
 }

@@ -22,8 +22,16 @@ const drawers: Record<string, Drawer> = {
   volumetric: (section: VolumetricSection, _: Numbers, state: PageState) => volumetricSection(section, state),
 };
 
+/** A section that cannot be drawn says so in its place, and leaves the others as they are. */
 export function drawSection(section: {kind: string}, numbers: Numbers, state: PageState): HTMLElement {
   const drawer = drawers[section.kind];
-  return drawer ? drawer(section as never, numbers, state)
-    : make('p', {class: 'remark'}, `This page cannot draw a section of kind “${section.kind}”.`);
+  if (!drawer) return failure(`This page cannot draw a section of kind “${section.kind}”.`);
+  try {
+    return drawer(section as never, numbers, state);
+  } catch (error) {
+    console.error(error);
+    return failure(`This section, of kind “${section.kind}”, could not be drawn: ${String(error)}`);
+  }
 }
+
+const failure = (text: string): HTMLElement => make('p', {class: 'remark failure'}, text);

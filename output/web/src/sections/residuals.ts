@@ -55,10 +55,10 @@ export function misfitWords(differences: Difference[]): HTMLElement[] {
 /** RMS, with and without a constant, and largest residual per channel, a row each. */
 export function misfitTable(runs: {name: string; misfits: Misfit[]}[], state: PageState): HTMLElement {
   const largest: Record<string, number> = {};
-  for (const {misfits} of runs) for (const m of misfits) largest[m.unit] = Math.max(largest[m.unit] ?? 0, m.rms);
+  for (const {misfits} of runs) for (const m of misfits) largest[m.unit] = Math.max(largest[m.unit] ?? 0, m.rms || 0);
   const bar = (m: Misfit): HTMLElement => {
     const strip = make('i', {class: 'bar'});
-    strip.style.width = `${(100 * m.rms) / (largest[m.unit] || 1)}%`;
+    strip.style.width = `${(100 * (m.rms || 0)) / (largest[m.unit] || 1)}%`;
     return strip;
   };
   const rows = runs.flatMap((run) => run.misfits.map((m) => make('tr', {},

@@ -79,6 +79,7 @@ export function tellingTime(runs: Run[]): number {
   return best;
 }
 
+/** Of a residual; NaN where nothing of it is known. */
 export interface Misfit {
   name: string;
   unit: string;
@@ -91,9 +92,14 @@ export interface Misfit {
 }
 
 export function misfit(name: string, unit: string, difference: ArrayLike<number>): Misfit {
-  const [low, high] = extent([difference]), known = Array.from(difference).filter(Number.isFinite), offset = mean(known);
+  const known = Array.from(difference).filter(Number.isFinite), offset = mean(known);
   return {
-    name, unit, rms: rootMeanSquare(known), largest: Math.max(Math.abs(low), Math.abs(high)),
+    name, unit, rms: rootMeanSquare(known), largest: known.reduce((most, x) => Math.max(most, Math.abs(x)), known.length > 0 ? 0 : NaN),
     offset, spread: rootMeanSquare(known.map((x) => x - offset)),
   };
+}
+
+/** Of those whose misfit is known. */
+export function worst(misfits: Misfit[]): Misfit | undefined {
+  return misfits.filter((m) => Number.isFinite(m.rms)).sort((a, b) => b.rms - a.rms)[0];
 }

@@ -9,7 +9,7 @@ import {bodyPanel} from './body';
 import {coursesPanel, residualRuns} from './courses';
 import {positioningPanels} from './positioning';
 import {misfitTable, misfitWords, residualMap} from './residuals';
-import {misfit, runsOf, shownInputs, tellingTime, timeRange, type NamedCourse, type Run} from './run_data';
+import {misfit, runsOf, shownInputs, tellingTime, timeRange, worst, type NamedCourse, type Run} from './run_data';
 
 /** A unit in the name of a panel and of its file, as `figure` has it. */
 const filePart = (unit: string): string => unit.replace(/\W/g, '_');
@@ -111,8 +111,8 @@ function heatPanel(run: Run, runs: Run[], state: PageState, range: [number, numb
 /** With several data sets, the channel that disagrees most is chosen to begin with. */
 function chooseWorst(runs: Run[], state: PageState): void {
   const differences = residualRuns(runs, (run) => run.readings).flatMap((run) => run.channels);
-  const worst = differences.map((c) => misfit(c.name, c.unit, c.values)).sort((a, b) => b.rms - a.rms)[0];
-  if (worst && Number.isFinite(worst.rms)) state.selection.value = {kind: 'sensor', name: worst.name};
+  const chosen = worst(differences.map((c) => misfit(c.name, c.unit, c.values)));
+  if (chosen) state.selection.value = {kind: 'sensor', name: chosen.name};
 }
 
 function factsPanel(runs: Run[]): HTMLElement {

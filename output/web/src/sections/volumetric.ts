@@ -5,7 +5,7 @@ import {gradient, setColours, viridisLines} from '../colours';
 import {extent} from '../course';
 import {colourBar, make, panel, trackAxis} from '../dom';
 import type {Components, VolumetricSection} from '../data';
-import {grouped, roundDown, roundTicks, timeUnitFor} from '../format';
+import {grouped, orDash, roundDown, roundTicks, timeUnitFor} from '../format';
 import type {PageState} from '../signal';
 import {card, remark, short} from './card';
 
@@ -18,7 +18,7 @@ export function volumetricSection(section: VolumetricSection, state: PageState):
     card('Error in the volume', section.misleading ? 'none_known' : 'nothing',
       `Compensation takes the largest error in the volume from ${short(before.grid_largest_um)} to ${short(after.grid_largest_um)} µm.`, [
         ['RMS before', `${short(before.grid_rms_um)} µm`], ['RMS after', `${short(after.grid_rms_um)} µm`],
-        ['largest, less by', `${(100 * section.reduction).toFixed(0)} %`]], ...section.remarks.map(remark)),
+        ['largest, less by', orDash(section.reduction, (x) => `${(100 * x).toFixed(0)} %`)]], ...section.remarks.map(remark)),
     section.field ? fieldPanel(section.field, state) : remark('No field is drawn: this file holds none.'),
     make('div', {class: 'flow'}, diagonalsPanel(section), ...(section.functions ?? []).map((f) => functionsPanel(f, state)),
       section.drift.length > 0 && driftPanel(section, state), predictionsPanel(section)));

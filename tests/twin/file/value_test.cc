@@ -1,0 +1,27 @@
+#include "twin/file/value.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/scenarios/refusal.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using thermotwin::tests::refusal;
+
+/// Messages call the first block "blocks[0]"; a parameter's path has it as "blocks.0".
+TEST(Value, OffersThePathOfATableWithoutName) {
+  auto const said = [](std::string const& path) {
+    Value document = parse_toml("[spindle]\nblocks = [{ duration = \"1 h\" }]\n", "day.toml");
+    return refusal([&] { set_parameter(document, path, "900 rpm", "experiment."); });
+  };
+  EXPECT_EQ(said("spindle.blocks.0.speed"), "accepted");
+  EXPECT_EQ(said("spindle.blocks[0].speed"),
+            "parameter 'experiment.spindle.blocks[0].speed': there is no 'blocks[0]'; did you mean "
+            "'experiment.spindle.blocks.0.speed'?");
+  EXPECT_EQ(said("spindle.block[0].speed"),
+            "parameter 'experiment.spindle.block[0].speed': there is no 'block[0]'; known: 'blocks'");
+}
+
+}  // namespace
+}  // namespace thermotwin::twin
