@@ -404,7 +404,7 @@ std::string report_json(DiagnosisReport const& report) {
                                  {"prior", diagnosis.unknowns[u].deviation}});
   }
   json["cautions"] = Json::array();
-  for (auto words : {words_of_numbers(diagnosis), words_of_loop(diagnosis), words_of_vote(diagnosis)})
+  for (auto const& words : {words_of_numbers(diagnosis), words_of_loop(diagnosis), words_of_vote(diagnosis)})
     if (!words.empty()) json["cautions"].push_back(words.substr(0, words.find_last_not_of('\n') + 1));
   json["doubts"] = doubts_json(report.doubts);
   json["remarks"] = report.remarks;
