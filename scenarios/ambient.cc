@@ -32,6 +32,15 @@ double draught(DoorOpening const& door, double t) {
   return door.step * -std::expm1(-open / door.time_constant) * std::exp(-closed / door.time_constant);
 }
 
+/// From the mean, were all that changes the air to do so at once [K].
+double largest_departure(Ambient const& ambient, double duration) {
+  double sum = std::abs(ambient.drift) * duration;
+  if (ambient.daily_cycle) sum += std::abs(ambient.daily_cycle->amplitude);
+  if (ambient.air_conditioning) sum += std::abs(ambient.air_conditioning->amplitude);
+  for (DoorOpening const& door : ambient.door_openings) sum += std::abs(door.step);
+  return sum;
+}
+
 void require_air(double temperature, std::string const& place) {
   if (temperature >= coldest_air && temperature <= hottest_air) return;
   throw InputError(place + format_temperature(temperature) + "; allowed is " + format_temperature(coldest_air) +
@@ -72,6 +81,8 @@ void check(Ambient const& ambient, double start_time_of_day, double duration) {
     require_air(air_temperature(ambient, start_time_of_day, std::min(door.time + door.duration, duration)),
                 place + "step: the air reaches ");
   }
+  double const most = largest_departure(ambient, duration);
+  if (ambient.mean - most >= coldest_air && ambient.mean + most <= hottest_air) return;  // as of nearly all
   constexpr int looks = 1000;
   for (int i = 0; i <= looks; ++i)
     require_air(air_temperature(ambient, start_time_of_day, duration * i / looks), "ambient: the air reaches ");
