@@ -14,7 +14,7 @@ namespace {
 constexpr int attempts = 11;
 constexpr std::chrono::milliseconds between_attempts(50);
 
-constexpr char const* advice = "run under xvfb-run, for example: xvfb-run -a thermotwin run … --picture machine.png";
+constexpr char const* advice = "run under xvfb-run: put xvfb-run -a before the command";
 
 }  // namespace
 

@@ -22,12 +22,13 @@ S taylor_number(S const& angular_speed, S const& mean_radius, S const& gap, S co
 /// from one wall to the air of the gap. Sources: Becker & Kaye 1962; Staton & Cavagnino 2008.
 inline constexpr double vortex_taylor = 41.3;
 inline constexpr double turbulent_vortex_taylor = 100.0;
-inline constexpr Validity annular_gap_taylor{0.0, 3e3};
+inline constexpr Validity annular_gap_taylor{0.0, 3e3, "Ta of an annular gap"};
 
 template <class S>
 S annular_gap_nusselt(S const& taylor, S const& prandtl) {
   using std::pow;
   using std::sqrt;
+  within<S>(annular_gap_taylor, taylor);
   S const pr = pow(prandtl, 0.27);
   S const vortices = 0.202 * pow(taylor, 0.63) * pr;
   S const turbulent = 0.386 * sqrt(taylor) * pr;
@@ -36,14 +37,15 @@ S annular_gap_nusselt(S const& taylor, S const& prandtl) {
 }
 
 /// Nu = 2 below Ta² = 1700, 0.128 (Ta²)^0.367 up to 1e4, 0.409 (Ta²)^0.241 above, air. Source: Becker & Kaye 1962.
-inline constexpr double becker_kaye_vortex = 1700.0;             ///< Ta²
-inline constexpr double becker_kaye_turbulent_vortex = 1e4;      ///< Ta²
-inline constexpr Validity becker_kaye_taylor_squared{0.0, 1e7};  ///< Ta²
+inline constexpr double becker_kaye_vortex = 1700.0;         ///< Ta²
+inline constexpr double becker_kaye_turbulent_vortex = 1e4;  ///< Ta²
+inline constexpr Validity becker_kaye_taylor_squared{0.0, 1e7, "Ta² of an annular gap"};
 
 template <class S>
 S becker_kaye_nusselt(S const& taylor) {
   using std::pow;
   S const squared = taylor * taylor;
+  within<S>(becker_kaye_taylor_squared, squared);
   S const flow = change_of_regime<S>(0.128 * pow(squared, 0.367), 0.409 * pow(squared, 0.241), squared,
                                      becker_kaye_turbulent_vortex);
   return change_of_regime<S>(S(2.0), flow, squared, becker_kaye_vortex);
@@ -59,12 +61,13 @@ S annular_gap_film(S const& wall1, S const& wall2, S const& mean_radius, S const
 }
 
 /// U = 0.765 (|ω|R)^{2/3} δ^{−1/3} [W/(m² K)], surface to surface, air. Source: Jungnickel 2010.
-inline constexpr Validity jungnickel_gap_speed{1.0, 150.0};  ///< ωR [m/s]
+inline constexpr Validity jungnickel_gap_speed{-150.0, 150.0, "rim speed at an annular gap after Jungnickel [m/s]"};
 
 template <class S>
 S jungnickel_gap_film(S const& radius, S const& gap, S const& angular_speed) {
   using std::pow;
   constexpr double rest = 1e-4;
+  within<S>(jungnickel_gap_speed, angular_speed * radius);
   return 0.765 * vanishing_power<S>(angular_speed * radius, 2.0 / 3.0, rest) * pow(gap, -1.0 / 3.0);
 }
 

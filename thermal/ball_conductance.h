@@ -24,9 +24,8 @@ struct ContactEllipse {
 
 /// Brewe & Hamrock 1977: ellipticity κ = 1.0339 (R_y/R_x)^0.636, E = 1.0003 + 0.5968 R_x/R_y, major half axis
 /// (6 κ² E F R/(π E'))^{1/3}, 1/R = 1/R_x + 1/R_y.
-/// R_x along, R_y across the direction of rolling [m], F load [N], E' = E/(1 − ν²) for two equal bodies [Pa].
-inline constexpr Validity brewe_hamrock_radius_ratio{1.0, 100.0};  ///< R_y/R_x
-
+/// R_x along, R_y across the direction of rolling [m], R_y/R_x 1 to 100, F load [N], E' = E/(1 − ν²) for two equal
+/// bodies [Pa].
 template <class S>
 ContactEllipse<S> contact_ellipse(S const& rolling_radius, S const& cross_radius, S const& load, S const& modulus) {
   using std::cbrt;
@@ -70,7 +69,7 @@ S static_ball_conductance(BallBearing const& b, S const& axial, S const& ball_k,
 
 /// [rad/s] The empirical law's logarithm ends here; slower rotation counts as this.
 inline constexpr double slowest_rotation = 1.0;
-inline constexpr Validity schaefer_angular_speed{slowest_rotation, 2500.0};  ///< ω [rad/s]
+inline constexpr Validity schaefer_angular_speed{-2500.0, 2500.0, "angular speed of a bearing that conducts [rad/s]"};
 
 /// G = z (D_b²/2400) √(14 + 2 ln v − 2 ln D_b) (2.5) [W/K], D_b in **mm**, v speed of the pitch circle in **m/s**.
 /// Source: Schäfer/FAG 1993, in Thermca's form. CAUTION: a public code puts D_b in m inside the logarithm.
@@ -78,6 +77,7 @@ template <class S>
 S rotating_ball_conductance(BallBearing const& b, S const& angular_speed) {
   using std::log;
   using std::sqrt;
+  within<S>(schaefer_angular_speed, angular_speed);
   double const ball_mm = 1e3 * b.ball_diameter;
   S const speed = b.pitch_radius() * smooth_abs<S>(angular_speed, slowest_rotation);
   return b.balls * (ball_mm * ball_mm / 2400.0) * sqrt(S(14.0 + 2.0 * log(speed) - 2.0 * std::log(ball_mm)));

@@ -26,7 +26,9 @@ S friction_heat(S const& torque, S const& angular_speed) {
 
 /// [m²/s²] νω from which the viscous torque grows with speed.
 inline constexpr double palmgren_threshold = 2.0944e-4;
-inline constexpr Validity palmgren_speed_times_diameter{0.0, 105.0};  ///< ω d_m [m/s], n d_m = 1e6 mm/min
+/// n d_m = 1e6 mm/min.
+inline constexpr Validity palmgren_speed_times_diameter{-105.0, 105.0,
+                                                        "angular speed times diameter of a bearing [m/s]"};
 
 /// M₀ = 4500.9 f₀ (νω)^{2/3} d_m³ for νω above 2.0944e-4 m²/s², 16 f₀ d_m³ below (1.2) [N m].
 /// f₀ [1], ν kinematic viscosity at the bearing's temperature [m²/s], ω [rad/s], d_m pitch diameter [m].
@@ -34,6 +36,7 @@ inline constexpr Validity palmgren_speed_times_diameter{0.0, 105.0};  ///< ω d_
 template <class S>
 S palmgren_viscous_torque(S const& f0, S const& viscosity, S const& angular_speed, S const& mean_diameter) {
   using std::pow;
+  within<S>(palmgren_speed_times_diameter, angular_speed * mean_diameter);
   S const flow = viscosity * smooth_abs<S>(angular_speed, standstill_speed);
   S const growing = 4500.9 * pow(flow, 2.0 / 3.0);
   S const per_volume = blend<S>(S(16.0), growing, flow, palmgren_threshold, 0.05 * palmgren_threshold);
@@ -53,8 +56,6 @@ struct HarrisCoefficients {
   double z = 0.0;
   double y = 0.0;
 };
-
-inline constexpr Validity harris_contact_angle{0.17453, 1.5708};  ///< [rad], 10° to 90° (thrust bearing)
 
 /// Harris' table over the contact angle α [rad], linear between its rows. Throws InputError outside 10° to 90°: below,
 /// the sources contradict each other; a deep-groove bearing states z and y itself.
@@ -94,8 +95,6 @@ S schaeffler_torque_load(S const& radial, S const& axial, Arrangement arrangemen
 /// oil bath vertical shaft, oil injection (both twice the bath), oil-air (half of it). A small, run-in grease fill of a
 /// spindle bearing: 0.4 to 1.0. Throws InputError naming the nearest known type or lubrication.
 [[nodiscard]] double viscous_torque_factor(std::string_view bearing_type, std::string_view lubrication);
-
-inline constexpr Validity ring_partition_ratio{3.0, 20.0};  ///< r_m/r_b
 
 /// φ_i = 0.5 + 1.08 (r_b/r_m)(1 − sin α)^0.37 (1.4): share of the friction heat that enters the inner ring.
 /// r_b ball radius, r_m pitch radius [m], α contact angle [rad]; r_m/r_b > 3. Source: Jungnickel 2010.

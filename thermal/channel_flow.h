@@ -19,9 +19,8 @@ S channel_reynolds(S const& volume_flow, S const& area, S const& hydraulic_diame
 }
 
 /// Nu = (3.66³ + 1.615³ Re Pr d/L)^{1/3}, laminar, constant wall temperature, mean over the length L.
-/// It has both asymptotes of max(3.66, 1.615 (Re Pr d/L)^{1/3}) without its kink. Source: Schlünder; VDI Heat Atlas.
-inline constexpr Validity laminar_reynolds{0.0, 2300.0};
-
+/// It has both asymptotes of max(3.66, 1.615 (Re Pr d/L)^{1/3}) without its kink. Re up to 2300. Source: Schlünder;
+/// VDI Heat Atlas.
 template <class S>
 S laminar_nusselt(S const& reynolds, S const& prandtl, S const& diameter_to_length) {
   using std::cbrt;
@@ -30,9 +29,8 @@ S laminar_nusselt(S const& reynolds, S const& prandtl, S const& diameter_to_leng
   return cbrt(S(developed + entry * reynolds * prandtl * diameter_to_length));
 }
 
-/// Nu = 1.86 (Re Pr d/L)^{1/3} (η/η_w)^0.14, laminar entry; only where it exceeds 3.66. Source: Sieder & Tate 1936.
-inline constexpr Validity sieder_tate_viscosity_ratio{0.0044, 9.75};  ///< η/η_w
-
+/// Nu = 1.86 (Re Pr d/L)^{1/3} (η/η_w)^0.14, laminar entry; only where it exceeds 3.66, η/η_w 0.0044 to 9.75. Source:
+/// Sieder & Tate 1936.
 template <class S>
 S sieder_tate_nusselt(S const& reynolds, S const& prandtl, S const& diameter_to_length, S const& viscosity_ratio) {
   using std::cbrt;
@@ -49,9 +47,7 @@ S petukhov_nusselt(S const& friction, S const& reynolds, S const& prandtl) {
   return eighth * reynolds * prandtl / (1.0 + 12.7 * sqrt(eighth) * (pow(prandtl, 2.0 / 3.0) - 1.0));
 }
 
-/// ξ = (1.8 log₁₀ Re − 1.5)^{−2}, smooth pipe. Source: Konakov 1946.
-inline constexpr Validity konakov_reynolds{3e3, 1e7};
-
+/// ξ = (1.8 log₁₀ Re − 1.5)^{−2}, smooth pipe, Re 3e3 to 1e7. Source: Konakov 1946.
 template <class S>
 S smooth_pipe_friction(S const& reynolds) {
   using std::log10;
@@ -59,29 +55,25 @@ S smooth_pipe_friction(S const& reynolds) {
   return 1.0 / (root * root);
 }
 
-/// Nu = petukhov(ξ, Re, Pr) [1 + (d/L)^{2/3}], turbulent. Source: Gnielinski 1975, VDI Heat Atlas.
-inline constexpr Validity gnielinski_reynolds{1e4, 1e6};
-inline constexpr Validity gnielinski_prandtl{0.1, 1000.0};
+/// Nu = petukhov(ξ, Re, Pr) [1 + (d/L)^{2/3}], turbulent, Re 1e4 to 1e6. Source: Gnielinski 1975, VDI Heat Atlas.
+inline constexpr Validity gnielinski_prandtl{0.1, 1000.0, "Pr of a fluid in a channel"};
 
 template <class S>
 S gnielinski_nusselt(S const& reynolds, S const& prandtl, S const& diameter_to_length) {
   using std::pow;
+  within<S>(gnielinski_prandtl, prandtl);
   return petukhov_nusselt<S>(smooth_pipe_friction<S>(reynolds), reynolds, prandtl) *
          (1.0 + pow(diameter_to_length, 2.0 / 3.0));
 }
 
-/// The variant with Re − 1000 instead of Re in the numerator, for Re from 3000. Source: Gnielinski 1976.
-inline constexpr Validity gnielinski_1976_reynolds{3e3, 5e6};
-
+/// The variant with Re − 1000 instead of Re in the numerator, Re 3e3 to 5e6. Source: Gnielinski 1976.
 template <class S>
 S gnielinski_1976_nusselt(S const& reynolds, S const& prandtl, S const& diameter_to_length) {
   return gnielinski_nusselt<S>(reynolds, prandtl, diameter_to_length) * (1.0 - 1000.0 / reynolds);
 }
 
-/// Nu = 0.023 Re^0.8 Pr^n, n = 0.4 when the fluid is heated, 0.3 when it is cooled. Source: Dittus & Boelter 1930.
-inline constexpr Validity dittus_boelter_reynolds{1e4, 1.2e5};
-inline constexpr Validity dittus_boelter_prandtl{0.7, 160.0};
-
+/// Nu = 0.023 Re^0.8 Pr^n, n = 0.4 when the fluid is heated, 0.3 when it is cooled, Re 1e4 to 1.2e5, Pr 0.7 to 160.
+/// Source: Dittus & Boelter 1930.
 enum class FluidIs { heated, cooled };
 
 template <class S>
@@ -105,11 +97,12 @@ S transition(S const& reynolds, S const& laminar_end, double turbulent_start, La
 
 inline constexpr double laminar_end_reynolds = 2300.0;
 inline constexpr double turbulent_start_reynolds = 1e4;
-inline constexpr Validity channel_reynolds_range{0.0, 1e6};
+inline constexpr Validity channel_reynolds_range{0.0, 1e6, "Re in a channel"};
 
 /// Nu(Re) of a straight channel: laminar, Gnielinski's transition from 2300 to 1e4, turbulent.
 template <class S>
 S channel_nusselt(S const& reynolds, S const& prandtl, S const& diameter_to_length) {
+  within<S>(channel_reynolds_range, reynolds);
   return transition<S>(
       reynolds, S(laminar_end_reynolds), turbulent_start_reynolds,
       [&](S const& re) { return laminar_nusselt<S>(re, prandtl, diameter_to_length); },
@@ -131,7 +124,7 @@ S helix_laminar_end(S const& curvature) {
   return 2300.0 * (1.0 + 8.6 * pow(curvature, 0.45));
 }
 inline constexpr double helix_turbulent_start = 2.2e4;
-inline constexpr Validity helix_reynolds_range{0.0, 1e5};
+inline constexpr Validity helix_reynolds_range{0.0, 1e5, "Re in a helical channel"};
 
 /// Nu(Re) of a helical jacket, `curvature` = d_h/D: laminar 3.66 + 0.08 [1 + 0.8 (d/D)^0.9] Re^m Pr^{1/3},
 /// m = 0.5 + 0.2903 (d/D)^0.194, up to Re_cr; turbulent petukhov(0.3164 Re^{−1/4} + 0.03 √(d/D)) from 2.2e4.
@@ -140,6 +133,7 @@ S helix_nusselt(S const& reynolds, S const& prandtl, S const& curvature) {
   using std::cbrt;
   using std::pow;
   using std::sqrt;
+  within<S>(helix_reynolds_range, reynolds);
   S const exponent = 0.5 + 0.2903 * pow(curvature, 0.194);
   S const swirl = 0.08 * (1.0 + 0.8 * pow(curvature, 0.9));
   S const bend = 0.03 * sqrt(curvature);
@@ -188,7 +182,6 @@ S ntu_conductance(S const& capacity_rate, S const& film_conductance) {
   using std::expm1;
   return -capacity_rate * expm1(S(-film_conductance / capacity_rate));
 }
-inline constexpr Validity mean_temperature_node_ntu{0.0, 1.0};
 
 /// V̇/V̇₀ = (ν₀/ν)^γ: flow of a pump of constant pressure; γ = 1 laminar, 0 when a volume is displaced.
 template <class S>

@@ -20,22 +20,22 @@ struct RoughContact {
   double hardness = 2.5e9;     ///< H_c of the softer surface, 1.5 to 3 GPa for cast iron and steel [Pa]
 };
 
-inline constexpr Validity cmy_relative_pressure{1e-6, 2.3e-2};  ///< p/H_c
+inline constexpr Validity contact_relative_pressure{0.0, 2.3e-2, "pressure over hardness at a joint"};
 
 /// h_c = 1.25 (k_s m/σ)(p/H_c)^0.95, k_s = 2k₁k₂/(k₁+k₂) (2.1): the spots that touch; p nominal pressure [Pa],
 /// positive. Sources: Cooper, Mikic & Yovanovich 1969; Yovanovich 1982.
 template <class S>
 S contact_film(RoughContact const& c, S const& pressure) {
   using std::pow;
+  within<S>(contact_relative_pressure, S(pressure / c.hardness));
   double const k = 2.0 * c.conductivity1 * c.conductivity2 / (c.conductivity1 + c.conductivity2);
   return 1.25 * k * c.slope / c.roughness * pow(S(pressure / c.hardness), 0.95);
 }
 
-inline constexpr Validity gap_relative_pressure{1e-5, 2e-2};  ///< p/H_c
-inline constexpr double air_gas_parameter = 0.37e-6;          ///< M_g of air between metals at 1 bar [m]
+inline constexpr double air_gas_parameter = 0.37e-6;  ///< M_g of air between metals at 1 bar [m]
 
 /// h_g = k_g/(Y + M_g), Y = 1.53 σ (p/H_c)^{−0.097}: what fills the gaps; k_g [W/(m K)], M_g gas parameter [m], 0 for a
-/// liquid.
+/// liquid, p/H_c 1e-5 to 2e-2.
 template <class S>
 S gap_film(RoughContact const& c, S const& pressure, S const& gap_conductivity, double gas_parameter) {
   using std::pow;
@@ -58,9 +58,9 @@ inline constexpr double scraping = 2.5e-6;
 inline constexpr double turning = 25e-6;
 }  // namespace ten_point_height
 
-inline constexpr double fine_joint_height = 15e-6;              ///< ΣR_z [m]
-inline constexpr double coarse_joint_height = 30e-6;            ///< ΣR_z [m]
-inline constexpr Validity jungnickel_joint_pressure{1e5, 2e7};  ///< [Pa]
+inline constexpr double fine_joint_height = 15e-6;    ///< ΣR_z [m]
+inline constexpr double coarse_joint_height = 30e-6;  ///< ΣR_z [m]
+inline constexpr Validity jungnickel_joint_pressure{1e5, 2e7, "pressure at a joint after Jungnickel [Pa]"};
 
 /// κ = 15 µm/ΣR_z below ΣR_z = 15 µm, (30 µm/ΣR_z)^0.33 up to 30 µm, 1 above. The source jumps by 26 % at 15 µm.
 template <class S>
@@ -78,6 +78,7 @@ template <class S>
 S jungnickel_joint_film(S const& gap_conductivity, S const& k1, S const& k2, S const& height_sum, S const& pressure,
                         S const& tensile_strength) {
   using std::pow;
+  within<S>(jungnickel_joint_pressure, pressure);
   S const loaded = joint_roughness_factor<S>(height_sum) * pressure / tensile_strength;
   return 6.7 * (gap_conductivity / height_sum + 928.0 * k1 * k2 / (k1 + k2) * pow(loaded, 0.86));
 }
@@ -105,7 +106,7 @@ S fit_gap(S const& cold_gap, S const& diameter, S const& inner_expansion, S cons
 
 /// [m] Of diametral gap, over which clearance turns into interference.
 inline constexpr double fit_blend = 0.1e-6;
-inline constexpr Validity fit_gap_range{-50e-6, 100e-6};  ///< g [m]
+inline constexpr Validity fit_gap_range{-50e-6, 100e-6, "gap of a fit [m]"};
 
 /// p = −g/{D [(C_o + ν_o)/E_o + (C_i − ν_i)/E_i]}, C_o = (D_o² + D²)/(D_o² − D²), C_i = (D² + d²)/(D² − d²) (2.4) [Pa]:
 /// Lamé's pressure of an interference; next to 0 with clearance.
@@ -124,6 +125,7 @@ S fit_pressure(Fit const& f, S const& gap) {
 /// µm: 7.4, 4.0, 2.3, 0.8 kW/(m² K).
 template <class S>
 S fit_film(Fit const& f, S const& gap, S const& gap_conductivity) {
+  within<S>(fit_gap_range, gap);
   S const clearance = smooth_positive<S>(gap, fit_blend);
   return gap_conductivity / (0.5 * clearance + f.separation) + contact_film<S>(f.contact, fit_pressure<S>(f, gap));
 }

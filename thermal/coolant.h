@@ -1,7 +1,6 @@
 #pragma once
 
 #include "thermal/smooth.h"
-#include "thermal/validity.h"
 
 namespace thermotwin::thermal {
 
@@ -24,11 +23,8 @@ S tank_heat(TankBalance<S> const& b, S const& tank, S const& returned, S const& 
          b.bed_conductance * (tank - bed) - evaporation - chiller;
 }
 
-inline constexpr Validity chiller_hysteresis{0.2, 2.0};         ///< Δ [K]
-inline constexpr Validity compressor_minimum_off{60.0, 180.0};  ///< [s]
-
-/// Relay chiller: on above T_set + Δ/2, off below T_set − Δ/2; these are the roots the integrator looks for. The value
-/// is positive when a relay in this state must switch.
+/// Relay chiller, Δ 0.2 to 2 K, compressors off for 1 to 3 min at least: on above T_set + Δ/2, off below T_set − Δ/2;
+/// these are the roots the integrator looks for. The value is positive when a relay in this state must switch.
 template <class S>
 S relay_switch(bool is_on, S const& temperature, S const& set_point, S const& hysteresis) {
   return is_on ? set_point - 0.5 * hysteresis - temperature : temperature - set_point - 0.5 * hysteresis;

@@ -12,11 +12,12 @@ namespace thermotwin::thermal {
 /// Source: physics.md §2.14.
 
 /// p_s = 611.2 exp(17.62 T/(243.12 + T)) [Pa], T in °C here, in kelvin at the function. Source: Magnus.
-inline constexpr Validity magnus_temperature{273.15, 333.15};  ///< [K]
+inline constexpr Validity magnus_temperature{273.15, 333.15, "temperature of vapour [K]"};
 
 template <class S>
 S saturation_pressure(S const& temperature) {
   using std::exp;
+  within<S>(magnus_temperature, temperature);
   S const t = temperature - zero_celsius;
   return 611.2 * exp(17.62 * t / (243.12 + t));
 }
@@ -42,13 +43,14 @@ S evaporation_heat(S const& area, S const& film, S const& lewis, S const& water,
 
 /// q'' = √((2.7 ΔT^{1/3})² + (3.8 v)²) (p_s(T_w) − φ p_s(T_a)) [W/m²], pressures in hPa, ΔT = max(T_w − T_a, 0), v wind
 /// speed [m/s]: free and forced evaporation from a warm pond or tank. Source: Adams 1990.
-inline constexpr Validity adams_wind{0.0, 5.0};  ///< [m/s]
+inline constexpr Validity adams_wind{0.0, 5.0, "wind over a tank [m/s]"};
 
 template <class S>
 S pond_evaporation_flux(S const& water, S const& air, S const& humidity, S const& wind) {
   using std::cbrt;
   using std::sqrt;
   constexpr double kelvin_blend = 0.01;
+  within<S>(adams_wind, wind);
   S const free = 2.7 * cbrt(smooth_positive<S>(water - air, kelvin_blend));
   S const forced = 3.8 * wind;
   S const excess_hPa = 0.01 * (saturation_pressure<S>(water) - humidity * saturation_pressure<S>(air));

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "thermal/smooth.h"
-#include "thermal/validity.h"
 
 namespace thermotwin::thermal {
 
@@ -21,11 +20,11 @@ S nut_preload_torque(S const& preload, S const& lead, S const& nominal_diameter)
   return 0.05 / sqrt(tangent) * preload * lead / (2.0 * std::numbers::pi);
 }
 
-inline constexpr Validity screw_efficiency{0.88, 0.95};
 /// [N] Axial loads below this count as none.
 inline constexpr double no_axial_load = 1e-3;
 
-/// T_ax = |F_ax| l/(2π) (1/η₁ − 1) (1.13) [N m]: loss under the axial load F_ax, accelerating force m a included.
+/// T_ax = |F_ax| l/(2π) (1/η₁ − 1) (1.13) [N m], η₁ 0.88 to 0.95: loss under the axial load F_ax, accelerating force m
+/// a included.
 template <class S>
 S nut_load_torque(S const& axial_load, S const& lead, S const& efficiency) {
   S const load = vanishing_power<S>(axial_load, 1.0, no_axial_load);
@@ -39,9 +38,7 @@ S partly_viscous_torque(S const& reference, S const& viscous_share, S const& flo
   return reference * (1.0 - viscous_share + viscous_share * smooth_power<S>(flow_ratio, exponent, 1e-8));
 }
 
-inline constexpr Validity nut_viscous_share{0.4, 0.8};  ///< φ_v
-
-/// T_nut = T_pre [1 − φ_v + φ_v (νn/(ν₄₀ n_r))^{1/2}] + T_ax (1.14) [N m].
+/// T_nut = T_pre [1 − φ_v + φ_v (νn/(ν₄₀ n_r))^{1/2}] + T_ax (1.14) [N m], φ_v 0.4 to 0.8.
 template <class S>
 S ball_nut_torque(S const& preload_torque, S const& viscous_share, S const& flow_ratio, S const& load_torque) {
   return partly_viscous_torque<S>(preload_torque, viscous_share, flow_ratio, 0.5) + load_torque;
@@ -54,9 +51,7 @@ S screw_bearing_torque(S const& drag_torque, S const& flow_ratio) {
   return partly_viscous_torque<S>(drag_torque, S(0.7), flow_ratio, 2.0 / 3.0);
 }
 
-inline constexpr Validity reversal_energy{0.5, 5.0};  ///< ΔE [J]
-
-/// q = f ΔE [W]: heat of the balls' change of flank; f reversals per second [1/s], ΔE per reversal [J].
+/// q = f ΔE [W]: heat of the balls' change of flank; f reversals per second [1/s], ΔE per reversal, 0.5 to 5 J.
 template <class S>
 S reversal_heat(S const& reversals_per_second, S const& energy) {
   return reversals_per_second * energy;
@@ -104,10 +99,8 @@ S sliding_heat(S const& force, S const& velocity) {
   return force * vanishing_power<S>(velocity, 1.0, standstill_velocity);
 }
 
-inline constexpr Validity rolling_guide_friction{0.002, 0.004};  ///< μ_r
-inline constexpr Validity carriage_seal_force{3.0, 15.0};        ///< [N] per carriage
-
-/// F = μ_r W + F_seal + c_v |v| [N]: rolling guide; W load [N], c_v viscous drag [N s/m] at the oil's temperature.
+/// F = μ_r W + F_seal + c_v |v| [N]: rolling guide; μ_r 0.002 to 0.004, W load, F_seal 3 to 15 N a carriage, c_v
+/// viscous drag [N s/m] at the oil's temperature.
 template <class S>
 S rolling_guide_force(S const& friction, S const& load, S const& seal_force, S const& viscous_drag, S const& velocity) {
   return friction * load + seal_force + viscous_drag * smooth_abs<S>(velocity, standstill_velocity);
@@ -121,7 +114,6 @@ struct Stribeck {
   S speed;             ///< v_s, where 63 % of the fall is done [m/s]
   S viscous;           ///< [s/m], slope of μ at high speed
 };
-inline constexpr Validity slideway_friction{0.02, 0.06};
 
 /// μ(v) = μ_c + (μ_s − μ_c) e^{−(v/v_s)²} + k |v|, F = μ W [N].
 template <class S>

@@ -32,10 +32,11 @@ FluidProperties<S> with_prandtl(S const& k, S const& density, S const& c, S cons
 /// Air at 1 bar: k = 0.02425 + 7.493e-5 T, ν = 1.35e-5 + 9.707e-8 T (T in °C), Pr = 0.71, ideal gas, c_p = 1007.
 /// Source: chords of the VDI table between 0 and 75 °C, as in the prototypes of physics.md §6; 1 % in ν, 0.5 % in k.
 struct Air {};
-inline constexpr Validity air_temperature{263.15, 353.15};  ///< [K]
+inline constexpr Validity air_temperature{263.15, 353.15, "temperature of air at a wall [K]"};
 
 template <class S>
 FluidProperties<S> properties(Air, S const& temperature) {
+  within<S>(air_temperature, temperature);
   S const t = temperature - zero_celsius;
   return {0.02425 + (0.02987 - 0.02425) / 75.0 * t,
           1e5 / (gas_constant_air * temperature),
@@ -48,11 +49,12 @@ FluidProperties<S> properties(Air, S const& temperature) {
 /// Water at 1 bar. Sources: density Kell 1975; conductivity Ramires et al. 1995; viscosity Kestin, Sokolov & Wakeham
 /// 1978; specific heat NIST Shomate (Chase 1998). Within 0.5 % of the VDI table, 2 % in ν above 80 °C.
 struct Water {};
-inline constexpr Validity water_temperature{273.15, 363.15};  ///< [K]
+inline constexpr Validity water_temperature{273.15, 363.15, "temperature of water [K]"};
 
 template <class S>
 FluidProperties<S> properties(Water, S const& temperature) {
   using std::exp;
+  within<S>(water_temperature, temperature);
   S const t = temperature - zero_celsius;
   S const mass =
       999.83952 + t * (16.945176 + t * (-7.9870401e-3 + t * (-46.170461e-6 + t * (105.56302e-9 - t * 280.54253e-12))));
@@ -78,10 +80,11 @@ FluidProperties<S> properties(Water, S const& temperature) {
 /// Cooling emulsion, 5 to 8 % concentrate in water: water, scaled to k 0.58, ρ 1000, c 4050, ν 1.2e-6 at 20 °C
 /// (physics.md §5).
 struct Emulsion {};
-inline constexpr Validity emulsion_temperature{278.15, 323.15};  ///< [K]
+inline constexpr Validity emulsion_temperature{278.15, 323.15, "temperature of cooling emulsion [K]"};
 
 template <class S>
 FluidProperties<S> properties(Emulsion, S const& temperature) {
+  within<S>(emulsion_temperature, temperature);
   FluidProperties<S> const water = properties(Water{}, temperature);
   return with_prandtl<S>(water.conductivity * (0.58 / 0.600), water.density * (1000.0 / 998.2),
                          water.specific_heat * (4050.0 / 4185.0), water.kinematic_viscosity * (1.2 / 1.003),

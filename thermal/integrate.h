@@ -52,8 +52,9 @@ struct IntegrationSummary {
   double stored = 0.0;     ///< [J]
   double wall_time = 0.0;  ///< [s]
 
-  /// |stored + lost + withdrawn − supplied| over the heat that moved: all that came in, from sources and boundaries, or
-  /// all that went out, whichever is more.
+  /// Heat that moved: all that came in, from sources and boundaries, or all that went out, whichever is more [J].
+  [[nodiscard]] double moved() const;
+  /// |stored + lost + withdrawn − supplied| over the heat that moved.
   [[nodiscard]] double energy_imbalance() const;
 };
 

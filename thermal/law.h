@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "thermal/dual.h"
 #include "thermal/lanes.h"
+#include "thermal/validity.h"
 
 namespace thermotwin::thermal {
 
@@ -54,6 +57,10 @@ class Law {
   /// coefficients of each element by `coefficient_rate`.
   virtual void add_directional(ElementBatch const& batch, double const* temperature, double const* temperature_rate,
                                double const* coefficient_rate, double const* input, double* heat_rate) const = 0;
+
+  /// Appends what one element's correlations are asked beyond their ranges. Returns the largest flow of its ports [W].
+  virtual double watch(ElementBatch const& batch, int element, double const* temperature, double const* input,
+                       std::vector<Extrapolation>& beyond) const = 0;
 };
 
 /// Makes a Law out of a formula: a struct with the constants `name`, `ports`, `coefficients`, `inputs`, `conservative`
@@ -109,6 +116,22 @@ class LawOf final : public Law {
     });
   }
 
+  double watch(ElementBatch const& batch, int element, double const* temperature, double const* input,
+               std::vector<Extrapolation>& beyond) const override {
+    Elements<1> const one{element};
+    std::array<Watched, P> T, q{};
+    std::array<Watched, C + 1> c;
+    for (int p = 0; p < P; ++p) T[p] = temperature_at(batch, one, p, temperature);
+    for (int i = 0; i < C; ++i) c[i] = coefficient(one, i, batch.coefficients.data());
+    auto const u = inputs_of(batch, element, input);
+    extrapolations = &beyond;
+    Formula::flows(T.data(), c.data(), u.data(), q.data());
+    extrapolations = nullptr;
+    double largest = 0.0;
+    for (auto const& flow : q) largest = std::max(largest, std::abs(flow.value));
+    return largest;
+  }
+
  private:
   /// Elements that are taken together; of several, the last may stand there more than once.
   template <std::size_t K>
@@ -157,11 +180,15 @@ class LawOf final : public Law {
   [[gnu::flatten]] static std::array<Number<K>, P> flows(ElementBatch const& batch, Elements<K> const& elements,
                                                          double const* temperature, double const* input) {
     std::array<Number<K>, P> T, q{};
-    std::array<Number<K>, C + 1> c;
     for (int p = 0; p < P; ++p) T[p] = temperature_at(batch, elements, p, temperature);
-    for (int i = 0; i < C; ++i) c[i] = coefficient(elements, i, batch.coefficients.data());
     auto const u = inputs_of(batch, elements[0], input);
-    Formula::flows(T.data(), c.data(), u.data(), q.data());
+    if constexpr (K == 1) {
+      Formula::flows(T.data(), batch.coefficients.data() + std::size_t(elements[0]) * C, u.data(), q.data());
+    } else {
+      std::array<Number<K>, C + 1> c;
+      for (int i = 0; i < C; ++i) c[i] = coefficient(elements, i, batch.coefficients.data());
+      Formula::flows(T.data(), c.data(), u.data(), q.data());
+    }
     return q;
   }
 

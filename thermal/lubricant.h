@@ -18,12 +18,13 @@ struct Vogel {
   double pole = 178.15;      ///< T_p [K]
 };
 
-inline constexpr Validity vogel_cameron_temperature{273.15, 373.15};  ///< [K]
+inline constexpr Validity vogel_cameron_temperature{273.15, 373.15, "temperature of oil or grease [K]"};
 
 /// ν(T) [m²/s]; A [m²/s], B [K], T [K], with the pole of Vogel–Cameron.
 template <class S>
 S vogel_cameron_viscosity(S const& scale, S const& vogel_temperature, S const& temperature) {
   using std::exp;
+  within<S>(vogel_cameron_temperature, temperature);
   return scale * exp(vogel_temperature / (temperature - Vogel{}.pole));
 }
 
@@ -31,6 +32,7 @@ S vogel_cameron_viscosity(S const& scale, S const& vogel_temperature, S const& t
 template <class S>
 S viscosity(Vogel const& law, S const& temperature) {
   using std::exp;
+  within<S>(vogel_cameron_temperature, temperature);
   return law.scale * exp(law.temperature / (temperature - law.pole));
 }
 
@@ -43,13 +45,12 @@ S viscosity(Vogel const& law, S const& temperature) {
 
 inline constexpr std::array iso_viscosity_grades{10, 15, 22, 32, 46, 68, 100};
 
-/// Walther's law (ASTM D341): log₁₀ log₁₀(ν + 0.7) = A − B log₁₀ T, ν in mm²/s, T in kelvin; for tabulated oils.
+/// Walther's law (ASTM D341): log₁₀ log₁₀(ν + 0.7) = A − B log₁₀ T, ν in mm²/s, 2 to 2e4, T in kelvin; for tabulated
+/// oils.
 struct Walther {
   double intercept = 0.0;  ///< A
   double slope = 0.0;      ///< B
 };
-
-inline constexpr Validity walther_viscosity_m2_per_s{2e-6, 2e-2};  ///< [m²/s]
 
 /// The law through two measured points (ν₁, T₁), (ν₂, T₂) [m²/s, K], as a data sheet gives them at 40 and 100 °C.
 [[nodiscard]] Walther walther_through(double viscosity1, double temperature1, double viscosity2, double temperature2);

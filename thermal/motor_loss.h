@@ -15,11 +15,12 @@ namespace thermotwin::thermal {
 
 /// [1/K] of copper, about 20 °C.
 inline constexpr double copper_temperature_coefficient = 0.0039;
-inline constexpr Validity winding_temperature{253.15, 453.15};  ///< [K]
+inline constexpr Validity winding_temperature{253.15, 453.15, "temperature of a winding [K]"};
 
 /// P = m R₂₀ [1 + 0.0039 (T_w − 20 °C)] I² [W]; m phases, R₂₀ per phase [Ω], T_w winding [K], I rms per phase [A].
 template <class S>
 S copper_loss(S const& phases, S const& resistance_20, S const& winding_temperature_K, S const& current) {
+  within<S>(winding_temperature, winding_temperature_K);
   S const warm = 1.0 + copper_temperature_coefficient * (winding_temperature_K - 293.15);
   return phases * resistance_20 * warm * current * current;
 }
@@ -92,13 +93,11 @@ S rotor_slip_loss(S const& slip, S const& mechanical_power) {
   return slip / (1.0 - slip) * mechanical_power;
 }
 
-/// P = χ (P_Fe + P_Cu) [W]: extra loss by the converter's harmonics.
+/// P = χ (P_Fe + P_Cu) [W]: extra loss by the converter's harmonics, χ 0.10 to 0.20.
 template <class S>
 S harmonics_loss(S const& share, S const& iron, S const& copper) {
   return share * (iron + copper);
 }
-inline constexpr Validity harmonics_share{0.10, 0.20};              ///< χ
-inline constexpr Validity permanent_magnet_eddy_share{0.05, 0.15};  ///< rotor eddy loss/iron loss of a PM motor
 
 /// Efficiency over speed and torque, bilinear between its points and constant beyond them.
 class EfficiencyMap {

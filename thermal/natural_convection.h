@@ -24,11 +24,12 @@ S rayleigh(FluidProperties<S> const& film, S const& difference, S const& length)
 }
 
 /// Nu = {0.825 + 0.387 Ra^{1/6}/[1 + (0.492/Pr)^{9/16}]^{8/27}}², vertical plate. Source: Churchill & Chu 1975.
-inline constexpr Validity churchill_chu_plate_rayleigh{0.1, 1e12};
+inline constexpr Validity churchill_chu_plate_rayleigh{0.1, 1e12, "Ra of a vertical plate"};
 
 template <class S>
 S vertical_plate_nusselt(S const& rayleigh_number, S const& prandtl) {
   using std::pow;
+  within<S>(churchill_chu_plate_rayleigh, rayleigh_number);
   S const shape = pow(S(1.0 + pow(S(0.492 / prandtl), 9.0 / 16.0)), 8.0 / 27.0);
   S const root = 0.825 + 0.387 * pow(rayleigh_number, 1.0 / 6.0) / shape;
   return root * root;
@@ -36,12 +37,13 @@ S vertical_plate_nusselt(S const& rayleigh_number, S const& prandtl) {
 
 /// Nu = 0.55 Ra^{1/4} up to Ra = 5e8, 0.14 Ra^{1/3} above, vertical plate. Source: Jungnickel 2010.
 inline constexpr double jungnickel_plate_turbulence_rayleigh = 5e8;
-inline constexpr Validity jungnickel_plate_rayleigh{1e4, 1e12};
+inline constexpr Validity jungnickel_plate_rayleigh{1e4, 1e12, "Ra of a vertical plate after Jungnickel"};
 
 template <class S>
 S jungnickel_vertical_plate_nusselt(S const& rayleigh_number) {
   using std::cbrt;
   using std::pow;
+  within<S>(jungnickel_plate_rayleigh, rayleigh_number);
   return change_of_regime<S>(0.55 * pow(rayleigh_number, 0.25), 0.14 * cbrt(rayleigh_number), rayleigh_number,
                              jungnickel_plate_turbulence_rayleigh);
 }
@@ -49,7 +51,7 @@ S jungnickel_vertical_plate_nusselt(S const& rayleigh_number) {
 /// Nu = 0.54 Ra^{1/4} up to Ra = 2e7, 0.14 Ra^{1/3} above, L = area/perimeter: hot face up or cold face down.
 /// Source: McAdams; EMod.
 inline constexpr double horizontal_plate_turbulence_rayleigh = 2e7;
-inline constexpr Validity horizontal_plate_rayleigh{1e4, 3e10};
+inline constexpr Validity unstable_plate_rayleigh{1e4, 3e10, "Ra of a hot face that looks up or a cold one down"};
 
 template <class S>
 S unstable_plate_nusselt(S const& rayleigh_number) {
@@ -60,7 +62,7 @@ S unstable_plate_nusselt(S const& rayleigh_number) {
 }
 
 /// Nu = 0.27 Ra^{1/4}, L = area/perimeter: hot face down or cold face up.
-inline constexpr Validity stable_plate_rayleigh{1e5, 1e10};
+inline constexpr Validity stable_plate_rayleigh{1e5, 1e10, "Ra of a hot face that looks down or a cold one up"};
 
 template <class S>
 S stable_plate_nusselt(S const& rayleigh_number) {
@@ -70,11 +72,12 @@ S stable_plate_nusselt(S const& rayleigh_number) {
 
 /// Nu = {0.60 + 0.387 Ra^{1/6}/[1 + (0.559/Pr)^{9/16}]^{8/27}}², horizontal cylinder, L = D. Source: Churchill & Chu
 /// 1975.
-inline constexpr Validity churchill_chu_cylinder_rayleigh{1e-5, 1e12};
+inline constexpr Validity churchill_chu_cylinder_rayleigh{1e-5, 1e12, "Ra of a horizontal cylinder"};
 
 template <class S>
 S horizontal_cylinder_nusselt(S const& rayleigh_number, S const& prandtl) {
   using std::pow;
+  within<S>(churchill_chu_cylinder_rayleigh, rayleigh_number);
   S const shape = pow(S(1.0 + pow(S(0.559 / prandtl), 9.0 / 16.0)), 8.0 / 27.0);
   S const root = 0.60 + 0.387 * pow(rayleigh_number, 1.0 / 6.0) / shape;
   return root * root;
@@ -101,6 +104,8 @@ S horizontal_plate_film(Facing facing, S const& surface, S const& fluid, S const
   S const difference = surface - fluid;
   S const number = rayleigh<S>(film, difference, length);
   S const upward = facing == Facing::up ? difference : S(-difference);
+  within<S>(unstable_plate_rayleigh, number, upward, S(0.0));
+  within<S>(stable_plate_rayleigh, number, S(0.0), upward);
   S const nusselt =
       blend<S>(stable_plate_nusselt<S>(number), unstable_plate_nusselt<S>(number), upward, 0.0, layering_blend);
   return nusselt * film.conductivity / length;
@@ -118,13 +123,14 @@ S horizontal_cylinder_film(S const& surface, S const& fluid, S const& diameter, 
 /// convection with χ = 1.3 for the air's own motion, and radiation to walls of emissivity 0.8; T_m = ½(T_s + T_a), 0 to
 /// 100 °C. ε = 0.9: about 8 W/(m² K) at 5 K, 9 at 10 K. Surfaces above 1 m; smaller ones lose more. Source: Jungnickel
 /// 2010.
-inline constexpr Validity room_film_temperature{273.15, 373.15};  ///< T_s, T_a [K]
-inline constexpr double room_air_motion = 1.3;                    ///< χ
-inline constexpr double painted_emissivity = 0.9;                 ///< ε
+inline constexpr Validity room_film_temperature{273.15, 373.15, "temperature of a surface in a room [K]"};
+inline constexpr double room_air_motion = 1.3;     ///< χ
+inline constexpr double painted_emissivity = 0.9;  ///< ε
 
 template <class S>
 S room_film(S const& surface, S const& room, S const& emissivity = S(painted_emissivity),
             S const& air_motion = S(room_air_motion)) {
+  within<S>(room_film_temperature, surface);
   S const mean = 0.5 * (surface + room);
   S const convection = 1.7 * air_motion * smooth_power<S>(surface - room, 1.0 / 3.0, temperature_blend);
   return convection + room_radiation_film<S>(emissivity, mean);
@@ -135,13 +141,15 @@ S room_film(S const& surface, S const& room, S const& emissivity = S(painted_emi
 /// Nu = 0.42 Pr^0.012 Ra^{1/4} (H/w)^{−1/4} below Ra = 1e7, 0.049 Ra^{1/3} above, at least 1 (conduction): vertical gap
 /// of width w and height H, Ra with L = w. Source: VDI Heat Atlas.
 inline constexpr double vertical_gap_turbulence_rayleigh = 1e7;
-inline constexpr Validity vertical_gap_rayleigh{1e3, 1e9};
-inline constexpr Validity vertical_gap_aspect{10.0, 40.0};  ///< H/w
+inline constexpr Validity vertical_gap_rayleigh{0.0, 1e9, "Ra of a vertical gap"};
+inline constexpr Validity vertical_gap_aspect{10.0, 40.0, "height over width of a vertical gap"};
 
 template <class S>
 S vertical_gap_nusselt(S const& rayleigh_number, S const& prandtl, S const& aspect) {
   using std::cbrt;
   using std::pow;
+  within<S>(vertical_gap_rayleigh, rayleigh_number);
+  within<S>(vertical_gap_aspect, aspect);
   S const laminar = 0.42 * pow(prandtl, 0.012) * pow(S(rayleigh_number / aspect), 0.25);
   S const flow =
       change_of_regime<S>(laminar, 0.049 * cbrt(rayleigh_number), rayleigh_number, vertical_gap_turbulence_rayleigh);
@@ -152,12 +160,13 @@ S vertical_gap_nusselt(S const& rayleigh_number, S const& prandtl, S const& aspe
 /// below, Ra with L = height. Source: VDI Heat Atlas.
 inline constexpr double horizontal_gap_onset_rayleigh = 1708.0;
 inline constexpr double horizontal_gap_turbulence_rayleigh = 2.2e4;
-inline constexpr Validity horizontal_gap_rayleigh{0.0, 1e9};
+inline constexpr Validity horizontal_gap_rayleigh{0.0, 1e9, "Ra of a horizontal gap"};
 
 template <class S>
 S horizontal_gap_nusselt(S const& rayleigh_number) {
   using std::cbrt;
   using std::pow;
+  within<S>(horizontal_gap_rayleigh, rayleigh_number);
   S const rolls = change_of_regime<S>(0.208 * pow(rayleigh_number, 0.25), 0.092 * cbrt(rayleigh_number),
                                       rayleigh_number, horizontal_gap_turbulence_rayleigh);
   return change_of_regime<S>(S(1.0), rolls, rayleigh_number, horizontal_gap_onset_rayleigh);

@@ -28,11 +28,12 @@ S radiation_heat(S const& emissivity, S const& area, S const& view12, S const& t
 }
 
 /// h = 4σ ε 0.8 T_m³ [W/(m² K)]: a machine's surface of emissivity ε to the walls of a workshop, T_m mean of both [K].
-inline constexpr Validity room_radiation_temperature{273.15, 373.15};  ///< [K]
+inline constexpr Validity room_radiation_temperature{273.15, 373.15, "mean of surface and room, radiating [K]"};
 inline constexpr double room_wall_emissivity = 0.8;
 
 template <class S>
 S room_radiation_film(S const& emissivity, S const& mean_temperature) {
+  within<S>(room_radiation_temperature, mean_temperature);
   S const cube = mean_temperature * mean_temperature * mean_temperature;
   return 4.0 * stefan_boltzmann * room_wall_emissivity * emissivity * cube;
 }

@@ -26,6 +26,7 @@ S rolling_friction_heat(RollingFriction<S> const& friction, S const& speed, S co
   using std::abs;
   using std::exp;
   using std::pow;
+  within<S>(vogel_cameron_temperature, temperature);
   S const thinning = exp(friction.exponent * friction.vogel_temperature / (temperature - Vogel{}.pole));
   return friction.factor * pow(S(abs(speed)), 1.0 + friction.exponent) * thinning;
 }
@@ -39,8 +40,6 @@ struct ContactOil {
 
 /// E' [Pa]: reduced modulus of steel on steel.
 inline constexpr double reduced_modulus = 2.31e11;
-
-inline constexpr Validity rolling_contact_temperature = vogel_cameron_temperature;
 
 /// The published constants of one kind of contact.
 struct ContactLaw {

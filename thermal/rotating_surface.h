@@ -19,42 +19,48 @@ S cylinder_reynolds(S const& angular_speed, S const& diameter, S const& viscosit
   return smooth_abs<S>(angular_speed, rest) * diameter * diameter / (2.0 * viscosity);
 }
 
-/// Nu_D = 0.133 Re^{2/3} Pr^{1/3} (2.6). Source: Becker 1963 (water), commonly used for air up to Re = 4.3e5.
-inline constexpr Validity becker_reynolds{800.0, 4.3e5};
+/// The ranges of Re begin at 0, where free convection takes over (assisting_convection), not where their sources begin.
+
+/// Nu_D = 0.133 Re^{2/3} Pr^{1/3} (2.6). Source: Becker 1963 (water, from 800), commonly used for air up to Re = 4.3e5.
+inline constexpr Validity becker_reynolds{0.0, 4.3e5, "Re of a rotating cylinder after Becker"};
 
 template <class S>
 S becker_nusselt(S const& reynolds, S const& prandtl) {
   using std::cbrt;
   using std::pow;
+  within<S>(becker_reynolds, reynolds);
   return 0.133 * pow(reynolds, 2.0 / 3.0) * cbrt(prandtl);
 }
 
 /// Nu_D = 0.683 Re^0.466 Pr^{1/3}: alternative for slow rotation; 30 % below Becker's at the end of its range.
-inline constexpr Validity slow_cylinder_reynolds{1.0, 2.5e4};
+inline constexpr Validity slow_cylinder_reynolds{0.0, 2.5e4, "Re of a slowly rotating cylinder"};
 
 template <class S>
 S slow_cylinder_nusselt(S const& reynolds, S const& prandtl) {
   using std::cbrt;
   using std::pow;
+  within<S>(slow_cylinder_reynolds, reynolds);
   return 0.683 * pow(reynolds, 0.466) * cbrt(prandtl);
 }
 
 /// Nu_D = 0.10 Re^{2/3}, air, Re above 1.1 Gr^{1/2}. Source: Anderson & Saunders 1953.
-inline constexpr Validity anderson_saunders_reynolds{1e3, 1e5};
+inline constexpr Validity anderson_saunders_reynolds{0.0, 1e5, "Re of a rotating cylinder after Anderson & Saunders"};
 
 template <class S>
 S anderson_saunders_nusselt(S const& reynolds) {
   using std::pow;
+  within<S>(anderson_saunders_reynolds, reynolds);
   return 0.10 * pow(reynolds, 2.0 / 3.0);
 }
 
 /// h = 3.75 |ω|^0.7 R^0.4 [W/(m² K)], cylinder in air; ω [rad/s], R radius [m]. Source: Jungnickel 2010.
-inline constexpr Validity jungnickel_angular_speed{1.0, 2500.0};  ///< [rad/s]
-inline constexpr double jungnickel_rest = 1e-3;                   ///< [rad/s] no rotation, no forced convection
+inline constexpr Validity jungnickel_angular_speed{-2500.0, 2500.0, "angular speed after Jungnickel [rad/s]"};
+inline constexpr double jungnickel_rest = 1e-3;  ///< [rad/s] no rotation, no forced convection
 
 template <class S>
 S jungnickel_cylinder_film(S const& angular_speed, S const& radius) {
   using std::pow;
+  within<S>(jungnickel_angular_speed, angular_speed);
   return 3.75 * vanishing_power<S>(angular_speed, 0.7, jungnickel_rest) * pow(radius, 0.4);
 }
 
@@ -62,18 +68,20 @@ S jungnickel_cylinder_film(S const& angular_speed, S const& radius) {
 template <class S>
 S jungnickel_disc_film(S const& angular_speed, S const& radius) {
   using std::pow;
+  within<S>(jungnickel_angular_speed, angular_speed);
   return 2.73 * vanishing_power<S>(angular_speed, 0.8, jungnickel_rest) * pow(radius, 0.6);
 }
 
 /// Nu_R = 0.36 Re^{1/2} for Re = ωR²/ν below 2e5, 0.015 Re^0.8 above: mean over a disc's face. Source: Cobb & Saunders
 /// 1956.
 inline constexpr double disc_film_turbulence_reynolds = 2e5;
-inline constexpr Validity disc_film_reynolds{1e3, 6e5};
+inline constexpr Validity disc_film_reynolds{0.0, 6e5, "Re of a rotating disc"};
 
 template <class S>
 S disc_nusselt(S const& reynolds) {
   using std::pow;
   using std::sqrt;
+  within<S>(disc_film_reynolds, reynolds);
   return change_of_regime<S>(0.36 * sqrt(reynolds), 0.015 * pow(reynolds, 0.8), reynolds,
                              disc_film_turbulence_reynolds);
 }
@@ -90,8 +98,6 @@ S rotating_disc_film(S const& surface, S const& fluid, S const& radius, S const&
 }
 
 /// hA = (hA)_r |n/n_r|^m [W/K]: flange, pulley or chuck as a fan; m = 0.5 (laminar) to 0.8 (turbulent).
-inline constexpr Validity fan_exponent{0.5, 0.8};
-
 template <class S>
 S fan_conductance(S const& reference, S const& speed_ratio, double exponent) {
   constexpr double rest = 1e-4;

@@ -5,8 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "thermal/validity.h"
-
 namespace thermotwin::thermal {
 
 /// Seals: their torque does not depend on speed, so their heat M ω is linear in it (bearing_friction.h: friction_heat).
@@ -28,18 +26,14 @@ struct BearingSeal {
 
 [[nodiscard]] std::vector<std::string> const& bearing_seal_types();
 
-inline constexpr Validity lip_line_force{50.0, 200.0};  ///< p_l [N/m]
-inline constexpr Validity lip_friction{0.2, 0.4};       ///< μ
-
-/// M = ½π μ p_l d² [N m]: radial lip seal; μ friction coefficient, p_l line force [N/m], d shaft diameter [m].
+/// M = ½π μ p_l d² [N m]: radial lip seal; friction coefficient μ 0.2 to 0.4, line force p_l 50 to 200 N/m, d shaft
+/// diameter [m].
 template <class S>
 S lip_seal_torque(S const& friction, S const& line_force, S const& diameter) {
   return 0.5 * std::numbers::pi * friction * line_force * diameter * diameter;
 }
 
-inline constexpr Validity purge_air_flow{1.6e-4, 1e-3};  ///< V̇ [m³/s], 10 to 60 L/min
-
-/// q = V̇ ρ c (T_air − T) [W] into the body at T: purge air of a labyrinth; ρc [J/(m³ K)].
+/// q = V̇ ρ c (T_air − T) [W] into the body at T: purge air of a labyrinth, 10 to 60 L/min; ρc [J/(m³ K)].
 template <class S>
 S purge_air_heat(S const& volume_flow, S const& volumetric_heat, S const& air_temperature, S const& temperature) {
   return volume_flow * volumetric_heat * (air_temperature - temperature);

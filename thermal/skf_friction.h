@@ -30,7 +30,9 @@ struct SkfBearingOf {
 };
 using SkfBearing = SkfBearingOf<double>;
 
-inline constexpr Validity skf_speed_times_diameter{0.0, 41.9};  ///< ω d_m [m/s], n d_m = 4e5 mm/min
+/// n d_m = 4e5 mm/min.
+inline constexpr Validity skf_speed_times_diameter{-41.9, 41.9,
+                                                   "angular speed times diameter of a bearing after SKF [m/s]"};
 
 namespace skf {
 
@@ -61,6 +63,7 @@ S skf_rolling_torque(SkfBearingOf<Real> const& b, S const& radial, S const& axia
   using std::pow;
   using std::sqrt;
   Real const dm = skf::mean_diameter_mm(b);
+  within<S>(skf_speed_times_diameter, angular_speed * (1e-3 * dm));
   Real const sum_mm = 1e3 * (b.bore + b.outer_diameter);
   Real const difference_mm = 1e3 * (b.outer_diameter - b.bore);
   S const n = skf::speed_rpm<S>(angular_speed);

@@ -461,12 +461,15 @@ std::string_view name_of(LinearSolver solver) {
   return "automatic";
 }
 
-double IntegrationSummary::energy_imbalance() const {
+double IntegrationSummary::moved() const {
   double const came = energy.supplied + 0.5 * (energy.exchanged - energy.lost);
   double const went = energy.withdrawn + 0.5 * (energy.exchanged + energy.lost);
+  return std::max(came, went);
+}
+
+double IntegrationSummary::energy_imbalance() const {
   double const gap = std::abs(stored + energy.lost + energy.withdrawn - energy.supplied);
-  double const moved = std::max(came, went);
-  return moved > 0.0 ? gap / moved : gap;
+  return moved() > 0.0 ? gap / moved() : gap;
 }
 
 IntegrationState start_of_run(Network const& network, std::span<double const> temperatures, double time) {

@@ -16,7 +16,7 @@ S gap_reynolds(S const& angular_speed, S const& radius, S const& gap, S const& v
   return angular_speed * radius * gap / viscosity;
 }
 
-inline constexpr Validity vrancik_reynolds{1e3, 1e6};
+inline constexpr Validity gap_windage_reynolds{0.0, 1e6, "Re of air friction in a gap"};
 
 /// 1/√C_f = 2.04 + 1.768 ln(Re_δ √C_f): skin friction of a smooth rotor in a smooth turbulent gap. Source: Vrancik
 /// 1968, NASA TN D-4849. Solved for z = ln(1/√C_f), e^z + 1.768 z = 2.04 + 1.768 ln Re_δ, by Newton: the left side is
@@ -41,6 +41,7 @@ inline constexpr double gap_turbulence_reynolds = 87.0;
 template <class S>
 S gap_friction(S const& reynolds) {
   S const positive = smooth_abs<S>(reynolds, 1e-3);
+  within<S>(gap_windage_reynolds, positive);
   S const turbulent = vrancik_friction<S>(smooth_abs<S>(reynolds, 5.0));
   return change_of_regime<S>(2.0 / positive, turbulent, positive, gap_turbulence_reynolds);
 }
@@ -56,13 +57,14 @@ S gap_windage(S const& angular_speed, S const& radius, S const& length, S const&
 }
 
 inline constexpr double disc_turbulence_reynolds = 3e5;
-inline constexpr Validity disc_windage_reynolds{1e3, 1e7};  ///< Re = ωr²/ν
+inline constexpr Validity disc_windage_reynolds{0.0, 1e7, "Re of air friction at a disc"};
 
 /// C_M = 3.87 Re^{−1/2} below Re = 3e5, 0.146 Re^{−1/5} above: moment of a disc wetted on both sides.
 /// Sources: Dorfman 1963; Schlichting.
 template <class S>
 S disc_moment_coefficient(S const& reynolds) {
   using std::pow;
+  within<S>(disc_windage_reynolds, reynolds);
   S const laminar = 3.87 * pow(reynolds, -0.5);
   S const turbulent = 0.146 * pow(reynolds, -0.2);
   return change_of_regime<S>(laminar, turbulent, reynolds, disc_turbulence_reynolds);

@@ -142,6 +142,9 @@ void add_other_commands(CLI::App& app) {
     check_suffix(*output, "a table", {".csv"});
     refuse_to_overwrite(*output, {}, {*input});
     auto const data = output::read(*input);
+    if (!data.complete)
+      tell(fmt::format(
+          "warning: the run of '{}' did not end: instruments have shown nothing yet; --truth has what is\n", *input));
     if (output->empty())
       output::export_csv(data, std::cout, *groups);
     else

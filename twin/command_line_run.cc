@@ -144,6 +144,7 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   if (!(options.field_interval > 0.0))
     throw thermal::InputError(fmt::format("--field-interval {}: a time above 0 is due", field_interval));
   options.node_temperatures = nodes;
+  options.watch_ranges = true;
   options.provenance =
       origin(path, machine_document, experiment_path, fmt::format("{}", fmt::join(settings, "\n")), programme);
   set_checkpoint(options);

@@ -1,11 +1,13 @@
 #include "twin/history.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "scenarios/feed_program.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
+#include "twin/instruments/sampling.h"
 #include "twin/instruments/temperature_specimen.h"
 
 namespace thermotwin::twin {
@@ -13,11 +15,21 @@ namespace {
 
 constexpr double to_um = 1e6;
 
-/// First entry of a screw's cells in History::screw_rise.
-std::size_t first_cell(Machine const& machine, std::size_t screw) {
-  std::size_t first = 0;
-  for (std::size_t s = 0; s < screw; ++s) first += machine.screws[s].screw.edges.size() - 1;
-  return first;
+/// Of a screw in a row of values: the parting of its seats [m], the strain of what it is measured against [1], the
+/// rises of its cells [K].
+constexpr std::size_t screw_seats = 0, screw_reference = 1, screw_cells = 2;
+
+std::size_t width_of(Screw const& screw) { return screw_cells + screw.screw.edges.size() - 1; }
+
+Eigen::VectorXd vector_of(std::vector<double> const& values) {
+  return Eigen::Map<Eigen::VectorXd const>(values.data(), Eigen::Index(values.size()));
+}
+
+/// Of the rows, those that are samples.
+Eigen::ArrayXd sampled(History const& history, Eigen::VectorXd const& column) {
+  Eigen::ArrayXd values(Eigen::Index(history.sampled().size()));
+  for (Eigen::Index k = 0; k < values.size(); ++k) values[k] = column[Eigen::Index(history.sampled()[std::size_t(k)])];
+  return values;
 }
 
 void note(output::Dataset& dataset, std::string const& instrument, std::map<std::string, double> const& drawn) {
@@ -38,13 +50,12 @@ SensorDescription misread(SensorDescription sensor, Machine const& machine, Inst
 }
 
 void measure_temperatures(History const& history, InstrumentChannel channel, output::Dataset& dataset) {
-  auto const times = history.times();
-  auto const& sensors = history.machine->sensors;
+  auto const times = history.times(), samples = vector_of(history.sample_times());
+  auto const& sensors = history.machine().sensors;
   for (std::size_t s = 0; s < sensors.size(); ++s) {
     channel.name = sensors[s].description.name;
-    auto const readings =
-        read(misread(sensors[s].description, *history.machine, channel), channel,
-             {times, history.column(history.sensor_body, s), history.column(history.sensor_air, s)}, times);
+    auto const readings = read(misread(sensors[s].description, history.machine(), channel), channel,
+                               {times, history.sensor_body(s), history.sensor_air(s)}, samples);
     note(dataset, channel.name, readings.drawn);
     dataset.readings[s].values = readings.values;
   }
@@ -52,18 +63,15 @@ void measure_temperatures(History const& history, InstrumentChannel channel, out
 
 /// A displacement without a probe is shown as it is.
 void measure_displacements(History const& history, InstrumentChannel channel, output::Dataset& dataset) {
-  auto const times = history.times();
-  auto const air = Eigen::Map<Eigen::VectorXd const>(history.air.data(), times.size());
-  auto const speed = Eigen::Map<Eigen::VectorXd const>(history.spindle_speed.data(), times.size());
   for (std::size_t c = 0; c < dataset.displacements.size(); ++c)
     dataset.displacements[c].values = dataset.truth_displacements[c].values;
-  auto const& channels = history.machine->displacements;
-  for (auto const& probe : history.machine->probes)
+  auto const& channels = history.machine().displacements;
+  for (auto const& probe : history.machine().probes)
     for (std::size_t c = 0; c < channels.size(); ++c) {
       if (channels[c].name != probe.of) continue;
       channel.name = probe.name;
-      auto const readings =
-          read(probe, channel, DisplacementCourse{times, history.column(history.displacement, c), air, speed}, times);
+      DisplacementCourse const course{history.times(), history.displacement(c), history.air(), history.spindle_speed()};
+      auto const readings = read(probe, channel, course, vector_of(history.sample_times()));
       note(dataset, channel.name, readings.drawn);
       dataset.displacements[c].values = readings.values;
     }
@@ -71,14 +79,13 @@ void measure_displacements(History const& history, InstrumentChannel channel, ou
 
 /// Channels X1 … Z of the nest are added; its errors take the place of the channels that they measure.
 void measure_nest(History const& history, InstrumentChannel channel, output::Dataset& dataset) {
-  auto const& machine = *history.machine;
+  auto const& machine = history.machine();
   if (!machine.nest) return;
-  auto const times = history.times();
   SpindleCourse course;
-  course.time = times;
-  course.errors = FiveColumns::Zero(times.size(), 5);
-  course.air = Eigen::Map<Eigen::VectorXd const>(history.air.data(), times.size());
-  course.spindle_speed = Eigen::Map<Eigen::VectorXd const>(history.spindle_speed.data(), times.size());
+  course.time = history.times();
+  course.errors = FiveColumns::Zero(course.time.size(), 5);
+  course.air = history.air();
+  course.spindle_speed = history.spindle_speed();
   auto const column_of = [&](std::string const& name) {
     std::string const plain = name.starts_with("E_A") || name.starts_with("E_B") ? name.substr(2) : name;
     auto const it = std::find_if(machine.displacements.begin(), machine.displacements.end(),
@@ -87,9 +94,9 @@ void measure_nest(History const& history, InstrumentChannel channel, output::Dat
   };
   for (int k = 0; k < 5; ++k)
     if (int const c = column_of(error_names[std::size_t(k)]); c >= 0)
-      course.errors.col(k) = history.column(history.displacement, std::size_t(c));
+      course.errors.col(k) = history.displacement(std::size_t(c));
   channel.name = "nest";
-  auto const readings = read(*machine.nest, channel, course, times);
+  auto const readings = read(*machine.nest, channel, course, vector_of(history.sample_times()));
   note(dataset, channel.name, readings.drawn);
   for (int k = 0; k < 5; ++k) {
     if (int const c = column_of(error_names[std::size_t(k)]); c >= 0)
@@ -103,14 +110,12 @@ void measure_nest(History const& history, InstrumentChannel channel, output::Dat
 
 /// What the machine's parts do to the readings of displacements.
 void misread_displacements(History const& history, output::Dataset& dataset) {
-  auto const times = history.times();
-  auto const air = Eigen::Map<Eigen::VectorXd const>(history.air.data(), times.size());
-  auto const& channels = history.machine->displacements;
-  for (auto const& term : history.machine->reading_terms)
+  auto const times = sampled(history, history.times()), air = sampled(history, history.air());
+  auto const& channels = history.machine().displacements;
+  for (auto const& term : history.machine().reading_terms)
     for (std::size_t c = 0; c < channels.size(); ++c)
       if (term.of_displacement && channels[c].name == term.channel)
-        dataset.displacements[c].values +=
-            to_um * (term.drift * times.array() + term.per_air * (air.array() - air[0])).matrix();
+        dataset.displacements[c].values += to_um * (term.drift * times + term.per_air * (air - air[0])).matrix();
 }
 
 Screw const& screw_of_laser(Machine const& machine, scenarios::LaserMeasurement const& laser) {
@@ -125,7 +130,7 @@ Screw const& screw_of_laser(Machine const& machine, scenarios::LaserMeasurement 
 void measure_positions(History const& history, scenarios::Experiment const& experiment, InstrumentChannel channel,
                        output::Dataset& dataset) {
   if (!experiment.laser) return;
-  auto const& machine = *history.machine;
+  auto const& machine = history.machine();
   auto const screw = std::size_t(&screw_of_laser(machine, *experiment.laser) - machine.screws.data());
   auto const limits = std::find_if(machine.limits.axes.begin(), machine.limits.axes.end(),
                                    [&](auto const& a) { return a.name == experiment.laser->axis; });
@@ -140,7 +145,7 @@ void measure_positions(History const& history, scenarios::Experiment const& expe
   LaserCourse course;
   course.error = error_table(times, positions, error);
   course.time = times;
-  course.air = Eigen::Map<Eigen::VectorXd const>(history.air.data(), times.size());
+  course.air = history.air();
   channel.name = "laser";
   auto const readings = read(machine.laser, channel, *experiment.laser, experiment.duration, course);
   note(dataset, channel.name, readings.drawn);
@@ -150,20 +155,108 @@ void measure_positions(History const& history, scenarios::Experiment const& expe
 
 }  // namespace
 
-Eigen::VectorXd History::times() const {
-  return Eigen::Map<Eigen::VectorXd const>(time.data(), Eigen::Index(time.size()));
+std::vector<NodeWeights> watched_sums(Machine const& machine) {
+  std::vector<NodeWeights> sums;
+  for (auto const& sensor : machine.sensors) sums.push_back(sensor.weights);
+  for (auto const& channel : machine.displacements) sums.push_back(channel.weights);
+  for (auto const& screw : machine.screws) {
+    sums.push_back(screw.seat_growth);
+    sums.push_back(screw.reference_strain);
+    for (int i = 0; i + 1 < int(screw.screw.edges.size()); ++i) sums.push_back({{screw.first_node + i, 1.0}});
+  }
+  return sums;
 }
 
-Eigen::VectorXd History::column(std::vector<std::vector<double>> const& rows, std::size_t index) const {
-  Eigen::VectorXd values(Eigen::Index(rows.size()));
-  for (std::size_t r = 0; r < rows.size(); ++r) values[Eigen::Index(r)] = rows[r][index];
-  return values;
+History::History(Machine const& machine, thermal::Course const& course, std::vector<double> const& sample_times)
+    : machine_(&machine),
+      channels_(course.channels()),
+      samples_(sample_times),
+      looks_(twin::looks(sample_times, course)),
+      floor_(channel("ambient.floor_temperature")),
+      gradient_(channel("ambient.gradient")),
+      speed_(channel("spindle.speed")) {
+  for (auto const& displacement : machine.displacements) {
+    auto& places = term_channels_.emplace_back();
+    for (auto const& term : displacement.input_terms) places.push_back(channel(term.channel));
+  }
+  auto const width = first_of_screw(machine.screws.size()) + 2;
+  values_.resize(Eigen::Index(looks_.size()), Eigen::Index(width));
+}
+
+int History::channel(std::string const& name) const {
+  auto const it = std::find_if(channels_.begin(), channels_.end(), [&](auto const& c) { return c.name == name; });
+  return it == channels_.end() ? -1 : int(it - channels_.begin());
+}
+
+std::size_t History::first_of_screw(std::size_t screw) const {
+  std::size_t first = first_displacement() + machine_->displacements.size();
+  for (std::size_t s = 0; s < screw; ++s) first += width_of(machine_->screws[s]);
+  return first;
+}
+
+bool History::add(std::span<double const> inputs, std::span<double const> watched) {
+  if (rows_ == 0) {
+    first_inputs_.assign(inputs.begin(), inputs.end());
+    first_watched_.assign(watched.begin(), watched.end());
+  }
+  auto const input = [&](int channel, double otherwise) {
+    return channel < 0 ? otherwise : inputs[std::size_t(channel)];
+  };
+  double const floor = input(floor_, 293.15), gradient = input(gradient_, 0.0);
+  double* const row = values_.data() + rows_ * std::size_t(values_.cols());
+  auto const& sensors = machine_->sensors;
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    double const air = floor + gradient * sensors[s].position.dot(machine_->up);
+    row[s] = sensors[s].weights.empty() ? air : watched[s];
+    row[sensors.size() + s] = air;
+  }
+  double* next = row + first_displacement();
+  for (std::size_t w = sensors.size(); w < watched.size(); ++w) *next++ = watched[w] - first_watched_[w];
+  *next++ = input(speed_, 0.0);
+  *next = floor + gradient;
+  for (std::size_t d = 0; d < term_channels_.size(); ++d)
+    for (std::size_t t = 0; t < term_channels_[d].size(); ++t) {
+      if (term_channels_[d][t] < 0) continue;
+      auto const i = std::size_t(term_channels_[d][t]);
+      auto const& term = machine_->displacements[d].input_terms[t];
+      row[first_displacement() + d] +=
+          term.coefficient * (std::pow(inputs[i], term.power) - std::pow(first_inputs_[i], term.power));
+    }
+  bool const sample = looks_[rows_] == samples_[sampled_.size()];
+  if (sample) sampled_.push_back(rows_);
+  ++rows_;
+  return sample;
+}
+
+Eigen::VectorXd History::column(std::size_t index) const {
+  return values_.col(Eigen::Index(index)).head(Eigen::Index(rows_));
+}
+
+Eigen::VectorXd History::times() const { return Eigen::Map<Eigen::VectorXd const>(looks_.data(), Eigen::Index(rows_)); }
+Eigen::VectorXd History::sensor_body(std::size_t sensor) const { return column(sensor); }
+Eigen::VectorXd History::sensor_air(std::size_t sensor) const { return column(machine_->sensors.size() + sensor); }
+Eigen::VectorXd History::displacement(std::size_t channel) const { return column(first_displacement() + channel); }
+Eigen::VectorXd History::spindle_speed() const { return column(first_of_screw(machine_->screws.size())); }
+Eigen::VectorXd History::air() const { return column(first_of_screw(machine_->screws.size()) + 1); }
+
+Eigen::VectorXd History::bodies_at(std::size_t row) const {
+  return values_.row(Eigen::Index(row)).head(Eigen::Index(machine_->sensors.size()));
 }
 
 double History::position_error(std::size_t screw, double x, std::size_t row) const {
-  auto const& built = machine->screws[screw].screw;
-  std::span<double const> const rise(screw_rise[row].data() + first_cell(*machine, screw), built.edges.size() - 1);
-  return built.position_error(x, rise, screw_seats[row][screw]) - screw_reference[row][screw] * x;
+  auto const& built = machine_->screws[screw].screw;
+  double const* const own = values_.data() + row * std::size_t(values_.cols()) + first_of_screw(screw);
+  std::span<double const> const rise(own + screw_cells, built.edges.size() - 1);
+  return built.position_error(x, rise, own[screw_seats]) - own[screw_reference] * x;
+}
+
+Eigen::VectorXd History::displacements_at(std::size_t row) const {
+  double const* const own = values_.data() + row * std::size_t(values_.cols()) + first_displacement();
+  std::vector<double> values(own, own + machine_->displacements.size());
+  auto const& screws = machine_->screws;
+  for (std::size_t s = 0; s < screws.size(); ++s)
+    for (double x : screws[s].description.positions) values.push_back(position_error(s, x, row));
+  return vector_of(values) * to_um;
 }
 
 std::vector<output::Channel> displacement_channels(Machine const& machine) {
@@ -177,14 +270,6 @@ std::vector<output::Channel> displacement_channels(Machine const& machine) {
                                       x * 1e3, s.description.support),
                           {}});
   return channels;
-}
-
-Eigen::VectorXd displacement_row(History const& history, std::size_t row) {
-  std::vector<double> values = history.displacement[row];
-  auto const& screws = history.machine->screws;
-  for (std::size_t s = 0; s < screws.size(); ++s)
-    for (double x : screws[s].description.positions) values.push_back(history.position_error(s, x, row));
-  return Eigen::Map<Eigen::VectorXd>(values.data(), Eigen::Index(values.size())) * to_um;
 }
 
 void check_laser(Machine const& machine, scenarios::Experiment const& experiment) {

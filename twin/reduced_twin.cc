@@ -8,6 +8,7 @@
 #include "scenarios/course.h"
 #include "thermal/course_inputs.h"
 #include "thermal/error.h"
+#include "thermal/physical_constant.h"
 #include "thermal/reduced_integration.h"
 #include "thermal/units.h"
 #include "twin/edge_unit.h"
@@ -23,20 +24,6 @@ using Eigen::VectorXd;
 constexpr double fine_step = 5e-5, coarse_step = 5e-4;  // [K]: tolerance of one step in time
 constexpr double safety = 2.0;
 constexpr double watched_reading = 0.01 /* K */, watched_displacement = 1e-7 /* m, rad */;
-
-/// What the machine's instruments look at, in this order: sensors, displacements, and of every screw its seats, its
-/// reference and its cells.
-std::vector<NodeWeights> watched_sums(Machine const& machine) {
-  std::vector<NodeWeights> sums;
-  for (auto const& sensor : machine.sensors) sums.push_back(sensor.weights);
-  for (auto const& channel : machine.displacements) sums.push_back(channel.weights);
-  for (auto const& screw : machine.screws) {
-    sums.push_back(screw.seat_growth);
-    sums.push_back(screw.reference_strain);
-    for (int i = 0; i + 1 < int(screw.screw.edges.size()); ++i) sums.push_back({{screw.first_node + i, 1.0}});
-  }
-  return sums;
-}
 
 int middle_of(thermal::NodeRange const& body) { return body.first + body.count / 2; }
 
@@ -123,88 +110,13 @@ output::Dataset head_of(Machine const& machine, scenarios::Experiment const& exp
   return head;
 }
 
-/// Turns what a reduced model shows into a History, sample by sample.
-class HistoryRecorder {
- public:
-  HistoryRecorder(Machine const& machine, scenarios::ExperimentCourse const& course, thermal::ReducedSums const& sums)
-      : machine_(machine), course_(course), sums_(sums), history_(machine), inputs_(course.channels().size()) {}
-
-  void operator()(thermal::ReducedSample const& sample);
-  [[nodiscard]] History take() { return std::move(history_); }
-
- private:
-  [[nodiscard]] double input_of(std::string const& name, double otherwise) const;
-  [[nodiscard]] double follows(Displacement const& channel) const;
-
-  Machine const& machine_;
-  scenarios::ExperimentCourse const& course_;
-  thermal::ReducedSums const& sums_;
-  History history_;
-  VectorXd now_, first_;
-  std::vector<double> inputs_, first_inputs_;
-};
-
-double HistoryRecorder::input_of(std::string const& name, double otherwise) const {
-  auto const& channels = course_.channels();
-  auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
-  return it == channels.end() ? otherwise : inputs_[std::size_t(it - channels.begin())];
-}
-
-double HistoryRecorder::follows(Displacement const& channel) const {
-  double value = 0.0;
-  auto const& channels = course_.channels();
-  for (auto const& term : channel.input_terms)
-    for (std::size_t i = 0; i < channels.size(); ++i)
-      if (channels[i].name == term.channel)
-        value += term.coefficient * (std::pow(inputs_[i], term.power) - std::pow(first_inputs_[i], term.power));
-  return value;
-}
-
-void HistoryRecorder::operator()(thermal::ReducedSample const& sample) {
-  course_.evaluate(sample.time, inputs_);
-  sums_.evaluate(sample.state, now_);
-  if (first_.size() == 0) {
-    first_ = now_;
-    first_inputs_ = inputs_;
-  }
-  double const floor = input_of("ambient.floor_temperature", 293.15), gradient = input_of("ambient.gradient", 0.0);
-  Eigen::Index next = 0;
-  history_.time.push_back(sample.time);
-  auto& body = history_.sensor_body.emplace_back();
-  auto& air = history_.sensor_air.emplace_back();
-  for (auto const& sensor : machine_.sensors) {
-    air.push_back(floor + gradient * sensor.position.dot(machine_.up));
-    body.push_back(sensor.weights.empty() ? air.back() : now_[next]);
-    ++next;
-  }
-  auto const since_start = [&] { return now_[next] - first_[next]; };
-  auto& displacement = history_.displacement.emplace_back();
-  for (auto const& channel : machine_.displacements) {
-    displacement.push_back(since_start() + follows(channel));
-    ++next;
-  }
-  auto& rise = history_.screw_rise.emplace_back();
-  auto& seats = history_.screw_seats.emplace_back();
-  auto& reference = history_.screw_reference.emplace_back();
-  for (auto const& screw : machine_.screws) {
-    seats.push_back(since_start());
-    ++next;
-    reference.push_back(since_start());
-    ++next;
-    for (std::size_t i = 0; i + 1 < screw.screw.edges.size(); ++i, ++next) rise.push_back(since_start());
-  }
-  history_.spindle_speed.push_back(input_of("spindle.speed", 0.0));
-  history_.air.push_back(floor + gradient);
-}
-
 /// Largest difference of every channel.
 ReducedError difference(History const& fine, History const& coarse) {
   ReducedError bound;
-  bound.readings.assign(fine.sensor_body.front().size(), 0.0);
-  for (std::size_t r = 0; r < fine.time.size(); ++r) {
-    for (std::size_t s = 0; s < bound.readings.size(); ++s)
-      bound.readings[s] = std::max(bound.readings[s], std::abs(fine.sensor_body[r][s] - coarse.sensor_body[r][s]));
-    VectorXd const gap = (displacement_row(fine, r) - displacement_row(coarse, r)).cwiseAbs();
+  for (std::size_t s = 0; s < fine.machine().sensors.size(); ++s)
+    bound.readings.push_back((fine.sensor_body(s) - coarse.sensor_body(s)).cwiseAbs().maxCoeff());
+  for (std::size_t r = 0; r < fine.rows(); ++r) {
+    VectorXd const gap = (fine.displacements_at(r) - coarse.displacements_at(r)).cwiseAbs();
     bound.displacements = r == 0 ? gap : VectorXd(bound.displacements.cwiseMax(gap));
   }
   return bound;
@@ -227,11 +139,11 @@ void keep_inputs(scenarios::ExperimentCourse const& course, output::Dataset& dat
 
 void keep_truth(History const& history, output::Dataset& dataset) {
   for (Eigen::Index r = 0; r < dataset.time_s.size(); ++r) {
-    auto const row = std::size_t(r);
-    dataset.time_s[r] = history.time[row];
+    auto const row = history.sampled()[std::size_t(r)];
+    dataset.time_s[r] = history.looks()[row];
+    VectorXd const readings = history.bodies_at(row), displacements = history.displacements_at(row);
     for (std::size_t s = 0; s < dataset.truth_readings.size(); ++s)
-      dataset.truth_readings[s].values[r] = history.sensor_body[row][s] - 273.15;
-    VectorXd const displacements = displacement_row(history, row);
+      dataset.truth_readings[s].values[r] = readings[Eigen::Index(s)] - thermal::zero_celsius;
     for (std::size_t c = 0; c < dataset.truth_displacements.size(); ++c)
       dataset.truth_displacements[c].values[r] = displacements[Eigen::Index(c)];
   }
@@ -307,21 +219,24 @@ History ReducedTwin::history_of(Model const& model, scenarios::Experiment const&
                                 scenarios::ExperimentCourse const& course, double tolerance,
                                 ReducedResult& result) const {
   auto const start = initial_temperatures(*machine_, experiment, course);
-  HistoryRecorder recorder(*machine_, course, model.sums);
+  History history(*machine_, course, scenarios::sample_times(experiment));
   auto const& bodies = machine_->network().ranges();
-  VectorXd middles;
-  auto const summary = thermal::integrate(
-      model.network, course, model.network.state_of(start), scenarios::sample_times(experiment), tolerance,
-      [&](thermal::ReducedSample const& sample) {
-        check_inputs(sample.input);
-        model.middles.evaluate(sample.state, middles);
-        for (std::size_t b = 0; b < bodies.size(); ++b)
-          check_temperature(machine_->network(), middle_of(bodies[b]), middles[Eigen::Index(b)], sample.time);
-        recorder(sample);
-      });
+  std::vector<double> inputs(course.channels().size());
+  VectorXd middles, watched;
+  auto const see = [&](thermal::ReducedSample const& sample) {
+    check_inputs(sample.input);
+    model.middles.evaluate(sample.state, middles);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      check_temperature(machine_->network(), middle_of(bodies[b]), middles[Eigen::Index(b)], sample.time);
+    course.evaluate(sample.time, inputs);
+    model.sums.evaluate(sample.state, watched);
+    history.add(inputs, {watched.data(), std::size_t(watched.size())});
+  };
+  auto const summary =
+      thermal::integrate(model.network, course, model.network.state_of(start), history.looks(), tolerance, see);
   result.steps += summary.steps;
   result.rate_evaluations += summary.rate_evaluations;
-  return recorder.take();
+  return history;
 }
 
 ReducedResult ReducedTwin::run(scenarios::Experiment const& experiment) const {
@@ -339,7 +254,7 @@ ReducedResult ReducedTwin::run(scenarios::Experiment const& experiment) const {
     result.bound.readings[s] = safety * result.bound.readings[s] + least_error_.readings[s];
   result.bound.displacements = safety * result.bound.displacements + least_error_.displacements;
   auto& dataset = result.dataset = head_of(*machine_, experiment, course);
-  output::resize_rows(dataset, Eigen::Index(history.time.size()));
+  output::resize_rows(dataset, Eigen::Index(history.sampled().size()));
   keep_truth(history, dataset);
   keep_inputs(course, dataset);
   measure(history, experiment, dataset);

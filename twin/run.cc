@@ -19,6 +19,8 @@
 namespace thermotwin::twin {
 namespace {
 
+constexpr double time_between_looks = 300.0;  ///< at the ranges of correlations [s]
+
 /// What only other channels are made of is not shown.
 bool is_shown(thermal::InputChannel const& channel) {
   return channel.name != "ambient.floor_temperature" && !channel.name.starts_with("clock.");
@@ -44,22 +46,24 @@ class Recorder {
  public:
   Recorder(Machine const& machine, scenarios::Experiment const& experiment, scenarios::ExperimentCourse const& course,
            RunOptions const& options);
+  /// When it has to be shown the machine.
+  [[nodiscard]] std::vector<double> const& looks() const { return history_.looks(); }
   void operator()(thermal::Sample const& sample);
   output::Dataset finish(std::map<std::string, std::string> const& provenance);
   [[nodiscard]] output::Dataset const& dataset() const { return dataset_; }
+  [[nodiscard]] ExtrapolationWatch const& watch() const { return watch_; }
   /// "; the rows so far are in run.h5.partial", if there are any.
   [[nodiscard]] std::string rows_so_far() const;
 
  private:
   output::Dataset make_head() const;
-  void record_history(thermal::Sample const& sample);
+  /// Whether the look is one of the data set's samples.
+  bool record_history(thermal::Sample const& sample);
   output::Row make_row(thermal::Sample const& sample);
   void keep(output::Row const& row);
   output::Frame make_frame(thermal::Sample const& sample);
   void show_field(thermal::Sample const& sample);
-  [[nodiscard]] double seen(NodeWeights const& weights, std::span<double const> temperatures) const;
-  [[nodiscard]] double air_at(double height, thermal::Sample const& sample) const;
-  [[nodiscard]] double input_of(std::string const& name, double otherwise) const;
+  void watch_ranges(thermal::Sample const& sample);
 
   Machine const& machine_;
   scenarios::Experiment const& experiment_;
@@ -67,14 +71,18 @@ class Recorder {
   RunOptions const& options_;
   thermal::Evaluation evaluation_;
   History history_;
+  std::vector<NodeWeights> sums_;  ///< that the history watches
+  std::vector<double> watched_;
   output::Dataset dataset_;
   std::vector<output::Row> rows_;
   std::unique_ptr<output::DatasetWriter> writer_;
   std::unique_ptr<output::FieldSeries> fields_;
-  std::vector<double> first_temperatures_, first_inputs_, inputs_, watts_;
+  std::vector<double> first_temperatures_, inputs_, watts_;
   std::vector<std::size_t> shown_inputs_, shown_parts_;
   std::vector<thermal::Unit> edge_units_;  ///< of the inputs shown
   double last_time_;                       ///< of the readings
+  ExtrapolationWatch watch_;
+  double next_look_ = 0.0;
   std::optional<output::Frame> last_frame_;
   double last_frame_time_ = 0.0;
 };
@@ -86,10 +94,13 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
       course_(course),
       options_(options),
       evaluation_(machine.network()),
-      history_(machine),
+      history_(machine, course, scenarios::sample_times(experiment)),
+      sums_(watched_sums(machine)),
+      watched_(sums_.size()),
       inputs_(course.channels().size()),
       watts_(machine.network().parts().size()),
-      last_time_(scenarios::sample_times(experiment).back()) {
+      last_time_(history_.sample_times().back()),
+      watch_(machine.network()) {
   for (std::size_t i = 0; i < course.channels().size(); ++i)
     if (is_shown(course.channels()[i])) shown_inputs_.push_back(i);
   for (std::size_t p = 0; p < machine.network().parts().size(); ++p)
@@ -133,71 +144,23 @@ output::Dataset Recorder::make_head() const {
   return head;
 }
 
-double Recorder::seen(NodeWeights const& weights, std::span<double const> temperatures) const {
-  double sum = 0.0;
-  for (auto const& [node, weight] : weights) sum += weight * temperatures[std::size_t(node)];
-  return sum;
-}
-
-double Recorder::input_of(std::string const& name, double otherwise) const {
-  auto const& channels = course_.channels();
-  auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
-  return it == channels.end() ? otherwise : inputs_[std::size_t(it - channels.begin())];
-}
-
-double Recorder::air_at(double height, thermal::Sample const&) const {
-  return input_of("ambient.floor_temperature", 293.15) + height * input_of("ambient.gradient", 0.0);
-}
-
-void Recorder::record_history(thermal::Sample const& sample) {
-  history_.time.push_back(sample.time);
-  auto& body = history_.sensor_body.emplace_back();
-  auto& air = history_.sensor_air.emplace_back();
-  for (auto const& sensor : machine_.sensors) {
-    air.push_back(air_at(sensor.position.dot(machine_.up), sample));
-    body.push_back(sensor.weights.empty() ? air.back() : seen(sensor.weights, sample.temperatures));
+bool Recorder::record_history(thermal::Sample const& sample) {
+  for (std::size_t w = 0; w < sums_.size(); ++w) {
+    watched_[w] = 0.0;
+    for (auto const& [node, weight] : sums_[w]) watched_[w] += weight * sample.temperatures[std::size_t(node)];
   }
-  auto const since_start = [&](NodeWeights const& weights) {
-    return seen(weights, sample.temperatures) - seen(weights, first_temperatures_);
-  };
-  auto& displacement = history_.displacement.emplace_back();
-  for (auto const& channel : machine_.displacements) {
-    double value = since_start(channel.weights);
-    for (auto const& term : channel.input_terms) {
-      auto const& channels = course_.channels();
-      auto const it =
-          std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == term.channel; });
-      if (it == channels.end()) continue;
-      auto const i = std::size_t(it - channels.begin());
-      value += term.coefficient * (std::pow(inputs_[i], term.power) - std::pow(first_inputs_[i], term.power));
-    }
-    displacement.push_back(value);
-  }
-  auto& rise = history_.screw_rise.emplace_back();
-  auto& seats = history_.screw_seats.emplace_back();
-  auto& reference = history_.screw_reference.emplace_back();
-  for (auto const& screw : machine_.screws) {
-    seats.push_back(since_start(screw.seat_growth));
-    reference.push_back(since_start(screw.reference_strain));
-    for (std::size_t i = 0; i + 1 < screw.screw.edges.size(); ++i) {
-      auto const node = std::size_t(screw.first_node) + i;
-      rise.push_back(sample.temperatures[node] - first_temperatures_[node]);
-    }
-  }
-  history_.spindle_speed.push_back(input_of("spindle.speed", 0.0));
-  history_.air.push_back(air_at(1.0, sample));
+  return history_.add(inputs_, watched_);
 }
 
 output::Row Recorder::make_row(thermal::Sample const& sample) {
-  auto const row = history_.time.size() - 1;
+  auto const row = history_.rows() - 1;
   output::Row out;
   out.time_s = sample.time;
   out.inputs.resize(Eigen::Index(shown_inputs_.size()));
   for (std::size_t k = 0; k < shown_inputs_.size(); ++k)
     out.inputs[Eigen::Index(k)] = edge_value(inputs_[shown_inputs_[k]], edge_units_[k]);
-  auto const& body = history_.sensor_body[row];
-  out.truth_readings = Eigen::Map<Eigen::VectorXd const>(body.data(), Eigen::Index(body.size())).array() - 273.15;
-  out.truth_displacements = displacement_row(history_, row);
+  out.truth_readings = history_.bodies_at(row).array() - thermal::zero_celsius;
+  out.truth_displacements = history_.displacements_at(row);
   double const missing = std::nan("");
   out.readings = Eigen::VectorXd::Constant(out.truth_readings.size(), missing);
   out.displacements = Eigen::VectorXd::Constant(out.truth_displacements.size(), missing);
@@ -234,18 +197,24 @@ void Recorder::show_field(thermal::Sample const& sample) {
   if (fields_) fields_->add(sample.time, *last_frame_);
 }
 
+void Recorder::watch_ranges(thermal::Sample const& sample) {
+  if (sample.time < next_look_ && sample.time < last_time_) return;
+  next_look_ = sample.time + time_between_looks;
+  auto const temperatures = evaluation_.temperatures(sample.state.data(), sample.input.data());
+  watch_.look(sample.time, temperatures.data(), evaluation_.inputs().data());
+}
+
 void Recorder::operator()(thermal::Sample const& sample) {
   for (int i = 0; i < machine_.network().nodes(); ++i)
     check_temperature(machine_.network(), i, sample.temperatures[std::size_t(i)], sample.time);
   course_.evaluate(sample.time, inputs_);
-  if (first_temperatures_.empty()) {
-    first_temperatures_.assign(sample.temperatures.begin(), sample.temperatures.end());
-    first_inputs_ = inputs_;
+  if (first_temperatures_.empty()) first_temperatures_.assign(sample.temperatures.begin(), sample.temperatures.end());
+  if (record_history(sample)) {
+    rows_.push_back(make_row(sample));
+    if (writer_) writer_->append(rows_.back());
+    show_field(sample);
+    if (options_.watch_ranges) watch_ranges(sample);
   }
-  record_history(sample);
-  rows_.push_back(make_row(sample));
-  if (writer_) writer_->append(rows_.back());
-  show_field(sample);
   if (options_.progress) options_.progress(experiment_.duration > 0.0 ? sample.time / experiment_.duration : 1.0);
   if (options_.stop && *options_.stop)
     throw Interrupted(
@@ -312,7 +281,7 @@ RunResult run_in_modes(Machine const& machine, scenarios::Experiment const& expe
   Recorder recorder(machine, experiment, course, options);
   RunResult result;
   result.summary = thermal::integrate_in_modes(
-      machine.network(), course, initial_temperatures(machine, experiment, course), scenarios::sample_times(experiment),
+      machine.network(), course, initial_temperatures(machine, experiment, course), recorder.looks(),
       options.integration, [&](thermal::Sample const& sample) { recorder(sample); });
   result.dataset = recorder.finish({{"solver.steps", std::to_string(result.summary.steps)},
                                     {"solver.rate_evaluations", std::to_string(result.summary.rate_evaluations)}});
@@ -362,10 +331,10 @@ RunResult run(Machine const& machine, scenarios::Experiment const& experiment, R
   if (options.in_modes) return run_in_modes(machine, experiment, options);
   scenarios::ExperimentCourse const course(experiment, machine.limits);
   check_laser(machine, experiment);
-  auto const times = scenarios::sample_times(experiment);
   auto const& network = machine.network();
-  auto state = thermal::start_of_run(network, initial_temperatures(machine, experiment, course), times.front());
+  auto state = thermal::start_of_run(network, initial_temperatures(machine, experiment, course), 0.0);
   Recorder recorder(machine, experiment, course, options);
+  auto const& times = recorder.looks();
   std::optional<Checkpoint> checkpoint;
   std::size_t done = 0;
   if (options.checkpoint) {
@@ -391,6 +360,7 @@ RunResult run(Machine const& machine, scenarios::Experiment const& experiment, R
   RunResult result;
   result.summary = state.summary;
   result.dataset = recorder.finish(solver_provenance(result.summary));
+  result.extrapolated = recorder.watch().found(result.summary.moved());
   if (checkpoint) checkpoint->remove();
   return result;
 }

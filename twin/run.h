@@ -13,6 +13,7 @@
 #include "scenarios/course.h"
 #include "scenarios/experiment.h"
 #include "thermal/integrate.h"
+#include "twin/extrapolation_watch.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -37,6 +38,7 @@ void check_temperature(thermal::Network const& network, int node, double tempera
 struct RunOptions {
   thermal::IntegrationOptions integration;
   bool in_modes = false;                          ///< without heat balance and checkpoint (thermal/modal_integration.h)
+  bool watch_ranges = false;                      ///< tell of correlations beyond their ranges
   std::optional<std::filesystem::path> dataset;   ///< HDF5 file
   std::optional<std::filesystem::path> fields;    ///< folder of the VTK series
   std::optional<std::filesystem::path> picture;   ///< PNG of the last frame
@@ -59,6 +61,7 @@ struct RunOptions {
 struct RunResult {
   output::Dataset dataset;
   thermal::IntegrationSummary summary;
+  std::vector<Extrapolated> extrapolated;  ///< if it was asked for
 };
 
 /// Runs an experiment on a machine: temperatures, displacements, instruments, fields. InputError of check_temperature

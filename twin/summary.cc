@@ -90,6 +90,7 @@ std::string summary_table(Machine const& machine, RunResult const& result) {
       s.energy.supplied / 1e3, s.stored / 1e3, s.energy.lost / 1e3, s.energy.withdrawn / 1e3, s.energy_imbalance());
   text += fmt::format("  solver     {} steps, {} right-hand sides, {} Jacobians, {} restarts, {}, {:.2f} s\n", s.steps,
                       s.rate_evaluations, s.jacobian_evaluations, s.restarts, name_of(s.solver), s.wall_time);
+  for (auto const& extrapolated : result.extrapolated) text += fmt::format("  beyond     {}\n", text_of(extrapolated));
   return text;
 }
 
@@ -115,6 +116,14 @@ std::string summary_json(Machine const& machine, RunResult const& result) {
                     {"jacobian_evaluations", s.jacobian_evaluations},
                     {"restarts", s.restarts},
                     {"wall_time_s", s.wall_time}};
+  json["extrapolated"] = Json::array();
+  for (auto const& e : result.extrapolated)
+    json["extrapolated"].push_back({{"part", e.part},
+                                    {"number", e.range->number},
+                                    {"value", e.number},
+                                    {"lower", e.range->lower},
+                                    {"upper", e.range->upper},
+                                    {"share_of_heat", e.share}});
   return json.dump(2) + "\n";
 }
 

@@ -10,9 +10,10 @@ namespace thermotwin::twin {
 
 std::string readable_unit(double si, thermal::Dimension dimension) {
   if (dimension == thermal::Dimension{}) return "";
+  double const least = dimension == thermal::dimension::time ? 1.0 : 0.1;  // no tenths of a minute
   for (auto const unit : thermal::usual_units(dimension)) {
     double const number = std::abs(thermal::to_unit(si, unit));
-    if (number >= 0.1 && number < 1e4) return std::string(unit);
+    if (number >= least && number < 1e4) return std::string(unit);
   }
   return thermal::unit_of(dimension);
 }

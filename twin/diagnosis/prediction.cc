@@ -6,6 +6,7 @@
 #include "thermal/integrate.h"
 #include "twin/diagnosis/channel_reading.h"
 #include "twin/instruments/first_order_lag.h"
+#include "twin/instruments/sampling.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -29,7 +30,7 @@ class Predictor {
   Machine const& machine_;
   MeasuredRun const& run_;
   std::vector<ChannelReading> readings_;
-  std::vector<double> times_;  ///< 0, and those of the run
+  std::vector<double> times_;  ///< at which it looks: 0, the run's, and between them
   std::vector<double> inputs_, first_inputs_, first_temperatures_;
   Eigen::MatrixXd seen_;  ///< before any lag
 };
@@ -40,8 +41,9 @@ Predictor::Predictor(Machine const& machine, MeasuredRun const& run)
     if (!readings_[c].sensor && !readings_[c].displacement)
       throw thermal::InputError(
           fmt::format("the machine '{}' has no channel '{}'", machine.name, run.channels[c].name));
-  if (run.time[0] > 0.0) times_.push_back(0.0);
-  times_.insert(times_.end(), run.time.begin(), run.time.end());
+  std::vector<double> samples(run.time.begin(), run.time.end());
+  if (samples.front() > 0.0) samples.insert(samples.begin(), 0.0);
+  times_ = looks(samples, *run.course);
 }
 
 void Predictor::look(thermal::Sample const& sample, Eigen::Index row) {
@@ -67,17 +69,14 @@ Eigen::MatrixXd Predictor::operator()() {
   Eigen::Index row = 0;
   thermal::integrate(machine_.network(), *run_.course, initial_temperatures(machine_, start, *run_.course), times_, {},
                      [&](thermal::Sample const& sample) { look(sample, row++); });
+  Eigen::MatrixXd shown(run_.time.size(), seen_.cols());
   Eigen::VectorXd const time = Eigen::Map<Eigen::VectorXd const>(times_.data(), rows);
   for (std::size_t c = 0; c < readings_.size(); ++c) {
-    auto column = seen_.col(Eigen::Index(c));
     auto const& reading = readings_[c];
-    if (reading.lag > 0.0) {
-      FirstOrderLag const lag(time, column, reading.lag);
-      column = time.unaryExpr([&](double t) { return lag.at(t); });
-    }
-    column = reading.shown(column, time);
+    FirstOrderLag const course(time, seen_.col(Eigen::Index(c)), reading.lag);
+    shown.col(Eigen::Index(c)) = reading.shown(run_.time.unaryExpr([&](double t) { return course.at(t); }), run_.time);
   }
-  return seen_.bottomRows(run_.time.size());
+  return shown;
 }
 
 }  // namespace

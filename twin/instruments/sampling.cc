@@ -9,6 +9,34 @@
 #include "twin/instruments/random_stream.h"
 
 namespace thermotwin::twin {
+namespace {
+
+constexpr double closest_looks = 0.5;                       ///< apart [s]; what happens between such two happens at one
+constexpr double shortest_look = 5.0, longest_look = 60.0;  ///< [s]
+constexpr double look_growth = 0.4;                         ///< of the time since something happened
+
+/// First time after t at which an input jumps or bends.
+double next_event(thermal::Course const& course, double t) {
+  return std::min(course.next_jump(t), course.next_bend(t));
+}
+
+}  // namespace
+
+std::vector<double> looks(std::span<double const> sample_times, thermal::Course const& course) {
+  std::vector<double> times{sample_times.front()};
+  double since = times.front(), event = next_event(course, since);
+  for (double const sample : sample_times.subspan(1)) {
+    for (;;) {
+      double const from = times.back();
+      for (; event < from + closest_looks; event = next_event(course, event)) since = event;
+      double const to = std::min(from + std::clamp(look_growth * (from - since), shortest_look, longest_look), event);
+      if (to > sample - closest_looks) break;
+      times.push_back(to);
+    }
+    times.push_back(sample);
+  }
+  return times;
+}
 
 std::vector<bool> due(Eigen::VectorXd const& sample_times, double interval) {
   std::vector<bool> result;

@@ -211,6 +211,8 @@ TEST(EstimateText, UnitsAreTheAuthors) {
   EXPECT_EQ(written_value(0.5156583, ""), "0.515658");
   EXPECT_EQ(written_interval(0.5, "W/K"), "± 0.98 W/K");
   EXPECT_EQ(readable_unit(237.0, thermal::dimension::power), "W");
+  EXPECT_EQ(readable_unit(16.0, thermal::dimension::time), "s");
+  EXPECT_EQ(readable_unit(90.0, thermal::dimension::time), "min");
   EXPECT_EQ(readable_unit(2.4e4, thermal::dimension::power), "kW");
   UncertainNumber const bed{"lump.bed.mass", 900.0, thermal::dimension::mass, 0.1, "kg"};
   auto const change = changed_value(bed, std::log(1.1), 0.05);

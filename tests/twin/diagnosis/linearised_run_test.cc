@@ -47,6 +47,21 @@ MeasuredRun const& measured() {
   return run;
 }
 
+TEST(Predict, ALagShowsTheSameHoweverSeldomItIsRead) {
+  auto document = v450();
+  for (auto const* path : {"temperature_sensor.T1.lag", "temperature_sensor.T4.lag"})
+    set_parameter(document, path, "90 s");
+  auto const slow = Machine::build(document);
+  auto const seen_every = [&](double sampling) {
+    auto experiment = tests::two_speeds();
+    experiment.sampling = sampling;
+    return predict(slow, measured_run(run(machine(), experiment, {}).dataset, slow, "two speeds"));
+  };
+  MatrixXd const often = seen_every(20.0), seldom = seen_every(600.0);
+  for (Index r = 0; r < seldom.rows(); ++r)
+    EXPECT_LT((seldom.row(r) - often.row(30 * r)).cwiseAbs().maxCoeff(), 0.01) << "row " << r;
+}
+
 char const* const numbers[] = {"bearing.front.grease_factor", "joint.front_seat.coefficient", "film.motor.coefficient",
                                "lump.head_front.mass", "motor_loss.stator.eddy"};
 

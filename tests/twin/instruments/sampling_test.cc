@@ -1,9 +1,11 @@
 #include "twin/instruments/sampling.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "tests/thermal/function_course.h"
 #include "thermal/error.h"
 
 namespace thermotwin::twin {
@@ -32,6 +34,25 @@ TEST(Sampling, AveragesWhatFitsIntoTheWindow) {
   EXPECT_EQ(conversions(60.0, 0.75, ever), 80);
   EXPECT_EQ(conversions(60.0, 1.0, 10.0), 10);
   EXPECT_THROW(conversions(1.0, 0.0, ever), thermal::InputError);
+}
+
+TEST(Sampling, LooksOftenAfterAJumpAndOnceAMinuteInTheEnd) {
+  std::vector<double> const jumps{30.0, 190.2, 200.0}, samples{0.0, 10.0, 190.0, 900.0};
+  thermal::FunctionCourse const course(
+      {"speed"}, [](double, std::span<double>) {}, jumps);
+  auto const times = looks(samples, course);
+  EXPECT_THAT(times, testing::IsSupersetOf(samples));
+  EXPECT_THAT(times, testing::IsSupersetOf({30.0, 200.0}));
+  EXPECT_THAT(times, testing::Not(testing::Contains(190.2)));  // as good as at the sample
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    double since = 0.0;
+    for (double const jump : jumps)
+      if (jump < times[i - 1] + 0.5) since = jump;
+    EXPECT_GE(times[i] - times[i - 1], 0.5);
+    EXPECT_LE(times[i] - times[i - 1], std::min(60.0, std::max(5.0, 0.4 * (times[i - 1] - since))) + 0.5);
+  }
+  EXPECT_LT(times.size(), 60U);
+  EXPECT_THAT(looks(std::vector{5.0}, course), ElementsAre(5.0));
 }
 
 TEST(Sampling, QuantisesToTheNearestStep) {

@@ -98,7 +98,6 @@ TEST(StudyOfPaper003, FiveSensorsSufficeForTheNetworkAndItExtrapolatesBetterThan
   });
   study.description.selections = {"thermal_modes 5", "all"};
   study.description.models = {"genetic_back_propagation", "linear"};
-  study.description.seeds = 10;
   auto const report = run_study(study);
   ASSERT_EQ(report.claims.size(), 3U);
   for (auto const& claim : report.claims) EXPECT_EQ(claim.answer, ClaimVerdict::Answer::holds) << text_of(claim);
