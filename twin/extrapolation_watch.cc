@@ -16,8 +16,8 @@ double distance(thermal::Validity const& range, double number) {
 }  // namespace
 
 std::string text_of(Extrapolated const& e) {
-  return fmt::format("{}: {} is {:.3g}, stated for {:.3g} to {:.3g}; {:.0f} % of the heat", e.part, e.range->number,
-                     e.number, e.range->lower, e.range->upper, 100.0 * e.share);
+  return fmt::format("{}: {} is {:.3g}, the law is stated for {:.3g} to {:.3g}; {:.0f} % of all heat moves so", e.part,
+                     e.range->number, e.number, e.range->lower, e.range->upper, 100.0 * e.share);
 }
 
 void ExtrapolationWatch::look(double time, double const* temperature, double const* input) {

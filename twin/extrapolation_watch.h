@@ -17,7 +17,7 @@ struct Extrapolated {
   double share = 0.0;   ///< of all heat that moved, what the part's elements moved meanwhile
 };
 
-/// "film.nose: Re of a rotating cylinder is 7.1e5, stated for 0 to 4.3e5; 12 % of the heat".
+/// "film.nose: Re of a rotating cylinder is 7.1e5, the law is stated for 0 to 4.3e5; 12 % of all heat moves so".
 [[nodiscard]] std::string text_of(Extrapolated const& extrapolated);
 
 /// Looks at a run now and then, and keeps what leaves the ranges of its correlations (thermal/validity.h).

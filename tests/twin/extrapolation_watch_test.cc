@@ -65,10 +65,9 @@ TEST(ExtrapolationWatch, TellsOfACylinderThatTurnsTooFast) {
   EXPECT_EQ(found[0].range, &thermal::becker_reynolds);
   EXPECT_NEAR(found[0].number, 1.5 * thermal::becker_reynolds.upper, 1.0);
   EXPECT_NEAR(found[0].share, 0.25, 1e-9);
-  EXPECT_EQ(
-      text_of(found[0]),
-      "film.rotating_cylinder: Re of a rotating cylinder after Becker is 6.45e+05, stated for 0 to 4.3e+05; 25 % of "
-      "the heat");
+  EXPECT_EQ(text_of(found[0]),
+            "film.rotating_cylinder: Re of a rotating cylinder after Becker is 6.45e+05, the law is stated for 0 to "
+            "4.3e+05; 25 % of all heat moves so");
   EXPECT_TRUE(beyond.seen_for(60.0, 60.0 * watts * 101.0).empty());  // below a hundredth
 }
 
