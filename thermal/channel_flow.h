@@ -72,10 +72,10 @@ S gnielinski_1976_nusselt(S const& reynolds, S const& prandtl, S const& diameter
   return gnielinski_nusselt<S>(reynolds, prandtl, diameter_to_length) * (1.0 - 1000.0 / reynolds);
 }
 
-/// Nu = 0.023 Re^0.8 Pr^n, n = 0.4 when the fluid is heated, 0.3 when it is cooled, Re 1e4 to 1.2e5, Pr 0.7 to 160.
-/// Source: Dittus & Boelter 1930.
 enum class FluidIs { heated, cooled };
 
+/// Nu = 0.023 Re^0.8 Pr^n, n = 0.4 when the fluid is heated, 0.3 when it is cooled, Re 1e4 to 1.2e5, Pr 0.7 to 160.
+/// Source: Dittus & Boelter 1930.
 template <class S>
 S dittus_boelter_nusselt(S const& reynolds, S const& prandtl, FluidIs fluid_is) {
   using std::pow;

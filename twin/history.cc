@@ -7,6 +7,7 @@
 #include "scenarios/feed_program.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
+#include "twin/diagnosis/channel_reading.h"
 #include "twin/instruments/sampling.h"
 #include "twin/instruments/temperature_specimen.h"
 
@@ -169,23 +170,17 @@ std::vector<NodeWeights> watched_sums(Machine const& machine) {
 
 History::History(Machine const& machine, thermal::Course const& course, std::vector<double> const& sample_times)
     : machine_(&machine),
-      channels_(course.channels()),
       samples_(sample_times),
       looks_(twin::looks(sample_times, course)),
-      floor_(channel("ambient.floor_temperature")),
-      gradient_(channel("ambient.gradient")),
-      speed_(channel("spindle.speed")) {
+      floor_(channel_index(course, "ambient.floor_temperature")),
+      gradient_(channel_index(course, "ambient.gradient")),
+      speed_(channel_index(course, "spindle.speed")) {
   for (auto const& displacement : machine.displacements) {
     auto& places = term_channels_.emplace_back();
-    for (auto const& term : displacement.input_terms) places.push_back(channel(term.channel));
+    for (auto const& term : displacement.input_terms) places.push_back(channel_index(course, term.channel));
   }
   auto const width = first_of_screw(machine.screws.size()) + 2;
   values_.resize(Eigen::Index(looks_.size()), Eigen::Index(width));
-}
-
-int History::channel(std::string const& name) const {
-  auto const it = std::find_if(channels_.begin(), channels_.end(), [&](auto const& c) { return c.name == name; });
-  return it == channels_.end() ? -1 : int(it - channels_.begin());
 }
 
 std::size_t History::first_of_screw(std::size_t screw) const {

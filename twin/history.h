@@ -54,10 +54,8 @@ class History {
   [[nodiscard]] Eigen::VectorXd column(std::size_t index) const;
   [[nodiscard]] std::size_t first_displacement() const { return 2 * machine_->sensors.size(); }
   [[nodiscard]] std::size_t first_of_screw(std::size_t screw) const;
-  [[nodiscard]] int channel(std::string const& name) const;
 
   Machine const* machine_;
-  std::vector<thermal::InputChannel> channels_;
   std::vector<double> samples_, looks_;
   int floor_, gradient_, speed_;                 ///< places among the channels; −1: not there
   std::vector<std::vector<int>> term_channels_;  ///< of every displacement's input terms

@@ -1,5 +1,6 @@
 #include "thermal/feed_drive.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/thermal/smoothness.h"
@@ -7,6 +8,8 @@
 
 namespace thermotwin::thermal {
 namespace {
+
+using testing::AllOf, testing::Ge, testing::Le;
 
 TEST(NutPreloadTorque, Of40By10At1500N) {
   auto const torque = [](auto const& F) {
@@ -109,6 +112,9 @@ TEST(Cutting, HeatIsSharedWhole) {
   EXPECT_DOUBLE_EQ(cutting_power(2e9, 1e-6), 2000.0);
   CuttingHeatShares const shares;
   EXPECT_NEAR(shares.chip + shares.tool + shares.workpiece, 1.0, 1e-12);
+  EXPECT_THAT(shares.chip, AllOf(Ge(0.70), Le(0.85)));
+  EXPECT_THAT(shares.tool, AllOf(Ge(0.03), Le(0.10)));
+  EXPECT_THAT(shares.workpiece, AllOf(Ge(0.10), Le(0.25)));
 }
 
 }  // namespace

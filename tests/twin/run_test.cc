@@ -81,7 +81,7 @@ TEST(Run, RefusesALaserWithoutAScrewBeforeItBegins) {
   EXPECT_EQ(std::distance(begin(left), end(left)), 1);  // no partial data set
 }
 
-/// 100 kW in 26 kg of motor: 8 K/s.
+/// 100 kW in 26 kg of motor: 8 K/s. Seen at 15 s · 1.4^7 + 2 · 60 s (sampling.h).
 TEST(Run, EndsWhereNothingIsSolid) {
   auto document = read_toml(machine_file("v450"));
   set_parameter(document, "motor_loss.stator.constant", "100 kW");
@@ -94,8 +94,7 @@ TEST(Run, EndsWhereNothingIsSolid) {
     EXPECT_THAT([&] { static_cast<void>(run(machine, experiment, options)); },
                 testing::ThrowsMessage<thermal::InputError>(testing::AllOf(
                     testing::StartsWith("'motor' is at "),
-                    testing::ContainsRegex(
-                        " °C at t = 2[0-9][0-9](\\.[0-9]+)? s; a run ends where a temperature leaves 0 to 2000 K"))))
+                    testing::HasSubstr(" °C at t = 278.12 s; a run ends where a temperature leaves 0 to 2000 K"))))
         << in_modes;
   }
 }
