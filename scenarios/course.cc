@@ -252,10 +252,7 @@ void ExperimentCourse::replace_or_add(DrivenChannel const& driven) {
 /// From the other channels of the air, which a recording may have replaced, if it is not itself recorded.
 void ExperimentCourse::add_floor_temperature() {
   if (find(driven_, "ambient.floor_temperature")) return;
-  auto const formula_of = [&](std::string const& name) {
-    auto const known = std::find_if(channels_.begin(), channels_.end(), [&](auto const& c) { return c.name == name; });
-    return formulas_[static_cast<std::size_t>(known - channels_.begin())];
-  };
+  auto const formula_of = [&](std::string const& name) { return formulas_[std::size_t(index_of(name))]; };
   add({"ambient.floor_temperature", "K", "air temperature at the machine's zero"},
       [temperature = formula_of("ambient.temperature"), gradient = formula_of("ambient.gradient"),
        height = formula_of("ambient.reference_height")](double t) { return temperature(t) - gradient(t) * height(t); });

@@ -4,6 +4,7 @@
 
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
+#include "thermal/physical_constant.h"
 
 namespace thermotwin::thermal {
 namespace {
@@ -28,7 +29,9 @@ std::vector<std::pair<std::string, Fluid>> const& fluids() {
 
 Liquid mineral_oil(int iso_grade) { return {0.13, 870.0, 6.5e-4, 1900.0, 4.0, mineral_oil_viscosity(iso_grade)}; }
 
-Liquid water_glycol() { return {0.48, 1045.0, 4.3e-4, 3650.0, 0.0, andrade_through(2.2e-6, 293.15, 1.3e-6, 313.15)}; }
+Liquid water_glycol() {
+  return {0.48, 1045.0, 4.3e-4, 3650.0, 0.0, andrade_through(2.2e-6, reference_temperature, 1.3e-6, 313.15)};
+}
 
 Liquid ethylene_glycol() { return {0.252, 1118.0, 6.5e-4, 2382.0, 4.5, {6.224869e-8, 713.0225, 168.66379}}; }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "thermal/physical_constant.h"
 #include "thermal/smooth.h"
 
 namespace thermotwin::thermal {
@@ -46,7 +47,7 @@ struct TemperatureDependentConductance {
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const*, S* q) {
-    exchange<S>(c[0] * (1.0 + c[1] * (0.5 * (T[0] + T[1]) - 293.15)) * (T[1] - T[0]), q);
+    exchange<S>(c[0] * (1.0 + c[1] * (0.5 * (T[0] + T[1]) - reference_temperature)) * (T[1] - T[0]), q);
   }
 };
 
@@ -58,7 +59,7 @@ struct Advection {
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    exchange<S>(-(u[0] * c[0]) * (T[0] - 293.15), q);
+    exchange<S>(-(u[0] * c[0]) * (T[0] - reference_temperature), q);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "thermal/error.h"
+#include "thermal/physical_constant.h"
 
 namespace thermotwin::thermal {
 
@@ -21,7 +22,7 @@ inline constexpr std::string_view machine_temperatures = "allowed is -60 degC to
 inline void require_machine_temperature(double kelvin, std::string const& text) {
   if (is_machine_temperature(kelvin)) return;
   char celsius[32];
-  std::snprintf(celsius, sizeof celsius, "%.6g", kelvin - 273.15);
+  std::snprintf(celsius, sizeof celsius, "%.6g", kelvin - zero_celsius);
   throw InputError("'" + text + "' is " + celsius + " degC; " + std::string(machine_temperatures));
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "thermal/dual.h"
+#include "thermal/physical_constant.h"
 #include "thermal/smooth.h"
 #include "thermal/validity.h"
 
@@ -21,7 +22,7 @@ inline constexpr Validity winding_temperature{253.15, 453.15, "temperature of a 
 template <class S>
 S copper_loss(S const& phases, S const& resistance_20, S const& winding_temperature_K, S const& current) {
   within<S>(winding_temperature, winding_temperature_K);
-  S const warm = 1.0 + copper_temperature_coefficient * (winding_temperature_K - 293.15);
+  S const warm = 1.0 + copper_temperature_coefficient * (winding_temperature_K - reference_temperature);
   return phases * resistance_20 * warm * current * current;
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace thermotwin::thermal {
@@ -29,6 +30,14 @@ class Course {
   virtual ~Course() = default;
 
   [[nodiscard]] virtual std::vector<InputChannel> const& channels() const = 0;
+
+  /// Place among the channels; −1: none has that name.
+  [[nodiscard]] int index_of(std::string_view name) const {
+    auto const& all = channels();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].name == name) return int(i);
+    return -1;
+  }
 
   /// Values of all channels at time t [s]. At a jump: the limit from the right.
   virtual void evaluate(double t, std::span<double> values) const = 0;

@@ -18,6 +18,7 @@
 #include "thermal/forward_sensitivities.h"
 #include "thermal/integrate.h"
 #include "thermal/newton_system.h"
+#include "thermal/physical_constant.h"
 #include "thermal/sundials_vector.h"
 
 namespace thermotwin::thermal {
@@ -409,7 +410,7 @@ void Run::fail(int flag) {
   std::string text =
       fmt::format("the integration stopped at t = {:.6g} s ({}; CVODES flag {}). Worst nodes:", t, message_, flag);
   for (auto it = order.begin(); it != worst; ++it)
-    text += fmt::format(" {} at {:.6g} °C;", network_.node_name(*it), data(y_.get())[*it] - 273.15);
+    text += fmt::format(" {} at {:.6g} °C;", network_.node_name(*it), data(y_.get())[*it] - zero_celsius);
   text += " inputs:";
   auto const& values = point_.at(t);
   for (int i = 0; i < network_.given_channels(); ++i)

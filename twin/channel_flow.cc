@@ -4,12 +4,13 @@
 
 #include "thermal/error.h"
 #include "thermal/fluid.h"
+#include "thermal/physical_constant.h"
 
 namespace thermotwin::twin {
 namespace {
 
 thermal::FluidProperties<double> properties_at_20(ChannelDescription const& description) {
-  return thermal::properties(thermal::fluid(description.fluid), 293.15);
+  return thermal::properties(thermal::fluid(description.fluid), thermal::reference_temperature);
 }
 
 }  // namespace

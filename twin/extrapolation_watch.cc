@@ -7,7 +7,7 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double least_share = 0.01;
+constexpr double least_share = 0.01, time_between_looks = 300.0;  // [s]
 
 double distance(thermal::Validity const& range, double number) {
   return std::max(range.lower - number, number - range.upper);
@@ -23,6 +23,7 @@ std::string text_of(Extrapolated const& e) {
 void ExtrapolationWatch::look(double time, double const* temperature, double const* input) {
   double const since = time - last_time_;
   last_time_ = time;
+  next_time_ = time + time_between_looks;
   for (auto const& group : network_->groups()) {
     if (group.inside) continue;
     auto const batch = group.batch();

@@ -23,7 +23,11 @@ struct Extrapolated {
 /// Looks at a run now and then, and keeps what leaves the ranges of its correlations (thermal/validity.h).
 class ExtrapolationWatch {
  public:
-  explicit ExtrapolationWatch(thermal::Network const& network) : network_(&network) {}
+  /// Of a run that ends then [s].
+  ExtrapolationWatch(thermal::Network const& network, double end) : network_(&network), end_(end) {}
+
+  /// Every five minutes, and at the end.
+  [[nodiscard]] bool is_due(double time) const { return time >= next_time_ || time >= end_; }
 
   /// At the temperatures and operating point of an Evaluation; times increase [s].
   void look(double time, double const* temperature, double const* input);
@@ -37,7 +41,7 @@ class ExtrapolationWatch {
   };
   thermal::Network const* network_;
   std::map<std::pair<int, thermal::Validity const*>, Beyond> beyond_;  ///< by part and range
-  double last_time_ = 0.0;
+  double end_, next_time_ = 0.0, last_time_ = 0.0;
   std::vector<thermal::Extrapolation> scratch_;
 };
 

@@ -1,13 +1,11 @@
 #include "twin/history.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 #include "scenarios/feed_program.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
-#include "twin/diagnosis/channel_reading.h"
 #include "twin/instruments/sampling.h"
 #include "twin/instruments/temperature_specimen.h"
 
@@ -172,13 +170,9 @@ History::History(Machine const& machine, thermal::Course const& course, std::vec
     : machine_(&machine),
       samples_(sample_times),
       looks_(twin::looks(sample_times, course)),
-      floor_(channel_index(course, "ambient.floor_temperature")),
-      gradient_(channel_index(course, "ambient.gradient")),
-      speed_(channel_index(course, "spindle.speed")) {
-  for (auto const& displacement : machine.displacements) {
-    auto& places = term_channels_.emplace_back();
-    for (auto const& term : displacement.input_terms) places.push_back(channel_index(course, term.channel));
-  }
+      air_(course),
+      speed_(course.index_of("spindle.speed")) {
+  for (auto const& displacement : machine.displacements) motions_.emplace_back(displacement.input_terms, course);
   auto const width = first_of_screw(machine.screws.size()) + 2;
   values_.resize(Eigen::Index(looks_.size()), Eigen::Index(width));
 }
@@ -194,29 +188,18 @@ bool History::add(std::span<double const> inputs, std::span<double const> watche
     first_inputs_.assign(inputs.begin(), inputs.end());
     first_watched_.assign(watched.begin(), watched.end());
   }
-  auto const input = [&](int channel, double otherwise) {
-    return channel < 0 ? otherwise : inputs[std::size_t(channel)];
-  };
-  double const floor = input(floor_, 293.15), gradient = input(gradient_, 0.0);
   double* const row = values_.data() + rows_ * std::size_t(values_.cols());
   auto const& sensors = machine_->sensors;
   for (std::size_t s = 0; s < sensors.size(); ++s) {
-    double const air = floor + gradient * sensors[s].position.dot(machine_->up);
+    double const air = air_.at(sensors[s].position.dot(machine_->up), inputs);
     row[s] = sensors[s].weights.empty() ? air : watched[s];
     row[sensors.size() + s] = air;
   }
   double* next = row + first_displacement();
   for (std::size_t w = sensors.size(); w < watched.size(); ++w) *next++ = watched[w] - first_watched_[w];
-  *next++ = input(speed_, 0.0);
-  *next = floor + gradient;
-  for (std::size_t d = 0; d < term_channels_.size(); ++d)
-    for (std::size_t t = 0; t < term_channels_[d].size(); ++t) {
-      if (term_channels_[d][t] < 0) continue;
-      auto const i = std::size_t(term_channels_[d][t]);
-      auto const& term = machine_->displacements[d].input_terms[t];
-      row[first_displacement() + d] +=
-          term.coefficient * (std::pow(inputs[i], term.power) - std::pow(first_inputs_[i], term.power));
-    }
+  *next++ = speed_ < 0 ? 0.0 : inputs[std::size_t(speed_)];
+  *next = air_.at(height_near_tool, inputs);
+  for (std::size_t d = 0; d < motions_.size(); ++d) row[first_displacement() + d] += motions_[d](inputs, first_inputs_);
   bool const sample = looks_[rows_] == samples_[sampled_.size()];
   if (sample) sampled_.push_back(rows_);
   ++rows_;

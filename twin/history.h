@@ -7,7 +7,9 @@
 #include "output/dataset.h"
 #include "scenarios/experiment.h"
 #include "thermal/operating_point.h"
+#include "twin/input_motion.h"
 #include "twin/machine.h"
+#include "twin/room_air.h"
 
 namespace thermotwin::twin {
 
@@ -57,8 +59,9 @@ class History {
 
   Machine const* machine_;
   std::vector<double> samples_, looks_;
-  int floor_, gradient_, speed_;                 ///< places among the channels; −1: not there
-  std::vector<std::vector<int>> term_channels_;  ///< of every displacement's input terms
+  RoomAir air_;
+  std::vector<InputMotion> motions_;  ///< of every displacement
+  int speed_;                         ///< place among the channels; −1: not there
   std::vector<double> first_inputs_, first_watched_;
   std::vector<std::size_t> sampled_;
   std::size_t rows_ = 0;

@@ -242,9 +242,10 @@ History ReducedTwin::history_of(Model const& model, scenarios::Experiment const&
 ReducedResult ReducedTwin::run(scenarios::Experiment const& experiment) const {
   if (experiment.initial_temperature &&
       (*experiment.initial_temperature < initial_.low || *experiment.initial_temperature > initial_.high))
-    throw thermal::InputError(fmt::format(
-        "initial_temperature: {:.6g} °C; the reduced model of '{}' was made for {:.6g} to {:.6g} °C",
-        *experiment.initial_temperature - 273.15, machine_->name, initial_.low - 273.15, initial_.high - 273.15));
+    throw thermal::InputError(
+        fmt::format("initial_temperature: {:.6g} °C; the reduced model of '{}' was made for {:.6g} to {:.6g} °C",
+                    *experiment.initial_temperature - thermal::zero_celsius, machine_->name,
+                    initial_.low - thermal::zero_celsius, initial_.high - thermal::zero_celsius));
   ReducedResult result;
   scenarios::ExperimentCourse const course(experiment, machine_->limits);
   check_laser(*machine_, experiment);

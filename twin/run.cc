@@ -14,12 +14,11 @@
 #include "twin/checkpoint.h"
 #include "twin/edge_unit.h"
 #include "twin/history.h"
+#include "twin/room_air.h"
 #include "twin/version.h"
 
 namespace thermotwin::twin {
 namespace {
-
-constexpr double time_between_looks = 300.0;  ///< at the ranges of correlations [s]
 
 /// What only other channels are made of is not shown.
 bool is_shown(thermal::InputChannel const& channel) {
@@ -82,7 +81,6 @@ class Recorder {
   std::vector<thermal::Unit> edge_units_;  ///< of the inputs shown
   double last_time_;                       ///< of the readings
   ExtrapolationWatch watch_;
-  double next_look_ = 0.0;
   std::optional<output::Frame> last_frame_;
   double last_frame_time_ = 0.0;
 };
@@ -100,7 +98,7 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
       inputs_(course.channels().size()),
       watts_(machine.network().parts().size()),
       last_time_(history_.sample_times().back()),
-      watch_(machine.network()) {
+      watch_(machine.network(), last_time_) {
   for (std::size_t i = 0; i < course.channels().size(); ++i)
     if (is_shown(course.channels()[i])) shown_inputs_.push_back(i);
   for (std::size_t p = 0; p < machine.network().parts().size(); ++p)
@@ -112,7 +110,7 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
   if (options.fields)
     fields_ = std::make_unique<output::FieldSeries>(
         *options.fields, machine.geometry,
-        output::FieldOptions{experiment.ambient.mean - 273.15,
+        output::FieldOptions{experiment.ambient.mean - thermal::zero_celsius,
                              {{"machine", machine.name}, {"experiment", experiment.title}},
                              sensor_places(machine),
                              machine.up});
@@ -169,8 +167,8 @@ output::Row Recorder::make_row(thermal::Sample const& sample) {
   for (std::size_t k = 0; k < shown_parts_.size(); ++k) out.heat[Eigen::Index(k)] = watts_[shown_parts_[k]];
   if (options_.node_temperatures) {
     int const n = machine_.network().nodes();
-    out.node_temperatures =
-        Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n).cast<float>().array() - 273.15F;
+    out.node_temperatures = Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n).cast<float>().array() -
+                            float(thermal::zero_celsius);
   }
   return out;
 }
@@ -178,7 +176,8 @@ output::Row Recorder::make_row(thermal::Sample const& sample) {
 output::Frame Recorder::make_frame(thermal::Sample const& sample) {
   int const n = machine_.network().nodes();
   output::Frame frame;
-  frame.temperature_degC = Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n).array() - 273.15;
+  frame.temperature_degC =
+      Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n).array() - thermal::zero_celsius;
   frame.heat_source_W.resize(n);
   evaluation_.source_of_nodes(sample.state.data(), sample.input.data(), {frame.heat_source_W.data(), std::size_t(n)});
   Eigen::VectorXd const rise = Eigen::Map<Eigen::VectorXd const>(sample.temperatures.data(), n) -
@@ -198,8 +197,7 @@ void Recorder::show_field(thermal::Sample const& sample) {
 }
 
 void Recorder::watch_ranges(thermal::Sample const& sample) {
-  if (sample.time < next_look_ && sample.time < last_time_) return;
-  next_look_ = sample.time + time_between_looks;
+  if (!watch_.is_due(sample.time)) return;
   auto const temperatures = evaluation_.temperatures(sample.state.data(), sample.input.data());
   watch_.look(sample.time, temperatures.data(), evaluation_.inputs().data());
 }
@@ -301,20 +299,15 @@ void check_temperature(thermal::Network const& network, int node, double tempera
 
 std::vector<double> initial_temperatures(Machine const& machine, scenarios::Experiment const& experiment,
                                          thermal::Course const& course) {
-  auto const& channels = course.channels();
-  std::vector<double> values(channels.size());
+  std::vector<double> values(course.channels().size());
   course.evaluate(0.0, values);
-  double floor = 293.15, gradient = 0.0;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    if (channels[i].name == "ambient.floor_temperature") floor = values[i];
-    if (channels[i].name == "ambient.gradient") gradient = values[i];
-  }
+  RoomAir const air(course);
   std::vector<double> temperatures(std::size_t(machine.network().nodes()),
-                                   experiment.initial_temperature.value_or(floor));
+                                   experiment.initial_temperature.value_or(air.at(0.0, values)));
   if (!experiment.initial_temperature)
     for (auto const& body : machine.geometry)
       for (std::size_t i = 0; i < body.cells.size(); ++i)
-        temperatures[std::size_t(body.first_node) + i] = floor + gradient * centre(body.cells[i]).dot(machine.up);
+        temperatures[std::size_t(body.first_node) + i] = air.at(centre(body.cells[i]).dot(machine.up), values);
   for (std::size_t i = 0; i < temperatures.size(); ++i)
     if (machine.network().signals()[i]) temperatures[i] = 0.0;  // a controller has no past
   return temperatures;

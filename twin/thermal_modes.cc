@@ -11,6 +11,7 @@
 #include "thermal/evaluation.h"
 #include "thermal/integrate.h"
 #include "thermal/nearest_name.h"
+#include "thermal/physical_constant.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -57,7 +58,7 @@ ScaledNetwork scaled(thermal::Network const& network, OperatingState const& at) 
   Index const n = network.nodes();
   auto const temperature = Eigen::Map<VectorXd const>(at.temperatures.data(), n).array();
   auto const relative_slope = Eigen::Map<VectorXd const>(network.capacity_slope().data(), n).array();
-  VectorXd const stretch = 1.0 + relative_slope * (temperature - 293.15);  // dy/dT
+  VectorXd const stretch = 1.0 + relative_slope * (temperature - thermal::reference_temperature);  // dy/dT
   VectorXd const capacity = Eigen::Map<VectorXd const>(network.capacity().data(), n).cwiseProduct(stretch);
   VectorXd const root = capacity.cwiseSqrt(), to_row = root.cwiseQuotient(stretch);
   ScaledNetwork result;

@@ -7,6 +7,7 @@
 
 #include "scenarios/experiment.h"
 #include "thermal/operating_point.h"
+#include "thermal/physical_constant.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -22,7 +23,7 @@ struct OperatingState {
 [[nodiscard]] OperatingState mean_state(Machine const& machine, scenarios::Experiment const& experiment);
 /// The same of a course, measured or not, over these times [s]; the search for the steady state begins `near` [K].
 [[nodiscard]] OperatingState mean_state(Machine const& machine, thermal::Course const& course,
-                                        std::span<double const> times, double near = 293.15);
+                                        std::span<double const> times, double near = thermal::reference_temperature);
 
 /// How a machine forgets a disturbance: K φ = λ C φ, with K the conductances of the network linearised at a state and C
 /// the heat capacities there, so that without further heat (Yang, Yuan & Ni, IJMTM 39 (1999) 1367; methods.md §6.1)

@@ -31,7 +31,7 @@ struct Instant {
   }
 
   [[nodiscard]] std::vector<Extrapolated> seen_for(double seconds, double moved) const {
-    ExtrapolationWatch watch(machine.network());
+    ExtrapolationWatch watch(machine.network(), 3600.0);
     watch.look(0.0, temperatures.data(), input.data());
     watch.look(seconds, temperatures.data(), input.data());
     return watch.found(moved);
@@ -69,6 +69,18 @@ TEST(ExtrapolationWatch, TellsOfACylinderThatTurnsTooFast) {
             "film.rotating_cylinder: Re of a rotating cylinder after Becker is 6.45e+05, the law is stated for 0 to "
             "4.3e+05; 25 % of all heat moves so");
   EXPECT_TRUE(beyond.seen_for(60.0, 60.0 * watts * 101.0).empty());  // below a hundredth
+}
+
+TEST(ExtrapolationWatch, LooksEveryFiveMinutesAndAtTheEnd) {
+  Instant const at(snippet("film", "rotating_cylinder"), speed(100.0));
+  ExtrapolationWatch watch(at.machine.network(), 1000.0);
+  std::vector<double> looked;
+  for (double t = 0.0; t <= 1000.0; t += 20.0) {
+    if (!watch.is_due(t)) continue;
+    watch.look(t, at.temperatures.data(), at.input.data());
+    looked.push_back(t);
+  }
+  EXPECT_EQ(looked, (std::vector{0.0, 300.0, 600.0, 900.0, 1000.0}));
 }
 
 /// The evaluation that watches is that of the run.

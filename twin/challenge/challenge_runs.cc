@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <string>
 
+#include "thermal/physical_constant.h"
 #include "twin/instruments/random_stream.h"
 
 namespace thermotwin::twin {
@@ -54,7 +55,7 @@ Loads loads_of(int run, RandomStream& stream) {
 
 scenarios::Ambient ambient_of(RandomStream& stream, double duration) {
   scenarios::Ambient ambient;
-  ambient.mean = 273.15 + stream.uniform(18.0, 25.0);
+  ambient.mean = thermal::zero_celsius + stream.uniform(18.0, 25.0);
   ambient.drift = stream.uniform(-1.0, 1.0) / (24 * hour);
   ambient.stratification = stream.uniform(0.0, 0.5);
   ambient.daily_cycle = scenarios::DailyCycle{stream.uniform(0.5, 2.5), hour * stream.uniform(13.0, 17.0)};

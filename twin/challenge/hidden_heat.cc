@@ -5,6 +5,7 @@
 
 #include "scenarios/course.h"
 #include "thermal/evaluation.h"
+#include "thermal/physical_constant.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -39,7 +40,7 @@ class NodeHeat {
     std::vector<double> input;
     for (int channel : inputs_) input.push_back(channel < 0 ? 0.0 : all_[std::size_t(channel)]);
     for (std::size_t i = 0; i < state_.size(); ++i)
-      state_[i] = network_.state_of_temperature(int(i), double(temperatures(row, columns_[i])) + 273.15);
+      state_[i] = network_.state_of_temperature(int(i), double(temperatures(row, columns_[i])) + thermal::zero_celsius);
     evaluation_.rate(state_.data(), input.data(), rate_.data());
     std::map<std::string, double> heat;
     for (auto const& range : network_.ranges())

@@ -8,6 +8,7 @@
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
+#include "thermal/physical_constant.h"
 #include "thermal/units.h"
 #include "twin/edge_unit.h"
 
@@ -116,7 +117,7 @@ VectorXd TwinObserver::gradient(NodeWeights const& weights) const {
   VectorXd h = VectorXd::Zero(state_.size());
   auto const& network = machine_.network();
   for (auto const& [node, weight] : weights) {
-    double const warmer = network.temperature_of_state(node, state_[node]) - 293.15;
+    double const warmer = network.temperature_of_state(node, state_[node]) - thermal::reference_temperature;
     h[node] += weight / (1.0 + network.capacity_slope()[std::size_t(node)] * warmer);
   }
   return h;

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "twin/diagnosis/measured_run.h"
+#include "twin/input_motion.h"
 #include "twin/machine.h"
+#include "twin/room_air.h"
 
 namespace thermotwin::twin {
 
@@ -26,9 +28,8 @@ struct ChannelReading {
   double drift = 0.0;                          ///< [K/s, m/s]
   double per_air = 0.0;                        ///< [m/K]
   double height = 0.0;                         ///< of the air that it meets [m]
-  /// Where the run's course has what it follows (channel_index).
-  int floor_temperature = -1, gradient = -1;
-  std::vector<int> term_channels;  ///< of the displacement's input terms
+  RoomAir air;                                 ///< of the run
+  InputMotion motion;                          ///< of the displacement
 
   /// x, from Σ wᵢ Tᵢ of a sensor's nodes or Σ wᵢ (Tᵢ − Tᵢ(0)) of a displacement's, with the values of the course's
   /// channels then and at the start.
@@ -40,8 +41,5 @@ struct ChannelReading {
 
 /// Of every channel of the run.
 [[nodiscard]] std::vector<ChannelReading> readings_of(Machine const& machine, MeasuredRun const& run);
-
-/// Place among the course's channels; −1: it does not have one of that name.
-[[nodiscard]] int channel_index(thermal::Course const& course, std::string const& name);
 
 }  // namespace thermotwin::twin

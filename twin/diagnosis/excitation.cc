@@ -1,7 +1,5 @@
 #include "twin/diagnosis/excitation.h"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace thermotwin::twin {
@@ -19,18 +17,8 @@ std::set<std::string> followed(Machine const& machine) {
 }
 
 double change(MeasuredRun const& run, std::string const& name) {
-  auto const& channels = run.course->channels();
-  auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
-  if (it == channels.end()) return 0.0;
-  std::vector<double> values(channels.size());
-  double low = INFINITY, high = -INFINITY;
-  for (double const t : run.time) {
-    run.course->evaluate(t, values);
-    double const value = values[std::size_t(it - channels.begin())];
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  return high - low;
+  Eigen::VectorXd const values = run.input(name, run.time);
+  return values.size() == 0 ? 0.0 : values.maxCoeff() - values.minCoeff();
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ void LinearisedRun::trace() {
   auto const& network = machine_->network();
   auto const& names = network.channel_names();
   std::vector<int> from(std::size_t(network.external_channels()));
-  for (std::size_t i = 0; i < from.size(); ++i) from[i] = channel_index(course, names[i]);
+  for (std::size_t i = 0; i < from.size(); ++i) from[i] = course.index_of(names[i]);
   auto const end_of = [&](double time, std::vector<double> const& state, std::vector<double> input) {
     std::vector<double> values(course.channels().size());
     course.evaluate(time, values);

@@ -60,6 +60,16 @@ auto naming(std::filesystem::path const& path, Action action) {
 
 }  // namespace
 
+Eigen::VectorXd MeasuredRun::input(std::string_view name, Eigen::VectorXd const& times) const {
+  int const channel = course->index_of(name);
+  if (channel < 0) return {};
+  std::vector<double> values(course->channels().size());
+  return times.unaryExpr([&](double t) {
+    course->evaluate(t, values);
+    return values[std::size_t(channel)];
+  });
+}
+
 double usual_interval(std::span<double const> times) {
   if (times.size() < 2) return INFINITY;
   std::vector<double> intervals;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "output/dataset.h"
@@ -38,6 +39,9 @@ struct MeasuredRun {
   std::vector<MeasuredChannel> channels;        ///< those of the machine that the data have, in the machine's order
   std::optional<double> initial_temperature;    ///< of the whole machine [K]; default: that of the air around each part
   std::vector<std::string> remarks;  ///< for people: another machine, dead sensors, gaps, channels that the data lack
+
+  /// One of the inputs at these times [SI]; empty where the course does not have it.
+  [[nodiscard]] Eigen::VectorXd input(std::string_view name, Eigen::VectorXd const& times) const;
 };
 
 /// The median time between neighbours [s]; infinite for fewer than two.

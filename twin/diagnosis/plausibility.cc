@@ -51,18 +51,6 @@ constexpr double longest_interval = 30.0 * minute;
 
 double duration(MeasuredRun const& run) { return run.time[run.time.size() - 1] - run.time[0]; }
 
-/// An input at every row; empty where the data lack it.
-VectorXd input_of(BinnedRun const& data, std::string const& name) {
-  auto const& channels = data.run->course->channels();
-  auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
-  if (it == channels.end()) return {};
-  std::vector<double> values(channels.size());
-  return data.time.unaryExpr([&](double t) {
-    data.run->course->evaluate(t, values);
-    return values[std::size_t(it - channels.begin())];
-  });
-}
-
 /// One run beside what the machine would have shown.
 class Examination {
  public:
@@ -219,7 +207,7 @@ void Examination::examine_motion() {
   if (seen.empty() || upper_median(seen) < std::max(least_warming, far_more * upper_median(would))) return;
   std::string const text = fmt::format("the sensors go through {:.1f} K RMS where the machine would through {:.1f} K",
                                        upper_median(seen), upper_median(would));
-  VectorXd const speed = input_of(data_, "spindle.speed");
+  VectorXd const speed = data_.run->input("spindle.speed", data_.time);
   double const fastest = speed.size() > 0 ? speed.cwiseAbs().maxCoeff() : 0.0;
   if (fastest > 0.0 && fastest < crawling * machine_.limits.max_spindle_speed)
     doubt("spindle.speed", fmt::format("{}, and the spindle reaches {:.0f} of {:.0f} rpm; is the unit of its speed "
@@ -231,7 +219,7 @@ void Examination::examine_motion() {
 }
 
 void Examination::examine_room() {
-  VectorXd const air = input_of(data_, room), speed = input_of(data_, "spindle.speed");
+  VectorXd const air = data_.run->input(room, data_.time), speed = data_.run->input("spindle.speed", data_.time);
   if (air.size() == 0) return;
   if (air.mean() > hottest_room)
     doubt(room, fmt::format("the room is at {:.1f} degC on average; is its unit right?", air.mean() - zero_celsius));

@@ -18,15 +18,10 @@ constexpr double least_slope = 0.5 / 3600.0;  // [K/s]
 constexpr int windows = 12;
 
 std::vector<double> speeds_of(MeasuredRun const& run, Eigen::VectorXd const& time) {
-  auto const& channels = run.course->channels();
-  auto const speed =
-      std::find_if(channels.begin(), channels.end(), [](auto const& c) { return c.name == "spindle.speed"; });
-  std::vector<double> values(channels.size()), speeds;
-  for (double const t : time) {
-    run.course->evaluate(t, values);
-    double const si = speed == channels.end() ? 0.0 : values[std::size_t(speed - channels.begin())];
-    speeds.push_back(distinct_speed * std::round(thermal::to_unit(si, "rpm") / distinct_speed));
-  }
+  Eigen::VectorXd const speed = run.input("spindle.speed", time);
+  std::vector<double> speeds(std::size_t(time.size()), 0.0);
+  for (Eigen::Index i = 0; i < speed.size(); ++i)
+    speeds[std::size_t(i)] = distinct_speed * std::round(thermal::to_unit(speed[i], "rpm") / distinct_speed);
   return speeds;
 }
 

@@ -1,6 +1,7 @@
 #include "thermal/error.h"
 #include "thermal/fluid.h"
 #include "thermal/laws.h"
+#include "thermal/physical_constant.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
 
@@ -24,7 +25,7 @@ struct Circuit {
 
   void add_to(Assembly& assembly) const {
     if (through.size() < 2) throw thermal::InputError("circuit '" + name + "' needs two bodies or more");
-    auto const properties = thermal::properties(thermal::fluid(fluid), 293.15);
+    auto const properties = thermal::properties(thermal::fluid(fluid), thermal::reference_temperature);
     double const capacity_rate = flow * properties.density * properties.specific_heat;
     auto const stations = ports(assembly);
     for (std::size_t i = 0; i < stations.size(); ++i)

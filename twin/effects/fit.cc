@@ -4,6 +4,7 @@
 #include "thermal/error.h"
 #include "thermal/joint.h"
 #include "thermal/laws.h"
+#include "thermal/physical_constant.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/joint_side.h"
@@ -39,7 +40,7 @@ struct FitPart {
   double inner_conductivity = 33.0, outer_conductivity = 47.5;
   double inner_expansion = 12.1e-6, outer_expansion = 10.5e-6;
   double inner_modulus = 208e9, outer_modulus = 120e9;
-  double assembly_temperature = 293.15;
+  double assembly_temperature = thermal::reference_temperature;
 
   template <class Fields>
   static void fields(Fields& f) {

@@ -3,6 +3,7 @@
 #include "thermal/channel_film.h"
 #include "thermal/error.h"
 #include "thermal/laws.h"
+#include "thermal/physical_constant.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/given_temperature.h"
@@ -51,7 +52,7 @@ struct JacketLaw {
 
 struct Jacket : GivenTemperature {
   std::string name, wall, from, fluid = "water", while_on = "machine.on";
-  double flow = required, flow_exponent = 0.0, flow_temperature = 293.15;
+  double flow = required, flow_exponent = 0.0, flow_temperature = thermal::reference_temperature;
   double channel_width = required, channel_height = required, length = required;
   std::optional<double> helix_diameter, area;
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "thermal/physical_constant.h"
 #include "thermal/preload.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
@@ -29,7 +30,7 @@ struct NutPreload {
   std::string name, nut, screw, axis = "z";
   double torque = required, deflection = required, nominal_diameter = required;
   double screw_expansion = 11.5e-6, nut_expansion = 12.1e-6;
-  double assembly_temperature = 293.15, nut_share = 0.5;
+  double assembly_temperature = thermal::reference_temperature, nut_share = 0.5;
 
   template <class Fields>
   static void fields(Fields& f) {

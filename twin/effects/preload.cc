@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "thermal/physical_constant.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
 
@@ -42,7 +43,7 @@ struct Preload {
   double ring_expansion = 12.1e-6, shaft_expansion = 11.8e-6, housing_expansion = 11.5e-6;
   std::string shaft, housing;
   double span = 0.0;
-  double assembly_temperature = 293.15;
+  double assembly_temperature = thermal::reference_temperature;
   double inner_share = 0.5;
 
   template <class Fields>

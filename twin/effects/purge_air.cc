@@ -1,5 +1,6 @@
 #include "thermal/fluid.h"
 #include "thermal/laws.h"
+#include "thermal/physical_constant.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/given_temperature.h"
@@ -23,7 +24,7 @@ struct PurgeAir : GivenTemperature {
   }
 
   void add_to(Assembly& assembly) const {
-    auto const air = thermal::properties(thermal::Air{}, 293.15);
+    auto const air = thermal::properties(thermal::Air{}, thermal::reference_temperature);
     Place const place = assembly.place(through);
     auto const supply = port(assembly, "purge_air '" + name + "'");
     for (auto const& contact : place.site.contacts)

@@ -1,12 +1,14 @@
 #pragma once
 
+#include "thermal/physical_constant.h"
+
 namespace thermotwin::twin {
 
 /// Air in the path of a laser beam.
 struct AirState {
-  double temperature = 293.15;  ///< T [K]
-  double pressure = 101325.0;   ///< p [Pa]
-  double humidity = 0.5;        ///< φ, relative [1]
+  double temperature = thermal::reference_temperature;  ///< T [K]
+  double pressure = 101325.0;                           ///< p [Pa]
+  double humidity = 0.5;                                ///< φ, relative [1]
 };
 
 /// n − 1 of air by Edlén's equation as modified by Birch & Downs (1994), with the vapour term of the NIST Engineering

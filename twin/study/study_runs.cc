@@ -8,6 +8,7 @@
 #include "scenarios/course.h"
 #include "thermal/course_inputs.h"
 #include "thermal/nearest_name.h"
+#include "thermal/physical_constant.h"
 #include "twin/diagnosis/measured_run.h"
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
@@ -271,7 +272,7 @@ output::Dataset dataset_of(MeasuredRun const& run, std::optional<double> samplin
     if (channel.displacement)
       data.displacements.push_back({channel.name, "um", "", 1e6 * shown});
     else
-      data.readings.push_back({channel.name, "degC", "", shown.array() - 273.15});
+      data.readings.push_back({channel.name, "degC", "", shown.array() - thermal::zero_celsius});
   }
   return sampling ? averaged(data, *sampling) : data;
 }

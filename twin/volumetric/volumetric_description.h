@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "thermal/physical_constant.h"
 #include "twin/description.h"
 #include "twin/file/schema.h"
 
@@ -98,7 +99,7 @@ struct StepDiagonalDescription {
   int steps = 10;
   int passes = 1;
   double mirror_misalignment = 0.1e-3, beam_misalignment = 0.1e-3;
-  double air_temperature = 293.15, air_drift = 0.0;
+  double air_temperature = thermal::reference_temperature, air_drift = 0.0;
   double linear_noise = 0.2e-6;
 
   template <class Fields>

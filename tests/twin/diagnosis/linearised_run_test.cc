@@ -311,7 +311,7 @@ MeasuredRun stratifying() {
   for (auto const& channel : still->channels()) names.push_back(channel.name);
   std::vector<double> jumps;
   for (double t = still->next_jump(0.0); std::isfinite(t); t = still->next_jump(t)) jumps.push_back(t);
-  auto const gradient = std::size_t(channel_index(*still, "ambient.gradient"));
+  auto const gradient = std::size_t(still->index_of("ambient.gradient"));
   run.course = std::make_shared<thermal::FunctionCourse>(
       names,
       [=](double t, std::span<double> values) {
@@ -334,8 +334,8 @@ TEST(LinearisedRun, MeetsTheAirNearTheTool) {
   VectorXd const followed = (twin.prediction_of(other) - twin.prediction()).col(column).head(rows);
   VectorXd const predicted = (predict(other, run) - predict(machine(), run)).col(column).head(rows);
   std::vector<double> start(run.course->channels().size()), now(start.size());
-  auto const floor = std::size_t(channel_index(*run.course, "ambient.floor_temperature"));
-  auto const gradient = std::size_t(channel_index(*run.course, "ambient.gradient"));
+  auto const floor = std::size_t(run.course->index_of("ambient.floor_temperature"));
+  auto const gradient = std::size_t(run.course->index_of("ambient.gradient"));
   run.course->evaluate(0.0, start);
   for (Index r = 0; r < rows; ++r) {
     run.course->evaluate(binned.time[r], now);

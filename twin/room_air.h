@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+#include "thermal/operating_point.h"
+#include "thermal/physical_constant.h"
+
+namespace thermotwin::twin {
+
+/// Where displacements meet the air: near the tool, over the machine's zero [m].
+inline constexpr double height_near_tool = 1.0;
+
+/// The room's air as a course has it, T(h) = T_floor + γ h over the machine's zero; where the course does not say, 20
+/// °C and no gradient.
+class RoomAir {
+ public:
+  RoomAir() = default;
+  explicit RoomAir(thermal::Course const& course)
+      : floor_(course.index_of("ambient.floor_temperature")), gradient_(course.index_of("ambient.gradient")) {}
+
+  /// From the values of the course's channels [K].
+  [[nodiscard]] double at(double height, std::span<double const> inputs) const {
+    double const floor = floor_ < 0 ? thermal::reference_temperature : inputs[std::size_t(floor_)];
+    return floor + (gradient_ < 0 ? 0.0 : inputs[std::size_t(gradient_)]) * height;
+  }
+
+ private:
+  int floor_ = -1, gradient_ = -1;
+};
+
+}  // namespace thermotwin::twin
