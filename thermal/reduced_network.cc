@@ -31,13 +31,18 @@ MatrixXd orthonormal(MatrixXd shapes, VectorXd const& capacity) {
 
 }  // namespace
 
-void check_reducible(Network const& network) {
+std::string why_irreducible(Network const& network) {
   if (!network.relays().empty())
-    throw InputError(fmt::format("the relay '{}' switches by a temperature: such a machine is run in full only",
-                                 network.relays()[0].name));
+    return fmt::format("the relay '{}' switches by a temperature: such a machine is run in full only",
+                       network.relays()[0].name);
   for (auto const& average : network.averages())
     if (average.from_channel >= 0)
-      throw InputError(fmt::format("'{}' moves along its track: such a machine is run in full only", average.name));
+      return fmt::format("'{}' moves along its track: such a machine is run in full only", average.name);
+  return "";
+}
+
+void check_reducible(Network const& network) {
+  if (auto const why = why_irreducible(network); !why.empty()) throw InputError(why);
 }
 
 ReducedNetwork::ReducedNetwork(Network const& network, LinearPart const& linear, MatrixXd const& shapes,

@@ -88,7 +88,10 @@ class ReducedNetwork {
   std::vector<Composed> composed_;  ///< averages over nodes of which some are sloped
 };
 
-/// InputError for a network that no constant shapes can stand for: with relays, or a part that moves along a track.
+/// Why no constant shapes can stand for the network: it has relays, or a part that moves along a track. Empty: they
+/// can.
+[[nodiscard]] std::string why_irreducible(Network const& network);
+/// The same as an InputError.
 void check_reducible(Network const& network);
 
 /// Evaluates one reduced network; holds the scratch memory, so one per thread.

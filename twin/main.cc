@@ -1,4 +1,8 @@
+#include <climits>
 #include <cstdio>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "twin/command_line.h"
 
@@ -9,6 +13,11 @@ int main(int argc, char** argv) {
                stderr);
     return 2;
   }
+#endif
+#ifdef __GLIBC__  // matrices come and go by the megabyte; what is given back, the kernel clears before it lends it
+                  // again
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, INT_MAX);
 #endif
   return thermotwin::twin::command_line(argc, argv);
 }

@@ -5,7 +5,9 @@
 
 #include "thermal/error.h"
 #include "thermal/integrate.h"
+#include "thermal/modal_integration.h"
 #include "thermal/newton_system.h"
+#include "thermal/reduced_network.h"
 #include "twin/diagnosis/channel_reading.h"
 #include "twin/run.h"
 
@@ -14,6 +16,7 @@ namespace {
 
 constexpr double gamma = 1.0 - 0.70710678118654752440;
 constexpr double steepest = 3.0;  // slope at an end of a step, of the straight line's
+constexpr int most_modes = 150;   // beyond, to find them takes longer than to run without
 
 }  // namespace
 
@@ -32,19 +35,23 @@ void LinearisedRun::trace() {
   options.relative_tolerance = 1e-5;  // 3 mK
   options.absolute_tolerance = 1e-4;
   std::vector<std::vector<double>> states, inputs;
-  thermal::integrate(machine_->network(), course, initial_temperatures(*machine_, start, course), times, options,
-                     [&](thermal::Sample const& sample) {
-                       states.emplace_back(sample.state.begin(), sample.state.end());
-                       inputs.emplace_back(sample.input.begin(), sample.input.end());
-                     });
+  auto const keep = [&](thermal::Sample const& sample) {
+    states.emplace_back(sample.state.begin(), sample.state.end());
+    inputs.emplace_back(sample.input.begin(), sample.input.end());
+  };
   auto const& network = machine_->network();
+  auto const from = initial_temperatures(*machine_, start, course);
+  if (network.nodes() <= most_modes && thermal::why_irreducible(network).empty())
+    thermal::integrate_in_modes(network, course, from, times, options, keep);
+  else
+    thermal::integrate(network, course, from, times, options, keep);
   auto const& names = network.channel_names();
-  std::vector<int> from(std::size_t(network.external_channels()));
-  for (std::size_t i = 0; i < from.size(); ++i) from[i] = course.index_of(names[i]);
+  std::vector<int> places(std::size_t(network.external_channels()));
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = course.index_of(names[i]);
   auto const end_of = [&](double time, std::vector<double> const& state, std::vector<double> input) {
     std::vector<double> values(course.channels().size());
     course.evaluate(time, values);
-    for (std::size_t i = 0; i < from.size(); ++i) input[i] = values[std::size_t(from[i])];
+    for (std::size_t i = 0; i < places.size(); ++i) input[i] = values[std::size_t(places[i])];
     return End{time, state, std::move(input), std::move(values), {}};
   };
   thermal::Evaluation evaluation(network);

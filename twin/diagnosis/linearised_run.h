@@ -20,9 +20,9 @@ struct ChannelReading;
 ///   ds/dt = A(t) s + ∂f/∂θ,   δz = H s,   A = ∂f/∂y,
 ///
 /// integrated for all parameters at once with the two-stage L-stable method of Alexander (SIAM J. Numer. Anal. 14
-/// (1977) 1006, eq. 2.9), γ = 1 − 1/√2, whose stages share one factorisation. The course itself comes from CVODES; the
-/// forward sensitivities along it (thermal::ForwardSensitivities) agree with these to a part in a thousand, but take
-/// CVODES' many steps.
+/// (1977) 1006, eq. 2.9), γ = 1 − 1/√2, whose stages share one factorisation. The course itself is run in modes if the
+/// network is small and has them, since the inputs of a day jump often, or else by CVODES; the forward sensitivities
+/// along it (thermal::ForwardSensitivities) agree with these to a part in a thousand, but take CVODES' many steps.
 class LinearisedRun {
  public:
   LinearisedRun(Machine const& machine, BinnedRun const& data);

@@ -204,6 +204,30 @@ TEST(LinearisedRun, PredictsTheRun) {
   EXPECT_LT(metres, 2e-8);
 }
 
+/// No modes can stand for a thermostat; where it switches between two rows, a cubic rounds that off.
+TEST(LinearisedRun, PredictsAMachineWithAThermostat) {
+  Machine const cooled = Machine::build(tests::with_table(v450(), R"(
+[[chiller]]
+name = "motor"
+cools = "motor"
+power = "300 W"
+temperature = "24 degC"
+while_on = "machine.on"
+hysteresis = "1 K")"));
+  auto truth = run(cooled, tests::two_speeds(), {}).dataset;
+  truth.readings = truth.truth_readings;
+  truth.displacements = truth.truth_displacements;
+  auto measured = measured_run(truth, cooled, "cooled");
+  measured.changes.clear();
+  auto const binned = bin(measured, 60.0);
+  MatrixXd const missed = LinearisedRun(cooled, binned).prediction() - binned.values;
+  for (std::size_t c = 0; c < measured.channels.size(); ++c)
+    EXPECT_LT(missed.col(Index(c)).cwiseAbs().maxCoeff(), measured.channels[c].displacement ? 1e-7 : 0.25)
+        << measured.channels[c].name;
+  MatrixXd const warmer = LinearisedRun(machine(), binned).prediction() - binned.values;
+  EXPECT_GT(warmer.maxCoeff(), 3.0);
+}
+
 /// Three positions of the nut, of a screw that is supported and of one that is held: up to 60 um.
 TEST(LinearisedRun, PredictsErrorsOfPositionAlongAScrew) {
   Machine const vmc850 = Machine::read(std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "twin/machines/vmc850.toml");
