@@ -233,19 +233,16 @@ void ExperimentCourse::add_clock(Experiment const& experiment) {
 }
 
 void ExperimentCourse::replace_or_add(DrivenChannel const& driven) {
-  auto const known = std::find_if(channels_.begin(), channels_.end(), [&](thermal::InputChannel const& channel) {
-    return channel.name == driven.channel.name;
-  });
-  if (known == channels_.end()) return add(driven.channel, driven.signal);
-  if (thermal::dimension_of(known->unit) != thermal::dimension_of(driven.channel.unit)) {
-    throw InputError("channel '" + known->name + "': " + driven.channel.description + " is in " + driven.channel.unit +
-                     ", the channel in " + known->unit);
+  int const place = index_of(driven.channel.name);
+  if (place < 0) return add(driven.channel, driven.signal);
+  auto const& known = channels_[std::size_t(place)];
+  if (thermal::dimension_of(known.unit) != thermal::dimension_of(driven.channel.unit)) {
+    throw InputError("channel '" + known.name + "': " + driven.channel.description + " is in " + driven.channel.unit +
+                     ", the channel in " + known.unit);
   }
-  bool const done = known->name == "spindle.speed" || known->name.ends_with(".feed");
+  bool const done = known.name == "spindle.speed" || known.name.ends_with(".feed");
   if (done) return;
-  formulas_[static_cast<std::size_t>(known - channels_.begin())] = [signal = driven.signal](double t) {
-    return signal.at(t);
-  };
+  formulas_[std::size_t(place)] = [signal = driven.signal](double t) { return signal.at(t); };
   add_times(driven.signal);
 }
 

@@ -14,8 +14,8 @@ int main(int argc, char** argv) {
     return 2;
   }
 #endif
-#ifdef __GLIBC__  // matrices come and go by the megabyte; what is given back, the kernel clears before it lends it
-                  // again
+#ifdef __GLIBC__
+  // Matrices come and go by the megabyte; what is given back, the kernel clears before it lends it again.
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, INT_MAX);
 #endif

@@ -10,8 +10,8 @@ namespace thermotwin::twin {
 /// Where displacements meet the air: near the tool, over the machine's zero [m].
 inline constexpr double height_near_tool = 1.0;
 
-/// The room's air as a course has it, T(h) = T_floor + γ h over the machine's zero; where the course does not say, 20
-/// °C and no gradient.
+/// The room's air as a course has it, T(h) = T_floor + γ h over the machine's zero. A course that does not say is at
+/// 20 °C, without a gradient.
 class RoomAir {
  public:
   RoomAir() = default;

@@ -27,13 +27,16 @@ Machine const& machine() {
   return v450;
 }
 
+/// A run that is read without noise.
+output::Dataset true_run(Machine const& machine, scenarios::Experiment const& experiment) {
+  auto dataset = run(machine, experiment, {}).dataset;
+  dataset.readings = dataset.truth_readings;
+  dataset.displacements = dataset.truth_displacements;
+  return dataset;
+}
+
 output::Dataset const& dataset() {
-  static output::Dataset const truth = [] {
-    auto dataset = run(machine(), tests::two_speeds(), {}).dataset;
-    dataset.readings = dataset.truth_readings;
-    dataset.displacements = dataset.truth_displacements;
-    return dataset;
-  }();
+  static output::Dataset const truth = true_run(machine(), tests::two_speeds());
   return truth;
 }
 
@@ -214,10 +217,7 @@ power = "300 W"
 temperature = "24 degC"
 while_on = "machine.on"
 hysteresis = "1 K")"));
-  auto truth = run(cooled, tests::two_speeds(), {}).dataset;
-  truth.readings = truth.truth_readings;
-  truth.displacements = truth.truth_displacements;
-  auto measured = measured_run(truth, cooled, "cooled");
+  auto measured = measured_run(true_run(cooled, tests::two_speeds()), cooled, "cooled");
   measured.changes.clear();
   auto const binned = bin(measured, 60.0);
   MatrixXd const missed = LinearisedRun(cooled, binned).prediction() - binned.values;
@@ -231,17 +231,13 @@ hysteresis = "1 K")"));
 /// Three positions of the nut, of a screw that is supported and of one that is held: up to 60 um.
 TEST(LinearisedRun, PredictsErrorsOfPositionAlongAScrew) {
   Machine const vmc850 = Machine::read(std::filesystem::path(THERMOTWIN_SOURCE_DIR) / "twin/machines/vmc850.toml");
-  auto truth = run(vmc850, tests::experiment(R"(
+  auto const experiment = tests::experiment(R"(
     duration = "2 h"
     ambient.mean = "22 degC"
     [[axes]]
     axis = "z"
-    blocks = [{duration = "80 min", feed = "8000 mm/min"}, {duration = "40 min", feed = "0 mm/min"}])"),
-                   {})
-                   .dataset;
-  truth.readings = truth.truth_readings;
-  truth.displacements = truth.truth_displacements;
-  auto measured = measured_run(truth, vmc850, "feed");
+    blocks = [{duration = "80 min", feed = "8000 mm/min"}, {duration = "40 min", feed = "0 mm/min"}])");
+  auto measured = measured_run(true_run(vmc850, experiment), vmc850, "feed");
   measured.changes.clear();
   auto const binned = bin(measured, 60.0);
   MatrixXd const predicted = LinearisedRun(vmc850, binned).prediction();
@@ -413,9 +409,7 @@ TEST(LinearisedRun, TellsWhatEveryBodyTakesUpPerKelvinOfTheAir) {
 /// Blocks that end 20 s earlier than the record tells, by a run of the machine.
 TEST(LinearisedRun, KnowsWhatASpeedDoesThatChangedBeforeItsRecord) {
   auto const early = tests::two_speeds("4780 s", "50 min", "3020 s", "1 h");
-  auto truth = run(machine(), early, {}).dataset;
-  truth.readings = truth.truth_readings;
-  truth.displacements = truth.truth_displacements;
+  auto truth = true_run(machine(), early);
   truth.inputs = dataset().inputs;
   auto as_recorded = measured();
   as_recorded.changes = {{4800.0, 60.0, 1.0}, {7800.0, 60.0, 1.0}};
