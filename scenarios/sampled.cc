@@ -11,6 +11,8 @@ namespace {
 
 constexpr double same_block = 0.02;           // of the largest magnitude
 constexpr double deviations = 5.0;            // of the noise
+constexpr double most_noise = 0.1;            // of the largest magnitude
+constexpr double staircase = 1.7;             // times what neighbours differ by; of a random walk √2
 constexpr double surely_still = 0.002;        // of the largest magnitude
 constexpr double least_of_motion = 3.0;       // times the noise of neighbours
 constexpr double deviation_of_median = 1.05;  // σ = 1.4826/√2 · median |Δ| of white noise
@@ -30,11 +32,11 @@ Course finite_part(SampledInput const& input) {
   return course;
 }
 
-/// Of the samples that are not zero: at rest a programme repeats itself, however noisy its record.
-double median_step(std::vector<double> const& values) {
+/// Of samples that are so many apart and not zero: at rest a programme repeats itself, however noisy its record.
+double median_step(std::vector<double> const& values, std::size_t apart = 1) {
   std::vector<double> steps;
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (values[i] != 0.0 && values[i - 1] != 0.0) steps.push_back(std::abs(values[i] - values[i - 1]));
+  for (std::size_t i = apart; i < values.size(); ++i)
+    if (values[i] != 0.0 && values[i - apart] != 0.0) steps.push_back(std::abs(values[i] - values[i - apart]));
   if (steps.empty()) return 0.0;
   auto const middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
@@ -71,10 +73,17 @@ double held(std::vector<double> const& values, double mean, double largest) {
   return still ? 0.0 : mean;
 }
 
+/// What neighbours differ by is what the programme does, not noise: noise is small, and two samples that are two apart
+/// differ by as much of it as neighbours do; those of a staircase differ by twice as much.
+bool is_list_of_changes(std::vector<double> const& values) {
+  double const step = median_step(values), largest = largest_magnitude(values);
+  return step > most_noise * largest || (step > same_block * largest && median_step(values, 2) > staircase * step);
+}
+
 /// Samples that differ by noise only become one breakpoint with their mean.
 Course blocks(Course const& samples) {
-  double const step = median_step(samples.values);
   double const largest = largest_magnitude(samples.values);
+  double const step = is_list_of_changes(samples.values) ? 0.0 : median_step(samples.values);
   double const tolerance = step == 0.0 ? 0.0 : std::max(same_block * largest, deviations * deviation_of_median * step);
   Course result;
   std::vector<double> block;

@@ -50,5 +50,43 @@ TEST(SampledInput, NextToNothingIsRest) {
   EXPECT_EQ(driven_channel(record.input).signal.at(2700.0), 0.0);
 }
 
+SampledInput programme(std::vector<double> const& times, std::vector<double> const& values) {
+  return {.name = "spindle.speed", .unit = "rad/s", .times = times, .values = values};
+}
+
+void expect_word_for_word(SampledInput const& input) {
+  auto const signal = driven_channel(input).signal;
+  for (std::size_t i = 0; i < input.times.size(); ++i) {
+    EXPECT_DOUBLE_EQ(signal.at(input.times[i]), input.values[i]) << i;
+    EXPECT_DOUBLE_EQ(signal.at(input.times[i] + 59.0), input.values[i]) << i;
+  }
+}
+
+/// Written down where it changes: what neighbours differ by is no noise.
+TEST(SampledInput, AListOfChangesIsTakenAtItsWord) {
+  expect_word_for_word(programme({0, 600, 9840, 15360, 16560, 19660, 20740, 22100, 25100, 26340, 36640},
+                                 {0, 235, 471, 235, 306, 0, 306, 94, 306, 165, 0}));
+}
+
+TEST(SampledInput, AStaircaseIsTakenAtItsWord) {
+  std::vector<double> times, values;
+  for (int i = 0; i < 25; ++i) {
+    times.push_back(1200.0 * i);
+    values.push_back(20.0 * i);
+  }
+  expect_word_for_word(programme(times, values));
+}
+
+/// Of 3 % of the largest, as of a motor's load.
+TEST(SampledInput, CoarseNoiseIsStillNoise) {
+  Record record;
+  record.add(60, 300.0, 0.0, 9.0);
+  record.add(60, 100.0, 0.0, 9.0);
+  auto const signal = driven_channel(record.input).signal;
+  EXPECT_EQ(signal.jumps(), (std::vector{3600.0}));
+  EXPECT_NEAR(signal.at(1800.0), 300.0, 5.0);
+  EXPECT_NEAR(signal.at(5400.0), 100.0, 5.0);
+}
+
 }  // namespace
 }  // namespace thermotwin::scenarios
