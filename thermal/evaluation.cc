@@ -12,12 +12,15 @@
 namespace thermotwin::thermal {
 namespace {
 
+constexpr double roundings_of_a_sum = 1000.0;  // a weight is a share of the sum over all cells
+
+/// `digits`: how many of the last bits are rounding.
 template <class Values>
-std::vector<double> divided_difference(Values const& plus, Values const& minus, double step) {
+std::vector<double> divided_difference(Values const& plus, Values const& minus, double step, double digits = 8.0) {
   std::vector<double> d(plus.size());
   for (std::size_t i = 0; i < d.size(); ++i) {
     double const rounding =
-        8.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(plus[i]), std::abs(minus[i]));
+        digits * std::numeric_limits<double>::epsilon() * std::max(std::abs(plus[i]), std::abs(minus[i]));
     double const change = plus[i] - minus[i];
     d[i] = std::abs(change) > rounding ? change / (2.0 * step) : 0.0;
   }
@@ -58,7 +61,7 @@ NetworkDerivative difference(Network const& plus, Network const& minus, double s
     same(a.nodes == b.nodes);
     if (a.window != b.window || a.edges != b.edges)
       throw InputError(fmt::format("the parameter changes where '{}' is; that has no sensitivity here", a.name));
-    d.average_weights.push_back(divided_difference(plus.averages()[i].weights, minus.averages()[i].weights, step));
+    d.average_weights.push_back(divided_difference(a.weights, b.weights, step, roundings_of_a_sum));
   }
   same(plus.relays().size() == minus.relays().size());
   for (std::size_t i = 0; i < plus.relays().size(); ++i) {
@@ -174,20 +177,33 @@ void Evaluation::add_made_gradient(ElementGroup const& group, Linearisation& res
   }
 }
 
+/// The blocks of a group, at the present temperatures, to the values of the coupling.
+void Evaluation::add_coupling(std::size_t group, double* values) {
+  auto const& slots = network_->slots_[group];
+  auto const& elements = network_->groups()[group];
+  blocks_.resize(slots.size());
+  elements.law->jacobian_blocks(elements.batch(), temperature_.data(), input_.data(), blocks_.data());
+  for (std::size_t i = 0; i < blocks_.size(); ++i) values[slots[i]] += blocks_[i];
+}
+
 void Evaluation::linearise(double const* state, double const* input, Linearisation& result) {
   auto const& net = *network_;
   int const n = net.nodes(), boundaries = int(net.boundaries().size());
   result.rate.resize(n);
   rate_and_power(state, input, result.rate.data());  // leaves the flows into the boundaries in heat_
   if (result.coupling.rows() == 0) result.coupling = net.port_pattern();
-  result.coupling.coeffs().setZero();
   result.power.setZero(4, net.temperatures());
+  if (linear_coupling_.empty()) {
+    linear_coupling_.assign(std::size_t(result.coupling.nonZeros()), 0.0);
+    for (std::size_t g = 0; g < net.groups().size(); ++g)
+      if (net.groups()[g].law->linear()) add_coupling(g, linear_coupling_.data());
+  }
   double* values = result.coupling.valuePtr();
+  std::copy(linear_coupling_.begin(), linear_coupling_.end(), values);
   for (std::size_t g = 0; g < net.groups().size(); ++g) {
     auto const& group = net.groups()[g];
-    blocks_.resize(net.slots_[g].size());
-    group.law->jacobian_blocks(group.batch(), temperature_.data(), input_.data(), blocks_.data());
-    for (std::size_t i = 0; i < blocks_.size(); ++i) values[net.slots_[g][i]] += blocks_[i];
+    if (group.law->linear()) continue;
+    add_coupling(g, values);
     if (!group.law->conservative()) add_made_gradient(group, result);
   }
   for (int column = 0; column < net.temperatures(); ++column)

@@ -94,10 +94,12 @@ class Evaluation {
   void share_averages(std::vector<double>& heat) const;
   double heat_made(ElementGroup const& group, int element, double const* flows) const;
   void add_made_gradient(ElementGroup const& group, Linearisation& result);
+  void add_coupling(std::size_t group, double* values);
 
   Network const* network_;
   std::vector<double> input_;  ///< the operating point, completed by the weights of moving averages
   std::vector<double> temperature_, heat_, temperature_rate_, heat_rate_, flows_, blocks_;
+  std::vector<double> linear_coupling_;       ///< by the laws that are linear; empty until it is asked for
   bool constant_capacity_;                    ///< of all nodes
   std::vector<std::vector<double>> weights_;  ///< of the averages, at the present operating point
 };

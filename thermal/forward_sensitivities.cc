@@ -1,6 +1,7 @@
 #include "thermal/forward_sensitivities.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -25,15 +26,23 @@ struct Share {
   NodeByParameter const& S;
 };
 
-/// Σ share · S, row by row: a row of the sum is near by while all are added to it.
+template <std::size_t... k>
+void add_up(std::vector<Share> const& shares, double* sum, std::index_sequence<k...>) {
+  auto const size = shares.front().S.size();
+  std::array const share{shares[k].share...};
+  std::array const S{shares[k].S.data()...};
+#pragma omp simd
+  for (Eigen::Index i = 0; i < size; ++i) sum[i] = (... + (share[k] * S[k][i]));
+}
+
+/// Σ share · S of up to so many matrices, in one pass over all of them: the sum stays in registers.
+template <std::size_t most = longest_past + 2>
 void add_up(std::vector<Share> const& shares, NodeByParameter& sum) {
-  auto const& first = shares.front();
-  sum.resize(first.S.rows(), first.S.cols());
-  for (Eigen::Index i = 0; i < sum.rows(); ++i) {
-    auto row = sum.row(i);
-    row = first.share * first.S.row(i);
-    for (std::size_t k = 1; k < shares.size(); ++k) row += shares[k].share * shares[k].S.row(i);
+  if constexpr (most > 1) {
+    if (shares.size() < most) return add_up<most - 1>(shares, sum);
   }
+  sum.resize(shares.front().S.rows(), shares.front().S.cols());
+  add_up(shares, sum.data(), std::make_index_sequence<most>());
 }
 
 }  // namespace

@@ -40,6 +40,8 @@ class Law {
   [[nodiscard]] virtual int coefficients() const = 0;
   [[nodiscard]] virtual int inputs() const = 0;
   [[nodiscard]] virtual bool conservative() const = 0;
+  /// Whether the blocks of its Jacobian follow from the coefficients alone.
+  [[nodiscard]] virtual bool linear() const = 0;
 
   /// heat[port] += flow, for every element of the batch.
   virtual void add_heat_flows(ElementBatch const& batch, double const* temperature, double const* input,
@@ -66,7 +68,7 @@ class Law {
 /// Makes a Law out of a formula: a struct with the constants `name`, `ports`, `coefficients`, `inputs`, `conservative`
 /// and a member `template <class S> static void flows(S const* T, S const* c, double const* u, S* q)`. One that has a
 /// constant `in_lanes`, true, is dear and free of branches on S: elements with the same inputs are taken four at a
-/// time.
+/// time. One that has a constant `linear`, true, is so in T, and asks no input.
 template <class Formula>
 class LawOf final : public Law {
   static constexpr int P = Formula::ports;
@@ -79,6 +81,9 @@ class LawOf final : public Law {
   [[nodiscard]] int coefficients() const override { return C; }
   [[nodiscard]] int inputs() const override { return U; }
   [[nodiscard]] bool conservative() const override { return Formula::conservative; }
+  [[nodiscard]] bool linear() const override {
+    return requires { requires Formula::linear; };
+  }
 
   void add_heat_flows(ElementBatch const& batch, double const* temperature, double const* input,
                       double* heat) const override {

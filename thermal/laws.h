@@ -21,7 +21,7 @@ void exchange(S const& into_first, S* q) {
 struct Conductance {
   static constexpr std::string_view name = "conductance";
   static constexpr int ports = 2, coefficients = 1, inputs = 0;
-  static constexpr bool conservative = true;
+  static constexpr bool conservative = true, linear = true;
   template <class S>
   static void flows(S const* T, S const* c, double const*, S* q) {
     exchange<S>(c[0] * (T[1] - T[0]), q);

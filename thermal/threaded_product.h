@@ -20,4 +20,19 @@ template <class Left, class Right>
   return result;
 }
 
+/// AᵀA of a tall dense matrix, by one triangle, likewise.
+template <class Matrix>
+[[nodiscard]] Eigen::MatrixXd threaded_square(Matrix const& a) {
+  constexpr Eigen::Index block = 32, worth_threads = 1 << 21;
+  Eigen::Index const columns = a.cols(), blocks = (columns + block - 1) / block;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns, columns);
+#pragma omp parallel for schedule(dynamic) if (a.rows() * columns * columns > worth_threads)
+  for (Eigen::Index k = 0; k < blocks; ++k) {
+    Eigen::Index const first = k * block, count = std::min(block, columns - first);
+    result.block(first, first, columns - first, count).noalias() =
+        a.rightCols(columns - first).transpose() * a.middleCols(first, count);
+  }
+  return result.template selfadjointView<Eigen::Lower>();
+}
+
 }  // namespace thermotwin::thermal

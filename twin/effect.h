@@ -42,8 +42,11 @@ struct Trial {
   std::string amplitude = {};  ///< key of the number that grows from nothing; the flows are linear in it
   double largest = 0.0;        ///< plausible upper end of the amplitude [SI]
   bool either_sign = false;    ///< it may be negative
+  bool of_spindle = false;     ///< it has no place in a machine without a spindle
   double ordinary = 0.0;       ///< what the best of machines has: no less is an effect [SI]
-  double against = 0.0;        ///< 2 ln of the odds against it beforehand: a network that is too coarse looks like it
+  /// Where its response is far from proportional, an amplitude about which it is looked for as well [of the largest].
+  double also_about = 0.0;
+  double against = 0.0;  ///< 2 ln of the odds against it beforehand: a network that is too coarse looks like it
   std::vector<Site> sites = {};
   /// Other keys and their texts, one table per variant: {{"exponent", "0.5"}}; none: the defaults.
   std::vector<std::vector<std::pair<std::string, std::string>>> shapes = {};

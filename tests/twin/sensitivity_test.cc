@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "scenarios/course.h"
+#include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "thermal/error.h"
 #include "thermal/integrate.h"
+#include "thermal/parameter_columns.h"
+#include "twin/diagnosis/uncertain_number.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -94,6 +97,23 @@ TEST(Sensitivity, RefusesWhatIsNoNumber) {
   EXPECT_THROW((void)differentiate(document, "bearing.front.inner"), thermal::InputError);
   EXPECT_THROW((void)differentiate(document, "bearing.front.inner_share"), thermal::InputError);
   EXPECT_THROW((void)differentiate(document, "bearing.middle.oil"), thermal::InputError);
+}
+
+/// How a capacity is spread over a bar does not depend on how much it is: sums of 42 cells round differently.
+TEST(Sensitivity, OfACapacityMovesNoPlace) {
+  auto document = tests::with_table(read_toml(machine_file("vmc850")), R"(
+    [[nut_reversal]]
+    name = "hidden"
+    nut = "nut"
+    screw = "screw"
+    nut_length = "60 mm"
+    energy = "2 J")");
+  static_cast<void>(uncertain_numbers(document));  // states what the file leaves at its default
+  std::string const path = "bar.screw.capacity_factor";
+  for (double const factor : {1.218864407911368, 1.168862818725809, 1.0918453059819737}) {
+    document = with_number(document, find_number(document, path), factor);
+    EXPECT_TRUE(thermal::ParameterColumns::has(differentiate(document, path).network)) << factor;
+  }
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ class Diagnostician {
   [[nodiscard]] double vote() const;
   struct Written;
   void write_down();
+  bool write_down_and_reject();
   void find_where();
   using HeatAt = std::map<std::pair<std::string, std::string>, double>;  ///< body and regime, watts
   void tell_where(HeatAt const& heat);
@@ -71,13 +72,9 @@ Diagnosis Diagnostician::operator()() {
   d.hypotheses = hypotheses_;
   say("scanning for heat that the machine does not know");
   d.scan = scan_for_free_heat(search_.plain(), d.calibrated);
-  search_();
+  do search_();
+  while (write_down_and_reject());
   auto const& amended = search_.estimation();
-  d.explanations = search_.explanations();
-  d.amended = search_.fit();
-  d.effects = amended.effects();
-  d.unknowns = amended.unknowns();
-  write_down();
   if (!held_out_.empty() && !d.effects.empty()) d.vote = vote();
   d.visible = search_.visible();
   d.noise_heard = search_.noise_heard();
@@ -117,10 +114,27 @@ struct Diagnostician::Written {
   Value document;
 };
 
+/// Takes back what a machine in the form of its file has next to nothing of: what lumps hide was bent around it.
+/// Whether anything was.
+bool Diagnostician::write_down_and_reject() {
+  write_down();
+  auto const& found = diagnosis_.explanations;
+  auto const rejected = std::find_if(found.begin(), found.end(), [](Explanation const& explanation) {
+    return explanation.alternatives[0].is_negligible();
+  });
+  if (rejected == found.end()) return false;
+  search_.reject(std::size_t(rejected - found.begin()));
+  return true;
+}
+
 /// Amplitudes are those of what files get; their errors are those of the fit that knows what lumps may hide.
 void Diagnostician::write_down() {
   auto& d = diagnosis_;
   auto const& amended = search_.estimation();
+  d.explanations = search_.explanations();
+  d.amended = search_.fit();
+  d.effects = amended.effects();
+  d.unknowns = amended.unknowns();
   std::optional<Written> written, calibrated;
   in_parallel(d.effects.empty() ? 1 : 2, [&](std::size_t i) {
     if (i == 0)

@@ -71,7 +71,9 @@ struct EffectSearch::Refit {
 
 EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& runs,
                            std::vector<Hypothesis> hypotheses, DiagnosisOptions const& options)
-    : options_(options), geometry_(Machine::build(document).geometry), hypotheses_(std::move(hypotheses)) {
+    : options_(options),
+      geometry_(Machine::build(document).geometry),
+      hypotheses_(with_those_of_some_size(std::move(hypotheses))) {
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs));
   expected_ = estimation_->noise();
@@ -88,6 +90,18 @@ void EffectSearch::operator()() {
   if (estimation_->effects().size() < 2) return;  // what was found alone was held against all others then
   if (drop_superfluous()) linearise();
   if (exchange()) drop_superfluous();
+}
+
+void EffectSearch::reject(std::size_t effect) {
+  auto effects = estimation_->effects();
+  auto const rejected = effects[effect].label();
+  std::erase_if(hypotheses_, [&](Hypothesis const& hypothesis) { return hypothesis.label() == rejected; });
+  Eigen::VectorXd const start = shorter(fit_.x, place_of(effect));
+  effects.erase(effects.begin() + std::ptrdiff_t(effect));
+  explanations_.erase(explanations_.begin() + std::ptrdiff_t(effect));
+  estimation_ = with_effects(effects);
+  fit_ = estimation_->fit(start, to_the_end);
+  listen_to_noise();
 }
 
 double EffectSearch::share_of_strongest() const {
@@ -142,7 +156,12 @@ std::vector<std::pair<std::string, double>> EffectSearch::noise_heard() const {
 
 void EffectSearch::linearise() { signatures_ = signatures(*estimation_, fit_, hypotheses_); }
 
-/// All that is not there yet, in whatever shape.
+/// Among the unknowns.
+Eigen::Index EffectSearch::place_of(std::size_t effect) const {
+  return Eigen::Index(estimation_->unknowns().size() - estimation_->effects().size() + effect);
+}
+
+/// All that is not there yet, in whatever shape. What they would stand in the place of is the last.
 EffectSearch::Candidates EffectSearch::candidates(std::optional<std::size_t> in_place_of) const {
   auto const& effects = estimation_->effects();
   auto const is_there = [&](Hypothesis const& tried) {
@@ -159,8 +178,13 @@ EffectSearch::Candidates EffectSearch::candidates(std::optional<std::size_t> in_
     open.push_back(Eigen::Index(k));
     result.hypotheses.push_back(hypotheses_[k]);
   }
-  result.columns = signatures_(Eigen::all, open);
-  estimation_->whiten(result.columns);
+  auto const count = Eigen::Index(open.size());
+  result.columns.resize(signatures_.rows(), in_place_of ? count + 1 : count);
+  result.columns.leftCols(count) = signatures_(Eigen::all, open);
+  estimation_->whiten(result.columns.leftCols(count));
+  if (!in_place_of) return result;
+  result.hypotheses.push_back(effects[*in_place_of]);
+  result.columns.col(count) = -fit_.jacobian.col(place_of(*in_place_of)).head(signatures_.rows());
   return result;
 }
 
@@ -194,13 +218,10 @@ std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vec
 /// An effect that was added, and what could stand in its place, about the fit that has it: near enough for what looks
 /// alike that the linearisation decides.
 std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, double strength) const {
-  auto const own_place = Eigen::Index(estimation_->unknowns().size() - estimation_->effects().size() + effect);
+  auto const own_place = place_of(effect);
   Hypothesis const& own = estimation_->effects()[effect];
   Fit const about = without(fit_, own_place);
-  auto [tried, columns] = candidates(effect);
-  tried.push_back(own);
-  columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
-  columns.rightCols(1) = -fit_.jacobian.col(own_place).head(columns.rows());
+  auto const [tried, columns] = candidates(effect);
   Remainder const remainder(about, columns);
   auto const scores = remainder.scores(tried);
   Eigen::VectorXd const alike = remainder.cosines(columns.cols() - 1);
@@ -261,8 +282,8 @@ bool EffectSearch::add_effect(int round) {
   auto const first = refits(fit_, most_promising(all_others, scores, threshold), all_others, scores);
   if (first.empty() || first[0].strength < hopeful_refit * threshold) return false;
   Estimation const before = *estimation_;
-  Fit const base = fit_;
-  Eigen::MatrixXd const base_signatures = signatures_;
+  Fit base = std::move(fit_);
+  Eigen::MatrixXd base_signatures = std::move(signatures_);
   std::vector<Refit> all;
   Refit best = first[0], former;
   Fit former_fit;
@@ -273,7 +294,7 @@ bool EffectSearch::add_effect(int round) {
     best.strength = ordinary ? -INFINITY : base.evidence - fit_.evidence;
     if (attempt == 1 && best.strength < former.strength) {  // it only seemed better
       best = former;
-      fit_ = former_fit;
+      fit_ = std::move(former_fit);
       estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
     }
     linearise();
@@ -282,14 +303,14 @@ bool EffectSearch::add_effect(int round) {
                                             [](Refit const& a, Refit const& b) { return a.strength < b.strength; });
     if (strongest->strength < best.strength + 2.0 || attempt == 1) break;
     former = best;
-    former_fit = fit_;
+    former_fit = std::move(fit_);
     best = Refit(*strongest);
   }
   if (double const asked = evident_beside(); best.strength < asked) {
     if (explanations_.empty() && best.strength >= hopeful_refit * asked) suspicion_ = {explanation_of(all), asked};
     estimation_ = before;
-    fit_ = base;
-    signatures_ = base_signatures;
+    fit_ = std::move(base);
+    signatures_ = std::move(base_signatures);
     return false;
   }
   explanations_.push_back(explanation_of(all));

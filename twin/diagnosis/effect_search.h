@@ -43,8 +43,10 @@ class EffectSearch {
   EffectSearch(Value const& document, std::vector<BinnedRun> const& runs, std::vector<Hypothesis> hypotheses,
                DiagnosisOptions const& options);
 
-  /// Tries the hypotheses; once.
+  /// Tries the hypotheses, beside the effects found so far.
   void operator()();
+  /// Takes an effect that was found back, and tries it no more, wherever it stands in `explanations`.
+  void reject(std::size_t effect);
 
   /// Of the machine without any effect, with the noise heard first.
   [[nodiscard]] Estimation const& plain() const { return plain_.value(); }
@@ -74,6 +76,7 @@ class EffectSearch {
   /// What a further effect needs of the strongest one's evidence.
   [[nodiscard]] double share_of_strongest() const;
   [[nodiscard]] bool add_effect(int round);
+  [[nodiscard]] Eigen::Index place_of(std::size_t effect) const;
   struct Candidates;
   [[nodiscard]] Candidates candidates(std::optional<std::size_t> in_place_of = std::nullopt) const;
   [[nodiscard]] std::vector<Refit> refits(Fit const& about, std::vector<std::size_t> const& chosen,

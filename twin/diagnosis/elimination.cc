@@ -2,31 +2,29 @@
 
 #include <utility>
 
+#include "thermal/threaded_product.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
 
-Eigen::MatrixXd square(Eigen::MatrixXd const& A) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(A.cols(), A.cols());
-  result.selfadjointView<Eigen::Lower>().rankUpdate(A.transpose());
-  return result.selfadjointView<Eigen::Lower>();
-}
-
 Elimination::Elimination(Eigen::MatrixXd columns, Eigen::VectorXd mean, Eigen::VectorXd const& deviation,
                          std::vector<Eigen::Index> const& first_rows)
     : columns_(std::move(columns)), mean_(std::move(mean)), precision_(deviation.array().square().inverse()) {
-  information_ = precision_.asDiagonal();
-  for (std::size_t b = 0; b < first_rows.size(); ++b) {
+  blocks_.resize(first_rows.size());
+  std::vector<Eigen::MatrixXd> squares(blocks_.size());
+  in_parallel(blocks_.size(), [&](std::size_t b) {
     auto const end = b + 1 < first_rows.size() ? first_rows[b + 1] : columns_.rows();
     auto const rows = columns_.middleRows(first_rows[b], end - first_rows[b]);
-    Block block{first_rows[b], {}, {}};
+    auto& block = blocks_[b];
+    block.first = first_rows[b];
     for (Eigen::Index u = 0; u < rows.cols(); ++u)
       if ((rows.col(u).array() != 0.0).any()) block.acting.push_back(u);
-    if (block.acting.empty()) continue;
     block.columns = rows(Eigen::all, block.acting);
-    information_(block.acting, block.acting) += square(block.columns);
-    blocks_.push_back(std::move(block));
-  }
+    squares[b] = thermal::threaded_square(block.columns);
+  });
+  information_ = precision_.asDiagonal();
+  for (std::size_t b = 0; b < blocks_.size(); ++b) information_(blocks_[b].acting, blocks_[b].acting) += squares[b];
+  std::erase_if(blocks_, [](Block const& block) { return block.acting.empty(); });
   factor_.compute(information_);
 }
 
@@ -56,7 +54,7 @@ Eigen::MatrixXd Elimination::shared(Eigen::MatrixXd const& J) const {
 
 Eigen::MatrixXd Elimination::curvature(Eigen::MatrixXd const& own, Eigen::MatrixXd const& shared) const {
   Eigen::MatrixXd const followed = factor_.matrixL().solve(shared);
-  return own - square(followed);
+  return own - thermal::threaded_square(followed);
 }
 
 }  // namespace thermotwin::twin

@@ -45,7 +45,4 @@ class Elimination {
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
-/// AᵀA by one triangle.
-[[nodiscard]] Eigen::MatrixXd square(Eigen::MatrixXd const& A);
-
 }  // namespace thermotwin::twin

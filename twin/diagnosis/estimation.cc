@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "thermal/error.h"
+#include "thermal/threaded_product.h"
 #include "thermal/units.h"
 #include "twin/diagnosis/least_squares.h"
 #include "twin/file/document.h"
@@ -22,6 +23,7 @@ constexpr double lag_deviation = 25.0;  // [s]
 constexpr double most_lag = 900.0;      // that a sensor may have [s]
 constexpr double relative_step = 1e-4;
 constexpr int start_halvings = 4;
+constexpr std::size_t numbers_at_once = 64;  // whose responses are found together
 
 bool changes_heat(thermal::NetworkDerivative const& d) {
   auto const any = [](std::vector<double> const& values) {
@@ -70,6 +72,9 @@ Fit without(Fit fit, Eigen::Index unknown) {
   fit.residual[prior] = 0.0;
   fit.jacobian.col(unknown).setZero();
   fit.jacobian(prior, unknown) = 1.0;
+  fit.information.row(unknown).setZero();
+  fit.information.col(unknown).setZero();
+  fit.information(unknown, unknown) = 1.0;
   return fit;
 }
 
@@ -311,15 +316,42 @@ std::vector<Eigen::Index> Estimation::searched() const {
   return result;
 }
 
-/// One run's part of a linearisation.
-void Estimation::add_run(std::size_t run, Traced const& traced, thermal::ParameterColumns const& heat,
-                         std::vector<Eigen::Index> const& heated, Linearisation& at) const {
+/// To a linearisation, what searched numbers and amplitudes do as heat.
+void Estimation::add_heat(Traced const& traced, Linearisation& at) const {
+  auto const& network = traced.machine.network();
+  auto const unknowns = searched();
+  auto const amplitudes = amplitude_derivatives(traced.x);
+  std::vector<thermal::NetworkDerivative> heat;
+  std::vector<Eigen::Index> heated;
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    auto const& unknown = unknowns_[std::size_t(unknowns[k])];
+    if (unknown.kind == Unknown::Kind::lag) continue;
+    auto own = unknown.kind == Unknown::Kind::number
+                   ? derivatives_->network(unknown.index, traced.document, traced.x[unknowns[k]])
+                   : amplitudes[unknown.index].network;
+    if (!changes_heat(own)) continue;
+    heat.push_back(thermal::lengthened(std::move(own), network));
+    heated.push_back(Eigen::Index(k));
+  }
+  std::vector<thermal::NetworkDerivative const*> pointers;
+  for (auto const& derivative : heat) pointers.push_back(&derivative);
+  std::size_t const parts = (heat.size() + numbers_at_once - 1) / numbers_at_once;
+  in_parallel(data_->size() * parts, [&](std::size_t i) {
+    std::size_t const run = i / parts, part = i % parts;
+    auto const first = heat.size() * part / parts, end = heat.size() * (part + 1) / parts;
+    Eigen::MatrixXd const response = traced.runs[run]->response(thermal::ParameterColumns(
+        network, {pointers.begin() + std::ptrdiff_t(first), pointers.begin() + std::ptrdiff_t(end)}));
+    for (std::size_t k = first; k < end; ++k)
+      at.jacobian.col(heated[k]).segment(first_rows_[run], response.rows()) = -response.col(Eigen::Index(k - first));
+  });
+}
+
+/// To a linearisation, what searched unknowns do to the readings of one run at the same temperatures.
+void Estimation::add_readings(std::size_t run, Traced const& traced, Linearisation& at) const {
   auto const& data = (*data_)[run];
   LinearisedRun const& twin = *traced.runs[run];
   auto const first = first_rows_[run], rows = data.time.size();
   auto jacobian = at.jacobian.middleRows(first, data.values.size());
-  Eigen::MatrixXd const response = twin.response(heat);
-  for (std::size_t k = 0; k < heated.size(); ++k) jacobian.col(heated[k]) -= response.col(Eigen::Index(k));
   Eigen::MatrixXd const prediction = twin.prediction(), slower = twin.prediction_of(later(traced.machine));
   auto const unknowns = searched();
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
@@ -355,31 +387,14 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const
   at.residual = at.residual.array().isNaN().select(0.0, at.residual);
   whiten(at.residual);
   if (!linearised) return true;
-  auto const& network = traced->machine.network();
-  auto const unknowns = searched();
-  auto const amplitudes = amplitude_derivatives(x);
-  std::vector<thermal::NetworkDerivative> heat;
-  std::vector<Eigen::Index> heated;
-  for (std::size_t k = 0; k < unknowns.size(); ++k) {
-    auto const& unknown = unknowns_[std::size_t(unknowns[k])];
-    if (unknown.kind == Unknown::Kind::lag) continue;
-    auto own = unknown.kind == Unknown::Kind::number
-                   ? derivatives_->network(unknown.index, traced->document, x[unknowns[k]])
-                   : amplitudes[unknown.index].network;
-    if (!changes_heat(own)) continue;
-    heat.push_back(thermal::lengthened(std::move(own), network));
-    heated.push_back(Eigen::Index(k));
-  }
-  std::vector<thermal::NetworkDerivative const*> pointers;
-  for (auto const& derivative : heat) pointers.push_back(&derivative);
-  thermal::ParameterColumns const parameters(network, pointers);
-  at.jacobian.setZero(rows_, Eigen::Index(unknowns.size()));
+  at.jacobian.setZero(rows_, Eigen::Index(searched().size()));
   try {
-    in_parallel(data_->size(), [&](std::size_t r) { add_run(r, *traced, parameters, heated, at); });
+    add_heat(*traced, at);
+    in_parallel(data_->size(), [&](std::size_t r) { add_readings(r, *traced, at); });
   } catch (std::exception const&) {
     return false;
   }
-  at.own = square(at.jacobian);
+  at.own = thermal::threaded_square(at.jacobian);
   at.shared = elimination_->shared(at.jacobian);
   at.x = x;
   return true;
@@ -455,7 +470,7 @@ Fit Estimation::fit_at(Eigen::VectorXd const& x, Linearisation const& at) const 
   auto const free = searched();
   std::vector<Eigen::Index> held(std::size_t(columns.cols()));
   std::iota(held.begin(), held.end(), first_linear_);
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(count, count);  // JᵀJ
+  auto& product = fit.information = Eigen::MatrixXd::Zero(count, count);
   for (auto const u : free) product(u, u) = std::pow(fit.jacobian(rows_ + u, u), 2);
   product(free, free) += at.own;
   product(held, held) = elimination_->information();

@@ -24,10 +24,11 @@ namespace thermotwin::twin {
 /// A fit: the estimates, and what the data and the priors say of them together.
 struct Fit {
   Eigen::VectorXd x;
-  double cost = 0.0;         ///< |whitened residuals|² + |prior residuals|²: −2 ln posterior + constant
-  Eigen::VectorXd residual;  ///< whitened, then the priors'
-  Eigen::MatrixXd jacobian;  ///< of the residual
-  Eigen::MatrixXd covariance;
+  double cost = 0.0;            ///< |whitened residuals|² + |prior residuals|²: −2 ln posterior + constant
+  Eigen::VectorXd residual;     ///< whitened, then the priors'
+  Eigen::MatrixXd jacobian;     ///< J, of the residual
+  Eigen::MatrixXd information;  ///< JᵀJ
+  Eigen::MatrixXd covariance;   ///< its inverse
   bool converged = false;
 
   /// −2 ln evidence + constant, by Laplace's method: cost + ln |JᵀJ|, the priors' volume taken off, the choice of each
@@ -108,8 +109,8 @@ class Estimation {
   struct Linearisation;
   [[nodiscard]] bool evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const>& traced, bool linearised,
                               Linearisation& at) const;
-  void add_run(std::size_t run, Traced const& traced, thermal::ParameterColumns const& heat,
-               std::vector<Eigen::Index> const& heated, Linearisation& at) const;
+  void add_heat(Traced const& traced, Linearisation& at) const;
+  void add_readings(std::size_t run, Traced const& traced, Linearisation& at) const;
   [[nodiscard]] std::vector<MachineDerivative> amplitude_derivatives(Eigen::VectorXd const& x) const;
   [[nodiscard]] Fit fit_at(Eigen::VectorXd const& x, Linearisation const& at) const;
 

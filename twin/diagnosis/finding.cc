@@ -43,6 +43,11 @@ double Finding::high() const {
 
 bool Finding::is_at_end() const { return std::abs(amplitude) > 0.999 * most_of_largest * hypothesis.largest; }
 
+bool Finding::is_negligible() const {
+  double const unit = hypothesis.largest;
+  return std::abs(amplitude) < standard_error || hypothesis.is_ordinary(amplitude / unit, standard_error / unit);
+}
+
 std::string Finding::interval_text(std::string const& unit) const {
   if (at_least) return "or more, at least " + written_value(low(), unit, 2);
   return written_interval(standard_error, unit) + (is_at_end() ? ", as much as is plausible here" : "");

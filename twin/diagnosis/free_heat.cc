@@ -284,7 +284,7 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
   std::vector<Eigen::VectorXd> knots;
   for (auto const& run : estimation.data()) knots.push_back(knots_of(run, count));
   auto const columns = columns_of(estimation, machine, sites, knots);
-  Eigen::LLT<Eigen::MatrixXd> const nuisance(square(fit.jacobian));
+  Eigen::LLT<Eigen::MatrixXd> const nuisance(fit.information);
   Eigen::VectorXd const explained = nuisance.solve(fit.jacobian.transpose() * fit.residual);
   std::vector<Eigen::MatrixXd> shared(knots.size());
   std::vector<Eigen::VectorXd> residual;
@@ -303,12 +303,12 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
     for (std::size_t r = 0; r < knots.size(); ++r) {  // heat in one run shows in no other
       auto const count = knots[r].size(), first = Eigen::Index(s) * count;
       Eigen::MatrixXd const response = columns[r].middleCols(first, count);
-      own.block(at, at, count, count) = square(response);
+      own.block(at, at, count, count) = thermal::threaded_square(response);
       with_unknowns.middleCols(at, count) = shared[r].middleCols(first, count);
       towards.segment(at, count) = response.transpose() * residual[r];
       at += count;
     }
-    Eigen::MatrixXd const information = own - square(nuisance.matrixL().solve(with_unknowns));
+    Eigen::MatrixXd const information = own - thermal::threaded_square(nuisance.matrixL().solve(with_unknowns));
     towards -= with_unknowns.transpose() * explained;
     scan[s] = estimate(sites[s], knots, information, towards);
     if (sites[s].is_air()) add_steady_air(scan[s], estimation, fit.x - explained, nuisance, with_unknowns);

@@ -21,6 +21,10 @@ namespace {
 /// 2 ln of the odds against an effect that says otherwise than the file in so many words.
 constexpr double against_statement = 30.0;
 
+constexpr std::string_view of_spindle = "spindle.";
+
+using Shapes = std::vector<std::vector<std::pair<std::string, std::string>>>;
+
 /// Values for keys, and what they act on first.
 struct Spot {
   std::vector<std::pair<std::string, std::string>> keys;
@@ -223,6 +227,35 @@ double outer_surface(thermal::BodyGeometry const& body) {
   return 2.0 * (a[0] * a[1] + a[1] * a[2] + a[2] * a[0]);
 }
 
+/// Of a trial in this machine. Where no spindle turns, each axis does: what follows the spindle follows one of them.
+Shapes shapes_of(Effect const& effect, Trial const& trial, scenarios::MachineLimits const& limits) {
+  Shapes const shapes = trial.shapes.empty() ? Shapes{{}} : trial.shapes;
+  if (limits.max_spindle_speed > 0.0) return shapes;
+  if (trial.of_spindle) return {};
+  auto const has = [&](std::string_view key) {
+    return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                       [&](FieldRecord const& field) { return field.key == key; });
+  };
+  bool const has_speed = has("speed") && has("rated_speed");
+  Shapes result;
+  for (auto const& shape : shapes) {
+    bool follows = has_speed;
+    for (auto const& [key, text] : shape) follows = follows || text.starts_with(of_spindle);
+    if (!follows) result.push_back(shape);
+    if (!follows) continue;
+    for (auto const& axis : limits.axes) {
+      auto& own = result.emplace_back(shape);
+      for (auto& [key, text] : own)
+        if (text.starts_with(of_spindle)) text = axis.name + "." + text.substr(of_spindle.size());
+      if (!has_speed) continue;
+      own.emplace_back("speed", axis.name + ".speed");
+      own.emplace_back("rated_speed", thermal::format_quantity(2.0 * std::numbers::pi * axis.rapid_feed / axis.lead,
+                                                               dimension::angular_speed));
+    }
+  }
+  return result;
+}
+
 /// A table of the file that does the same at the same place.
 bool stands_already(Value const& document, Hypothesis const& hypothesis) {
   Value const* tables = document.find(hypothesis.effect->name);
@@ -269,8 +302,7 @@ std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine
     if (std::find(without.begin(), without.end(), entry.name) != without.end()) continue;
     for (auto const& trial : entry.trials)
       for (auto const& spot : spots_of(trial, sites)) {
-        auto const shapes = trial.shapes.empty() ? decltype(trial.shapes){{}} : trial.shapes;
-        for (auto const& shape : shapes) {
+        for (auto const& shape : shapes_of(entry, trial, machine.limits)) {
           Hypothesis hypothesis{&entry, &trial, spot.site, spot.body, spot.keys};
           hypothesis.keys.insert(hypothesis.keys.end(), shape.begin(), shape.end());
           hypothesis.largest = trial.largest;
@@ -289,6 +321,16 @@ std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine
     if (contradicts(machine, hypothesis)) hypothesis.choice += against_statement;
   }
   return result;
+}
+
+std::vector<Hypothesis> with_those_of_some_size(std::vector<Hypothesis> hypotheses) {
+  std::size_t const count = hypotheses.size();
+  for (std::size_t h = 0; h < count; ++h) {
+    if (hypotheses[h].trial->also_about == 0.0) continue;
+    hypotheses.push_back(hypotheses[h]);
+    hypotheses.back().about = hypotheses[h].trial->also_about;
+  }
+  return hypotheses;
 }
 
 std::vector<std::pair<std::string, std::string>> table_of(Hypothesis const& hypothesis, std::string const& name,

@@ -33,6 +33,8 @@ struct Hypothesis {
   double choice = 0.0;
   /// Largest plausible amplitude here [SI]: the trial's; of an area, no more than the body has, and the other one.
   double largest = 0.0;
+  /// Where a response per unit is not the slope at nothing, of which amplitude it is [of the largest].
+  double about = 0.0;
 
   /// What is compared: entries that differ in their shape only are one effect at one place.
   [[nodiscard]] std::string label() const { return effect->name + " at " + site; }
@@ -52,6 +54,9 @@ struct Hypothesis {
 /// site.
 [[nodiscard]] std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine,
                                                  std::vector<std::string> const& without = {});
+
+/// These, and after them once more those that are also looked for at an amplitude of some size.
+[[nodiscard]] std::vector<Hypothesis> with_those_of_some_size(std::vector<Hypothesis> hypotheses);
 
 /// The document with the table of a hypothesis appended; amplitude in SI.
 [[nodiscard]] Value with_hypothesis(Value document, Hypothesis const& hypothesis, std::string const& name,

@@ -14,7 +14,7 @@ namespace thermotwin::twin {
 namespace {
 
 constexpr double step = 1e-3;
-constexpr std::size_t shapes_at_once = 128;  // whose responses are found together
+constexpr std::size_t shapes_at_once = 96;  // whose responses are found together
 
 /// How the response to a hypothesis is found.
 enum class Way {
@@ -96,11 +96,12 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
   auto const at = [&](double amplitude) {
     return Machine::build(with_hypothesis(document, hypothesis, trial_table(index), amplitude * unit));
   };
-  Machine const with = at(2.0 * step);
+  double const tried = hypothesis.about > 0.0 ? hypothesis.about : 2.0 * step;
+  Machine const with = at(tried);
   if (way_of(hypothesis) == Way::readings) {
     for (std::size_t r = 0; r < twins.size(); ++r)
       columns.col(Eigen::Index(index)).segment(estimation.first_row(r), plain[r].size()) =
-          ((twins[r]->prediction_of(with) - plain[r]) / (2.0 * step)).reshaped();
+          ((twins[r]->prediction_of(with) - plain[r]) / tried).reshaped();
     return;
   }
   Machine const without = at(as_good_as_none);
@@ -136,9 +137,9 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
     i % 2 == 0 ? twins[i / 2].emplace(machine, data) : with_all[i / 2].emplace(all.machine(), data);
   });
   in_parallel(runs * parts, [&](std::size_t i) {
-    std::size_t const r = i / parts, first = i % parts * shapes_at_once;
+    std::size_t const r = i / parts, part = i % parts, first = shared.size() * part / parts;
     auto const begin = derivatives.begin() + std::ptrdiff_t(first);
-    auto const end = derivatives.begin() + std::ptrdiff_t(std::min(first + shapes_at_once, shared.size()));
+    auto const end = derivatives.begin() + std::ptrdiff_t(shared.size() * (part + 1) / parts);
     thermal::ParameterColumns const parameters(all.machine().network(), {begin, end});
     Eigen::MatrixXd const response = with_all[r]->response(parameters, {}, machine.network().nodes());
     for (Eigen::Index k = 0; k < response.cols(); ++k)
@@ -154,7 +155,7 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
 }
 
 Remainder::Remainder(Fit const& fit, Eigen::MatrixXd const& signatures)
-    : fit_(&fit), signatures_(&signatures), information_(square(fit.jacobian)) {
+    : fit_(&fit), signatures_(&signatures), information_(fit.information) {
   shared_ = thermal::threaded_product(fit.jacobian.topRows(signatures.rows()).transpose(), signatures);
   taken_ = information_.solve(shared_);
 }

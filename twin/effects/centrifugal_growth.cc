@@ -63,7 +63,11 @@ Effect const& centrifugal_growth_effect() {
        {"compensation", "bearing_shift", "held_shaft"},
        "stop and go every few minutes, extrapolated to the moment of the change; the controller's compensation "
        "switched off"},
-      {{.amplitude = "growth", .largest = 20e-6, .either_sign = true, .sites = {{"displacement", "displacement"}}}});
+      {{.amplitude = "growth",
+        .largest = 20e-6,
+        .either_sign = true,
+        .of_spindle = true,
+        .sites = {{"displacement", "displacement"}}}});
   return effect;
 }
 

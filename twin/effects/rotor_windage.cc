@@ -125,8 +125,16 @@ Effect const& rotor_windage_effect() {
        {18},
        {"bearing", "preload", "motor_loss", "fan_cooling"},
        "runs at 60, 80 and 100 % of the speed; coast-down: a torque with the square of the speed"},
-      {{.amplitude = "power", .largest = 150.0, .sites = {{"rotor", "shaft"}}, .shapes = {{{"rotor_share", "1"}}}},
-       {.amplitude = "power", .largest = 150.0, .sites = {{"rotor", "motor"}}, .shapes = {{{"rotor_share", "1"}}}}});
+      {{.amplitude = "power",
+        .largest = 150.0,
+        .of_spindle = true,
+        .sites = {{"rotor", "shaft"}},
+        .shapes = {{{"rotor_share", "1"}}}},
+       {.amplitude = "power",
+        .largest = 150.0,
+        .of_spindle = true,
+        .sites = {{"rotor", "motor"}},
+        .shapes = {{{"rotor_share", "1"}}}}});
   return effect;
 }
 

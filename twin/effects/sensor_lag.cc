@@ -32,7 +32,7 @@ Effect const& sensor_lag_effect() {
        {28},
        {"extra_mass", "sensor_contact"},
        "a step and a long hold: neighbours answer to a mass, a lag stays in one channel"},
-      {{.amplitude = "lag", .largest = 900.0, .sites = {{"sensor", "sensor"}}}});
+      {{.amplitude = "lag", .largest = 900.0, .also_about = 0.5, .sites = {{"sensor", "sensor"}}}});
   return effect;
 }
 

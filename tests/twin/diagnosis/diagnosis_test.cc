@@ -282,5 +282,27 @@ TEST(Diagnosis, TellsNumbersThatAreFarFromTheFile) {
   EXPECT_THAT(report_text(report), testing::Not(testing::HasSubstr("prior deviations")));
 }
 
+/// Something else moves that way, and is found in its place; but not what was taken back.
+TEST(EffectSearch, TriesNoMoreWhatWasTakenBack) {
+  auto run = tests::measured(tests::with_table(tests::v450(), growth), tests::two_speeds());
+  tests::add_noise(run, 0.02, 0.05e-6, 7);
+  std::vector<BinnedRun> const runs = {bin(run, 300.0)};
+  DiagnosisOptions const options;
+  Value const document = tests::v450();
+  EffectSearch search(document, runs, hypotheses(document, Machine::build(document)), options);
+  double const calibrated = search.fit().evidence;
+  search();
+  ASSERT_EQ(search.explanations().size(), 1);
+  auto const label = search.estimation().effects()[0].label();
+  EXPECT_EQ(label, "centrifugal_growth at E_Z");
+  search.reject(0);
+  EXPECT_TRUE(search.explanations().empty());
+  EXPECT_TRUE(search.estimation().effects().empty());
+  EXPECT_NEAR(search.fit().evidence, calibrated, 1.0);
+  search();
+  EXPECT_FALSE(search.explanations().empty());
+  for (auto const& effect : search.estimation().effects()) EXPECT_NE(effect.label(), label);
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

@@ -85,5 +85,12 @@ TEST(Explanation, OfANameCountsAllItsPlaces) {
   EXPECT_NEAR(told[1].weight, 2.0 / (2.0 + std::exp(1.5)), 1e-12);
 }
 
+TEST(Finding, IsNegligibleBelowItsErrorAndWhereTheBestHaveAsMuch) {
+  EXPECT_TRUE(half_of("heat", "bed", 0.05).is_negligible());  // ± 0.06
+  EXPECT_FALSE(half_of("heat", "bed", 0.10).is_negligible());
+  EXPECT_TRUE(half_of("sensor_contact", "T1", 0.20).is_negligible());  // 6 % ± 2 %: good ones read up to 5 %
+  EXPECT_FALSE(half_of("sensor_contact", "T1", 0.50).is_negligible());
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

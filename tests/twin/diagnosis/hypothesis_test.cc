@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
@@ -153,6 +154,32 @@ TEST_F(Hypotheses, StandInTheFileWithTheirAmplitude) {
     for (auto const& [key, factor] : hypothesis.trial->proportional)
       EXPECT_NEAR(find_number(with, table + key).value, factor * amplitude, 1e-9 * std::abs(factor * amplitude))
           << text_of(hypothesis);
+  }
+}
+
+/// vmc850 has an axis, and no spindle.
+TEST(HypothesesOfAnAxis, FollowItWhereNoSpindleTurns) {
+  Subject const vmc850("vmc850");
+  bool fan = false;
+  for (auto const& hypothesis : vmc850.all) {
+    EXPECT_FALSE(hypothesis.trial->of_spindle) << text_of(hypothesis);
+    for (auto const& [key, value] : hypothesis.keys) EXPECT_FALSE(value.starts_with("spindle.")) << text_of(hypothesis);
+    if (hypothesis.label() != "fan_cooling at motor") continue;
+    fan = true;
+    std::map<std::string, std::string> const keys(hypothesis.keys.begin(), hypothesis.keys.end());
+    EXPECT_EQ(keys.at("speed"), "z.speed");
+    EXPECT_NEAR(thermal::parse_value(keys.at("rated_speed"), dimension::angular_speed),
+                2.0 * std::numbers::pi * vmc850.machine.limits.axes[0].rapid_feed / 0.010, 1e-3);
+  }
+  EXPECT_TRUE(fan);
+}
+
+TEST_F(Hypotheses, OfALagAreAlsoOfSomeSize) {
+  auto const all = with_those_of_some_size(v450.all);
+  EXPECT_EQ(all.size(), v450.all.size() + v450.machine.sensors.size());
+  for (std::size_t h = 0; h < all.size(); ++h) {
+    EXPECT_EQ(all[h].about > 0.0, h >= v450.all.size());
+    EXPECT_TRUE(all[h].about == 0.0 || all[h].effect->name == "sensor_lag") << all[h].label();
   }
 }
 

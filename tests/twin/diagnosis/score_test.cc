@@ -33,6 +33,7 @@ struct Toy {
     VectorXd const start = normal(rows + unknowns, 1, 2);
     fit.residual = start + fit.jacobian * refitted(start, fit.jacobian);
     fit.cost = fit.residual.squaredNorm();
+    fit.information = fit.jacobian.transpose() * fit.jacobian;
   }
   /// x that makes |r + J x|² smallest.
   static VectorXd refitted(VectorXd const& r, MatrixXd const& J) {
@@ -81,6 +82,7 @@ TEST(Score, IsNothingForTheForbiddenSign) {
 TEST(Score, IsNothingWhereTheUnknownsExplainEverything) {
   Toy toy;
   toy.fit.jacobian.bottomRows(Toy::unknowns).setZero();  // no priors
+  toy.fit.information = toy.fit.jacobian.transpose() * toy.fit.jacobian;
   MatrixXd signatures(Toy::rows, 2);
   signatures << toy.fit.jacobian.topRows(Toy::rows) * Eigen::Vector3d(1.0, -2.0, 0.3), VectorXd::Zero(Toy::rows);
   std::vector<Hypothesis> const hypotheses(2, Hypothesis{nullptr, &toy.any, "", "", {}});
@@ -100,6 +102,7 @@ TEST(Score, WithoutUnknownsIsThatOfAFitThatNeverHadThem) {
     Index const gone = Toy::unknowns - first;
     Fit fewer;
     fewer.jacobian = toy.fit.jacobian.topLeftCorner(Toy::rows + first, first);
+    fewer.information = fewer.jacobian.transpose() * fewer.jacobian;
     fewer.residual =
         (toy.fit.residual - toy.fit.jacobian.rightCols(gone) * toy.fit.x.tail(gone)).head(Toy::rows + first);
     auto const expected = Remainder(fewer, signatures).scores(hypotheses);
@@ -223,6 +226,24 @@ TEST(Score, SignaturesAreDifferencesOfWholeRuns) {
     if (expected.norm() > 0.0) ++felt;
   }
   EXPECT_GT(felt, 15);
+}
+
+/// A lag of 7.5 min: its response per second is not that of a lag of one second.
+TEST(Score, SignatureOfSomeSizeIsADifferenceOfThatSize) {
+  auto const& hidden = hidden_at_the_motor();
+  auto const& estimation = *hidden.estimation;
+  auto const lag = with_those_of_some_size(hidden.all).back();
+  ASSERT_EQ(lag.about, 0.5);
+  MatrixXd columns = signatures(estimation, hidden.fit, {lag});
+  Value const document = estimation.document_at(hidden.fit.x);
+  auto const shown = [&](Value const& of) -> VectorXd {
+    return LinearisedRun(Machine::build(of), hidden.data[0]).prediction().reshaped();
+  };
+  VectorXd const expected = (shown(with_hypothesis(document, lag, "trial", 0.5 * lag.largest)) - shown(document)) / 0.5;
+  EXPECT_LE((columns.col(0) - expected).norm(), 1e-9 * expected.norm());
+  Hypothesis slope = lag;
+  slope.about = 0.0;
+  EXPECT_GT((signatures(estimation, hidden.fit, {slope}).col(0) - expected).norm(), 0.05 * expected.norm());
 }
 
 /// What is told of an effect is what its evidence was computed for: with its prior, and no more than is plausible.
