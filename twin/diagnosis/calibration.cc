@@ -38,7 +38,9 @@ std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machin
 void add_estimates(Calibration& calibration, Estimation const& estimation, Fit const& fit, Machine const& machine) {
   auto const& unknowns = estimation.unknowns();
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
-    if (is_beyond_a_file(unknowns[u].kind) || unknowns[u].kind == Unknown::Kind::moment) continue;
+    using Kind = Unknown::Kind;
+    if (is_beyond_a_file(unknowns[u].kind) || unknowns[u].kind == Kind::moment || unknowns[u].kind == Kind::moments)
+      continue;
     auto const i = Eigen::Index(u);
     double const deviation = std::sqrt(fit.covariance(i, i));
     if (unknowns[u].kind != Unknown::Kind::number) {

@@ -12,13 +12,15 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double offset_deviation = 0.3;    // of a temperature sensor [K]
-constexpr double zero_deviation = 1e-6;     // of a displacement's zero [m]
-constexpr double unread_zero = 200e-6;      // where the run begins before the channel was read
-constexpr double start_deviation = 0.3;     // [K]
-constexpr double air_deviation = 0.2;       // [K]
-constexpr double input_deviation = 0.7;     // of the response to what may have been given instead
-constexpr double moment_deviation = 0.577;  // about the sample that shows it, of any moment since the one before: 1/√3
+constexpr double offset_deviation = 0.3;  // of a temperature sensor [K]
+constexpr double zero_deviation = 1e-6;   // of a displacement's zero [m]
+constexpr double unread_zero = 200e-6;    // where the run begins before the channel was read
+constexpr double start_deviation = 0.3;   // [K]
+constexpr double air_deviation = 0.2;     // [K]
+constexpr double input_deviation = 0.7;   // of the response to what may have been given instead
+constexpr double mean_moment = 0.25;      // between a programme that runs with the samples, 0, and one that does not
+constexpr double mean_moment_deviation = 0.25;
+constexpr double moment_deviation = 0.289;  // about that mean, of any moment between two samples: 1/√12
 constexpr double interior_deviation = 0.5;  // of a lump: half of a slab
 constexpr double place_deviation = 0.5;     // 3 mm along a bar, a twentieth of the way to a neighbour
 constexpr double loop_deviation = 0.02;     // of free growth, as long as loops are what files say
@@ -128,6 +130,12 @@ void LinearUnknowns::add_of_run(BinnedRun const& data, int run) {
                          .index = a,
                          .run = run});
   auto const& changes = data.run->changes;
+  if (!changes.empty())
+    unknowns_.push_back({.kind = Kind::moments,
+                         .name = fmt::format("changes before their samples, run {}", number),
+                         .mean = mean_moment,
+                         .deviation = mean_moment_deviation,
+                         .run = run});
   for (std::size_t i = 0; i < changes.size(); ++i)
     unknowns_.push_back({.kind = Kind::moment,
                          .name = fmt::format("change before {:.2f} h, run {}", changes[i].time / 3600.0, number),
@@ -160,6 +168,9 @@ Eigen::MatrixXd LinearUnknowns::columns_of(BinnedRun const& data, int run,
     auto column = columns.col(Eigen::Index(u));
     if (unknown.kind == Unknown::Kind::start) column = start_and_air.col(0);
     if (unknown.kind == Unknown::Kind::air) column = start_and_air.col(1);
+    if (unknown.kind == Unknown::Kind::moments)
+      for (std::size_t i = 0; i < data.run->changes.size(); ++i)
+        column += data.run->changes[i].earlier * earlier.col(Eigen::Index(i));
     if (unknown.kind == Unknown::Kind::moment) column = earlier.col(own);
     if (unknown.kind == Unknown::Kind::interior) column = within.col(own);
     if (unknown.kind == Unknown::Kind::place) column = response_to(places_[unknown.index], twin, prediction);

@@ -16,10 +16,11 @@ struct Unknown {
     start,      ///< deviation of the whole machine's temperature at the start of a run [K]
     air,        ///< deviation of the room air from its record, in one run [K]
     input,      ///< share of what a run may have been given instead in a gap of its record
-    moment,     ///< by how much an input changed before the sample that shows it [s]
-    place,      ///< of a sensor, in units of sensor_places.h
-    loop,       ///< share of a solid's growth that a displacement follows beyond its loop (loop_gaps.h)
-    interior,   ///< of what a lump hides, in units of a slab's (lump_interiors.h)
+    moments,   ///< how much earlier than the samples that show them a run's inputs changed, of the time between samples
+    moment,    ///< how much earlier than that one of them changed [s]
+    place,     ///< of a sensor, in units of sensor_places.h
+    loop,      ///< share of a solid's growth that a displacement follows beyond its loop (loop_gaps.h)
+    interior,  ///< of what a lump hides, in units of a slab's (lump_interiors.h)
   };
   Kind kind = Kind::number;
   std::string name;
