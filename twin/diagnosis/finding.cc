@@ -44,8 +44,9 @@ double Finding::high() const {
 bool Finding::is_at_end() const { return std::abs(amplitude) > 0.999 * most_of_largest * hypothesis.largest; }
 
 bool Finding::is_negligible() const {
-  double const unit = hypothesis.largest;
-  return std::abs(amplitude) < standard_error || hypothesis.is_ordinary(amplitude / unit, standard_error / unit);
+  double const unit = hypothesis.largest, errors = hypothesis.is_about("sensor") ? two_sided_95 : 1.0;
+  return std::abs(amplitude) < errors * standard_error ||
+         hypothesis.is_ordinary(amplitude / unit, standard_error / unit);
 }
 
 std::string Finding::interval_text(std::string const& unit) const {

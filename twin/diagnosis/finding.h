@@ -33,7 +33,8 @@ struct Finding {
   [[nodiscard]] double high() const;
   /// As much as is plausible: the fit would have more.
   [[nodiscard]] bool is_at_end() const;
-  /// Less than its standard error, or no more than the best of machines may have.
+  /// Less than its standard error, of a fault of an instrument than its 95 % interval, or no more than the best of
+  /// machines may have.
   [[nodiscard]] bool is_negligible() const;
   /// "± 10 W/(m2 K)"; without an upper end "or more, at least 170 W/(m2 K)"; at the end of what is plausible with a
   /// word that it is.

@@ -88,6 +88,8 @@ TEST(Explanation, OfANameCountsAllItsPlaces) {
 TEST(Finding, IsNegligibleBelowItsErrorAndWhereTheBestHaveAsMuch) {
   EXPECT_TRUE(half_of("heat", "bed", 0.05).is_negligible());  // ± 0.06
   EXPECT_FALSE(half_of("heat", "bed", 0.10).is_negligible());
+  EXPECT_TRUE(half_of("sensor_drift", "T1", 0.10).is_negligible());
+  EXPECT_FALSE(half_of("sensor_drift", "T1", 0.20).is_negligible());
   EXPECT_TRUE(half_of("sensor_contact", "T1", 0.20).is_negligible());  // 6 % ± 2 %: good ones read up to 5 %
   EXPECT_FALSE(half_of("sensor_contact", "T1", 0.50).is_negligible());
 }
