@@ -11,6 +11,7 @@
 #include <optional>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
+#include <utility>
 
 #include "thermal/course_inputs.h"
 #include "thermal/error.h"
@@ -127,6 +128,7 @@ class Run {
 
   ContextHandle context_;
   VectorHandle y_;
+  N_Vector weights_ = nullptr;  ///< the vector that has them
   std::optional<ForwardSensitivities> sensitivities_;
   MatrixHandle matrix_;
   SolverHandle solver_;
@@ -226,9 +228,10 @@ void Run::attach_linear_solver() {
 }
 
 /// The energies are sums over the temperatures and need no control of their own; CVODES' mean over all entries is one
-/// over the nodes.
+/// over the nodes. CVODES asks at every step, with one vector.
 int Run::error_weights(N_Vector, N_Vector weights, void* user) {
-  auto const& run = self(user);
+  auto& run = self(user);
+  if (std::exchange(run.weights_, weights) == weights) return 0;
   double const nodes = run.network_.nodes();
   N_VConst(std::sqrt((nodes + NewtonSystem::energies) / nodes) / run.options_.tolerance(), weights);
   std::fill_n(data(weights) + run.network_.nodes(), NewtonSystem::energies, 1e-6 / run.options_.tolerance());

@@ -42,7 +42,7 @@ struct Trial {
   std::string amplitude = {};  ///< key of the number that grows from nothing; the flows are linear in it
   double largest = 0.0;        ///< plausible upper end of the amplitude [SI]
   bool either_sign = false;    ///< it may be negative
-  bool of_spindle = false;     ///< it has no place in a machine without a spindle
+  bool needs_spindle = false;  ///< it has no place in a machine without one
   double ordinary = 0.0;       ///< what the best of machines has: no less is an effect [SI]
   /// Where its response is far from proportional, an amplitude about which it is looked for as well [of the largest].
   double also_about = 0.0;

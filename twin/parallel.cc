@@ -48,4 +48,13 @@ void in_parallel(std::size_t count, std::function<void(double)> const& progress,
   if (stop && *stop) throw Interrupted("stopped; nothing was written");
 }
 
+void in_parts(std::size_t runs, std::size_t count, std::size_t at_once,
+              std::function<void(std::size_t run, std::size_t first, std::size_t end)> const& work) {
+  std::size_t const parts = (count + at_once - 1) / at_once;
+  in_parallel(runs * parts, [&](std::size_t i) {
+    std::size_t const part = i % parts;
+    work(i / parts, count * part / parts, count * (part + 1) / parts);
+  });
+}
+
 }  // namespace thermotwin::twin

@@ -85,5 +85,17 @@ TEST(InParallel, LeavesOutTheRestWhenStopped) {
   EXPECT_LE(share, 0.1);
 }
 
+TEST(InParts, HaveEveryThingOfEveryRunOnceAndNeverTooManyTogether) {
+  for (std::size_t const count : {0, 1, 4, 5, 13}) {
+    std::vector<std::vector<int>> done(3, std::vector<int>(count, 0));
+    in_parts(3, count, 4, [&](std::size_t run, std::size_t first, std::size_t end) {
+      EXPECT_GT(end, first);
+      EXPECT_LE(end - first, 4u);
+      for (std::size_t k = first; k < end; ++k) ++done[run][k];
+    });
+    for (auto const& row : done) EXPECT_EQ(row, std::vector<int>(count, 1));
+  }
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

@@ -59,11 +59,11 @@ class Diagnostician {
   Diagnosis diagnosis_;
 };
 
-/// Those that would show in these runs at all.
+/// Those that would show in these runs at all, in all shapes that are tried.
 std::vector<Hypothesis> Diagnostician::excited_hypotheses() const {
   auto all = hypotheses(document_, machine_, options_.without);
   std::erase_if(all, [&](auto const& h) { return !is_excited(h, document_, machine_, runs_); });
-  return all;
+  return with_those_of_some_size(std::move(all));
 }
 
 Diagnosis Diagnostician::operator()() {

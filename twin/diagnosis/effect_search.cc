@@ -71,9 +71,7 @@ struct EffectSearch::Refit {
 
 EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& runs,
                            std::vector<Hypothesis> hypotheses, DiagnosisOptions const& options)
-    : options_(options),
-      geometry_(Machine::build(document).geometry),
-      hypotheses_(with_those_of_some_size(std::move(hypotheses))) {
+    : options_(options), geometry_(Machine::build(document).geometry), hypotheses_(std::move(hypotheses)) {
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs));
   expected_ = estimation_->noise();

@@ -335,10 +335,7 @@ void Estimation::add_heat(Traced const& traced, Linearisation& at) const {
   }
   std::vector<thermal::NetworkDerivative const*> pointers;
   for (auto const& derivative : heat) pointers.push_back(&derivative);
-  std::size_t const parts = (heat.size() + numbers_at_once - 1) / numbers_at_once;
-  in_parallel(data_->size() * parts, [&](std::size_t i) {
-    std::size_t const run = i / parts, part = i % parts;
-    auto const first = heat.size() * part / parts, end = heat.size() * (part + 1) / parts;
+  in_parts(data_->size(), heat.size(), numbers_at_once, [&](std::size_t run, std::size_t first, std::size_t end) {
     Eigen::MatrixXd const response = traced.runs[run]->response(thermal::ParameterColumns(
         network, {pointers.begin() + std::ptrdiff_t(first), pointers.begin() + std::ptrdiff_t(end)}));
     for (std::size_t k = first; k < end; ++k)

@@ -231,7 +231,7 @@ double outer_surface(thermal::BodyGeometry const& body) {
 Shapes shapes_of(Effect const& effect, Trial const& trial, scenarios::MachineLimits const& limits) {
   Shapes const shapes = trial.shapes.empty() ? Shapes{{}} : trial.shapes;
   if (limits.max_spindle_speed > 0.0) return shapes;
-  if (trial.of_spindle) return {};
+  if (trial.needs_spindle) return {};
   auto const has = [&](std::string_view key) {
     return std::any_of(effect.parameters.begin(), effect.parameters.end(),
                        [&](FieldRecord const& field) { return field.key == key; });

@@ -130,17 +130,15 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
   Machine const machine = estimation.machine_at(fit.x);
   SharedNetwork const all(document, hypotheses, shared, machine);
   auto const derivatives = all.derivatives();
-  std::size_t const runs = estimation.data().size(), parts = (shared.size() + shapes_at_once - 1) / shapes_at_once;
+  std::size_t const runs = estimation.data().size();
   std::vector<std::optional<LinearisedRun>> twins(runs), with_all(runs);
   in_parallel(2 * runs, [&](std::size_t i) {
     auto const& data = estimation.data()[i / 2];
     i % 2 == 0 ? twins[i / 2].emplace(machine, data) : with_all[i / 2].emplace(all.machine(), data);
   });
-  in_parallel(runs * parts, [&](std::size_t i) {
-    std::size_t const r = i / parts, part = i % parts, first = shared.size() * part / parts;
-    auto const begin = derivatives.begin() + std::ptrdiff_t(first);
-    auto const end = derivatives.begin() + std::ptrdiff_t(shared.size() * (part + 1) / parts);
-    thermal::ParameterColumns const parameters(all.machine().network(), {begin, end});
+  in_parts(runs, shared.size(), shapes_at_once, [&](std::size_t r, std::size_t first, std::size_t end) {
+    thermal::ParameterColumns const parameters(all.machine().network(), {derivatives.begin() + std::ptrdiff_t(first),
+                                                                         derivatives.begin() + std::ptrdiff_t(end)});
     Eigen::MatrixXd const response = with_all[r]->response(parameters, {}, machine.network().nodes());
     for (Eigen::Index k = 0; k < response.cols(); ++k)
       columns.col(Eigen::Index(shared[first + std::size_t(k)])).segment(estimation.first_row(r), response.rows()) =

@@ -61,7 +61,7 @@ Effect const& belt_effect() {
        "motor without belt; infrared on the pulley"},
       {{.amplitude = "loss",
         .largest = 80.0,
-        .of_spindle = true,
+        .needs_spindle = true,
         .sites = {{"pulley", "shaft"}, {"motor", "motor"}},
         .shapes = {{{"exponent", "1"}}, {{"exponent", "1.5"}}}}});
   return effect;

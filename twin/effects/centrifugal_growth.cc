@@ -66,7 +66,7 @@ Effect const& centrifugal_growth_effect() {
       {{.amplitude = "growth",
         .largest = 20e-6,
         .either_sign = true,
-        .of_spindle = true,
+        .needs_spindle = true,
         .sites = {{"displacement", "displacement"}}}});
   return effect;
 }

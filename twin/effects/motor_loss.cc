@@ -65,12 +65,12 @@ Effect const& motor_loss_effect() {
        "no load against load; coast-down; the spindle turned by another motor"},
       {{.amplitude = "eddy",
         .largest = 300.0,
-        .of_spindle = true,
+        .needs_spindle = true,
         .sites = {{"at", "motor"}},
         .shapes = {{}, {{"base_speed_ratio", "0.3"}}}},
        {.amplitude = "hysteresis",
         .largest = 300.0,
-        .of_spindle = true,
+        .needs_spindle = true,
         .sites = {{"at", "motor"}},
         .shapes = {{}, {{"base_speed_ratio", "0.3"}}}}});
   return effect;

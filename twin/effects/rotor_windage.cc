@@ -127,12 +127,12 @@ Effect const& rotor_windage_effect() {
        "runs at 60, 80 and 100 % of the speed; coast-down: a torque with the square of the speed"},
       {{.amplitude = "power",
         .largest = 150.0,
-        .of_spindle = true,
+        .needs_spindle = true,
         .sites = {{"rotor", "shaft"}},
         .shapes = {{{"rotor_share", "1"}}}},
        {.amplitude = "power",
         .largest = 150.0,
-        .of_spindle = true,
+        .needs_spindle = true,
         .sites = {{"rotor", "motor"}},
         .shapes = {{{"rotor_share", "1"}}}}});
   return effect;

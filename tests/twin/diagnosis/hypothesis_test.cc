@@ -162,7 +162,7 @@ TEST(HypothesesOfAnAxis, FollowItWhereNoSpindleTurns) {
   Subject const vmc850("vmc850");
   bool fan = false;
   for (auto const& hypothesis : vmc850.all) {
-    EXPECT_FALSE(hypothesis.trial->of_spindle) << text_of(hypothesis);
+    EXPECT_FALSE(hypothesis.trial->needs_spindle) << text_of(hypothesis);
     for (auto const& [key, value] : hypothesis.keys) EXPECT_FALSE(value.starts_with("spindle.")) << text_of(hypothesis);
     if (hypothesis.label() != "fan_cooling at motor") continue;
     fan = true;
