@@ -4,6 +4,7 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cstring>
 #include <klu.h>
 #include <vector>
 
@@ -130,60 +131,82 @@ struct SparseFactors final : LinearFactors {
     x = b;
     return klu_solve(symbolic_, numeric_, int(x.size()), 1, x.data(), &common_) != 0 && x.allFinite();
   }
-  /// klu_solve takes four columns at a time; here each entry of the factors meets a row of many.
+  /// klu_solve takes four columns at a time, and reads and writes them for every entry of the factors.
   bool solve_columns(double, NodeByParameter& x) override {
     if (!extract()) return false;
-    for (Eigen::Index first = 0; first < x.cols(); first += columns_together)
-      solve_together(x.middleCols(first, std::min(columns_together, x.cols() - first)));
+    Eigen::Index const rest = x.cols() % together, whole = x.cols() - rest;
+    for (Eigen::Index first = 0; first < whole; first += together) solve_together(x.data() + first, x.cols());
+    if (rest > 0) {
+      rest_.setZero(x.rows(), together);
+      rest_.leftCols(rest) = x.rightCols(rest);
+      solve_together(rest_.data(), together);
+      x.rightCols(rest) = rest_.leftCols(rest);
+    }
     return x.allFinite();
   }
 
  private:
-  /// By columns. The diagonal is the first entry of a column below it, and the last of one above.
-  struct Triangle {
-    explicit Triangle(bool is_lower) : lower(is_lower) {}
-    void resize(int n, int entries) {
-      begin.resize(std::size_t(n) + 1);
-      row.resize(std::size_t(entries));
-      value.resize(std::size_t(entries));
-    }
-    [[nodiscard]] double pivot(Eigen::Index k) const { return value[std::size_t(begin[std::size_t(k) + 1] - 1)]; }
-    void eliminate(Eigen::Index k, Eigen::Ref<NodeByParameter>& x) const {
-      int const first = begin[std::size_t(k)] + (lower ? 1 : 0), end = begin[std::size_t(k) + 1] - (lower ? 0 : 1);
-      for (auto p = std::size_t(first); p < std::size_t(end); ++p) x.row(row[p]) -= value[p] * x.row(k);
-    }
-    bool lower;
-    std::vector<int> begin, row;
-    std::vector<double> value;
-  };
+  using ByRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  using Four [[gnu::vector_size(32)]] = double;
+  static constexpr int fours = 4;
+  static constexpr Eigen::Index together = 4 * fours;  ///< columns of which a row stays in registers
+  using Row = Four[fours];
 
-  /// Of some tens of nodes, so many stay in the nearest cache.
-  static constexpr Eigen::Index columns_together = 64;
+  static void read(double const* from, Row& row) {
+#pragma GCC unroll 4
+    for (int q = 0; q < fours; ++q) std::memcpy(&row[q], from + 4 * q, sizeof row[q]);
+  }
+  static void write(Row const& row, double* to) {
+#pragma GCC unroll 4
+    for (int q = 0; q < fours; ++q) std::memcpy(to + 4 * q, &row[q], sizeof row[q]);
+  }
+  /// sum −= Σ f_k y_k over these entries f of a factor.
+  static void subtract(ByRows const& factor, int first, int end, double const* y, Row& sum) {
+    for (int p = first; p < end; ++p) {
+      Row other;
+      read(y + factor.innerIndexPtr()[p] * together, other);
+#pragma GCC unroll 4
+      for (int q = 0; q < fours; ++q) sum[q] -= factor.valuePtr()[p] * other[q];
+    }
+  }
 
-  void solve_together(Eigen::Ref<NodeByParameter> x) {
-    auto const n = x.rows();
-    permuted_.resize(n, columns_together);
-    Eigen::Ref<NodeByParameter> y = permuted_.leftCols(x.cols());
-    for (Eigen::Index k = 0; k < n; ++k) y.row(k) = x.row(row_of_[k]);
-    for (Eigen::Index k = 0; k < n; ++k) lower_.eliminate(k, y);
+  /// In rows of x that are `stride` apart. The diagonal is the last of a row of L, and one; of U it is the first.
+  void solve_together(double* x, Eigen::Index stride) {
+    Eigen::Index const n = lower_.rows();
+    solution_.resize(std::size_t(n * together));
+    double* y = solution_.data();
+    Row sum;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      read(x + row_of_[k] * stride, sum);
+      subtract(lower_, lower_.outerIndexPtr()[k], lower_.outerIndexPtr()[k + 1] - 1, y, sum);
+      write(sum, y + k * together);
+    }
     for (Eigen::Index k = n; k-- > 0;) {
-      y.row(k) /= upper_.pivot(k);
-      upper_.eliminate(k, y);
+      read(y + k * together, sum);
+      subtract(upper_, upper_.outerIndexPtr()[k] + 1, upper_.outerIndexPtr()[k + 1], y, sum);
+#pragma GCC unroll 4
+      for (int q = 0; q < fours; ++q) sum[q] *= inverse_pivot_[k];
+      write(sum, y + k * together);
+      write(sum, x + column_of_[k] * stride);
     }
-    for (Eigen::Index k = 0; k < n; ++k) x.row(column_of_[k]) = y.row(k);
   }
 
   /// P A Q = L U.
   bool extract() {
     if (extracted_) return true;
     int const n = symbolic_->n;
-    lower_.resize(n, numeric_->lnz);
-    upper_.resize(n, numeric_->unz);
+    SparseMatrix lower(n, n), upper(n, n);
+    lower.resizeNonZeros(numeric_->lnz);
+    upper.resizeNonZeros(numeric_->unz);
     row_of_.resize(n);
     column_of_.resize(n);
-    extracted_ = klu_extract(numeric_, symbolic_, lower_.begin.data(), lower_.row.data(), lower_.value.data(),
-                             upper_.begin.data(), upper_.row.data(), upper_.value.data(), nullptr, nullptr, nullptr,
+    extracted_ = klu_extract(numeric_, symbolic_, lower.outerIndexPtr(), lower.innerIndexPtr(), lower.valuePtr(),
+                             upper.outerIndexPtr(), upper.innerIndexPtr(), upper.valuePtr(), nullptr, nullptr, nullptr,
                              row_of_.data(), column_of_.data(), nullptr, nullptr, &common_) != 0;
+    lower_ = lower;
+    upper_ = upper;
+    inverse_pivot_.resize(n);
+    for (int k = 0; k < n; ++k) inverse_pivot_[k] = 1.0 / upper_.valuePtr()[upper_.outerIndexPtr()[k]];
     return extracted_;
   }
 
@@ -191,9 +214,11 @@ struct SparseFactors final : LinearFactors {
   klu_symbolic* symbolic_ = nullptr;
   klu_numeric* numeric_ = nullptr;
   bool extracted_ = false;
-  Triangle lower_{true}, upper_{false};
+  ByRows lower_, upper_;
+  VectorXd inverse_pivot_;
   Eigen::VectorXi row_of_, column_of_;
-  NodeByParameter permuted_;
+  std::vector<double> solution_;
+  NodeByParameter rest_;
 };
 
 struct KrylovFactors final : LinearFactors {

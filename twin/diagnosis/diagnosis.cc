@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "twin/diagnosis/drifting_sensor.h"
 #include "twin/diagnosis/estimate_text.h"
@@ -96,7 +97,7 @@ Diagnosis Diagnostician::operator()() {
   find_where();
   if (d.verdict == Diagnosis::Verdict::nothing) d.suspicion = search_.suspicion();
   propose();
-  return d;
+  return std::move(diagnosis_);
 }
 
 /// What a file can say of these unknowns: the fit for lumps that hide nothing.

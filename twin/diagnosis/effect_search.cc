@@ -178,11 +178,13 @@ EffectSearch::Candidates EffectSearch::candidates(std::optional<std::size_t> in_
   }
   auto const count = Eigen::Index(open.size());
   result.columns.resize(signatures_.rows(), in_place_of ? count + 1 : count);
-  result.columns.leftCols(count) = signatures_(Eigen::all, open);
-  estimation_->whiten(result.columns.leftCols(count));
+  in_parts(1, open.size(), 32, [&](std::size_t, std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) result.columns.col(Eigen::Index(k)) = signatures_.col(open[k]);
+    estimation_->whiten(result.columns.middleCols(Eigen::Index(first), Eigen::Index(end - first)));
+  });
   if (!in_place_of) return result;
   result.hypotheses.push_back(effects[*in_place_of]);
-  result.columns.col(count) = -fit_.jacobian.col(place_of(*in_place_of)).head(signatures_.rows());
+  result.columns.col(count) = -fit_.jacobian.column(place_of(*in_place_of));
   return result;
 }
 

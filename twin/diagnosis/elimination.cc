@@ -41,14 +41,17 @@ Eigen::VectorXd Elimination::effect_of(Eigen::VectorXd const& b) const {
 
 double Elimination::prior_cost(Eigen::VectorXd const& b) const { return (b - mean_).cwiseAbs2().dot(precision_); }
 
-Eigen::MatrixXd Elimination::shared(Eigen::MatrixXd const& J) const {
-  std::vector<Eigen::MatrixXd> parts(blocks_.size());
-  in_parallel(blocks_.size(), [&](std::size_t b) {
-    auto const& block = blocks_[b];
-    parts[b].noalias() = block.columns.transpose() * J.middleRows(block.first, block.columns.rows());
+Eigen::MatrixXd Elimination::shared(Eigen::MatrixXd const& J, Eigen::Index first_row) const {
+  std::vector<Block const*> blocks;
+  for (auto const& block : blocks_)
+    if (block.first >= first_row && block.first < first_row + J.rows()) blocks.push_back(&block);
+  std::vector<Eigen::MatrixXd> parts(blocks.size());
+  in_parallel(blocks.size(), [&](std::size_t b) {
+    auto const& block = *blocks[b];
+    parts[b].noalias() = block.columns.transpose() * J.middleRows(block.first - first_row, block.columns.rows());
   });
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns_.cols(), J.cols());
-  for (std::size_t b = 0; b < blocks_.size(); ++b) result(blocks_[b].acting, Eigen::all) += parts[b];
+  for (std::size_t b = 0; b < blocks.size(); ++b) result(blocks[b]->acting, Eigen::all) += parts[b];
   return result;
 }
 

@@ -26,8 +26,8 @@ class Elimination {
   [[nodiscard]] Eigen::VectorXd effect_of(Eigen::VectorXd const& b) const;
   /// |(b − m)/d|².
   [[nodiscard]] double prior_cost(Eigen::VectorXd const& b) const;
-  /// SᵀJ.
-  [[nodiscard]] Eigen::MatrixXd shared(Eigen::MatrixXd const& J) const;
+  /// SᵀJ, J: in the rows from there on, whole blocks of them.
+  [[nodiscard]] Eigen::MatrixXd shared(Eigen::MatrixXd const& J, Eigen::Index first_row = 0) const;
   /// What is left of JᵀJ, J: derivative of the residual by others, when b follows: JᵀJ − JᵀS (SᵀS + 1/d²)⁻¹ SᵀJ.
   /// `own` is JᵀJ.
   [[nodiscard]] Eigen::MatrixXd curvature(Eigen::MatrixXd const& own, Eigen::MatrixXd const& shared) const;

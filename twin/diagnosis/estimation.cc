@@ -66,18 +66,6 @@ std::string table_name(std::size_t effect) { return fmt::format("diagnosed_{}", 
 
 }  // namespace
 
-Fit without(Fit fit, Eigen::Index unknown) {
-  auto const prior = fit.residual.size() - fit.x.size() + unknown;
-  fit.residual -= fit.jacobian.col(unknown) * fit.x[unknown];
-  fit.residual[prior] = 0.0;
-  fit.jacobian.col(unknown).setZero();
-  fit.jacobian(prior, unknown) = 1.0;
-  fit.information.row(unknown).setZero();
-  fit.information.col(unknown).setZero();
-  fit.information(unknown, unknown) = 1.0;
-  return fit;
-}
-
 Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::vector<std::string> const& channels,
                        std::vector<ChannelNoise> const& noise)
     : document_(std::move(document)), data_(&data), channels_(channels) {
@@ -316,7 +304,7 @@ std::vector<Eigen::Index> Estimation::searched() const {
   return result;
 }
 
-/// To a linearisation, what searched numbers and amplitudes do as heat.
+/// To a linearisation, what searched numbers and amplitudes do as heat; nothing where they are none.
 void Estimation::add_heat(Traced const& traced, Linearisation& at) const {
   auto const& network = traced.machine.network();
   auto const unknowns = searched();
@@ -325,21 +313,25 @@ void Estimation::add_heat(Traced const& traced, Linearisation& at) const {
   std::vector<Eigen::Index> heated;
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
     auto const& unknown = unknowns_[std::size_t(unknowns[k])];
-    if (unknown.kind == Unknown::Kind::lag) continue;
-    auto own = unknown.kind == Unknown::Kind::number
-                   ? derivatives_->network(unknown.index, traced.document, traced.x[unknowns[k]])
-                   : amplitudes[unknown.index].network;
-    if (!changes_heat(own)) continue;
-    heat.push_back(thermal::lengthened(std::move(own), network));
-    heated.push_back(Eigen::Index(k));
+    thermal::NetworkDerivative own;
+    if (unknown.kind == Unknown::Kind::number)
+      own = derivatives_->network(unknown.index, traced.document, traced.x[unknowns[k]]);
+    if (unknown.kind == Unknown::Kind::amplitude) own = amplitudes[unknown.index].network;
+    if (changes_heat(own)) {
+      heat.push_back(thermal::lengthened(std::move(own), network));
+      heated.push_back(Eigen::Index(k));
+    } else {
+      at.jacobian.col(Eigen::Index(k)).setZero();
+    }
   }
   std::vector<thermal::NetworkDerivative const*> pointers;
   for (auto const& derivative : heat) pointers.push_back(&derivative);
   in_parts(data_->size(), heat.size(), numbers_at_once, [&](std::size_t run, std::size_t first, std::size_t end) {
-    Eigen::MatrixXd const response = traced.runs[run]->response(thermal::ParameterColumns(
+    auto const response = traced.runs[run]->response(thermal::ParameterColumns(
         network, {pointers.begin() + std::ptrdiff_t(first), pointers.begin() + std::ptrdiff_t(end)}));
-    for (std::size_t k = first; k < end; ++k)
-      at.jacobian.col(heated[k]).segment(first_rows_[run], response.rows()) = -response.col(Eigen::Index(k - first));
+    std::vector<Eigen::Index> const places(heated.begin() + std::ptrdiff_t(first),
+                                           heated.begin() + std::ptrdiff_t(end));
+    put_columns(response, -1.0, places, at.jacobian.middleRows(first_rows_[run], response.rows()));
   });
 }
 
@@ -384,7 +376,7 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const
   at.residual = at.residual.array().isNaN().select(0.0, at.residual);
   whiten(at.residual);
   if (!linearised) return true;
-  at.jacobian.setZero(rows_, Eigen::Index(searched().size()));
+  at.jacobian.resize(rows_, Eigen::Index(searched().size()));
   try {
     add_heat(*traced, at);
     in_parallel(data_->size(), [&](std::size_t r) { add_readings(r, *traced, at); });
@@ -440,39 +432,37 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   Eigen::VectorXd const x = whole(solved.x);
   if (!last.is_at(x) && !evaluate(x, traced, true, last))
     throw thermal::InputError("the machine cannot be run with its nominal values on these data");
-  Fit fit = fit_at(x, last);
+  Fit fit = fit_at(x, std::move(last));
   fit.converged = solved.converged;
   return fit;
 }
 
 /// With all unknowns.
-Fit Estimation::fit_at(Eigen::VectorXd const& x, Linearisation const& at) const {
+Fit Estimation::fit_at(Eigen::VectorXd const& x, Linearisation at) const {
   auto const count = Eigen::Index(unknowns_.size());
-  auto const& columns = elimination_->columns();
   Fit fit;
   fit.x = x;
-  auto linear = fit.x.segment(first_linear_, columns.cols());
+  auto linear = fit.x.segment(first_linear_, elimination_->columns().cols());
   linear = elimination_->best(at.residual);
   fit.residual.resize(rows_ + count);
   fit.residual.head(rows_) = at.residual - elimination_->effect_of(linear);
-  fit.jacobian.setZero(rows_ + count, count);
-  fit.jacobian.topRows(rows_)(Eigen::all, searched()) = at.jacobian;
-  fit.jacobian.block(0, first_linear_, rows_, columns.cols()) = -columns;
+  Eigen::VectorXd priors(count);
   for (Eigen::Index u = 0; u < count; ++u) {
     auto const& unknown = unknowns_[std::size_t(u)];
     fit.residual[rows_ + u] = (fit.x[u] - unknown.mean) / unknown.deviation;
-    fit.jacobian(rows_ + u, u) = 1.0 / unknown.deviation;
+    priors[u] = 1.0 / unknown.deviation;
   }
   fit.cost = fit.residual.squaredNorm();
   auto const free = searched();
-  std::vector<Eigen::Index> held(std::size_t(columns.cols()));
+  std::vector<Eigen::Index> held(std::size_t(linear.size()));
   std::iota(held.begin(), held.end(), first_linear_);
   auto& product = fit.information = Eigen::MatrixXd::Zero(count, count);
-  for (auto const u : free) product(u, u) = std::pow(fit.jacobian(rows_ + u, u), 2);
+  for (auto const u : free) product(u, u) = priors[u] * priors[u];
   product(free, free) += at.own;
   product(held, held) = elimination_->information();
   product(held, free) = -at.shared;
   product(free, held) = -at.shared.transpose();
+  fit.jacobian = Jacobian(std::move(at.jacobian), std::move(priors), elimination_, first_linear_);
   Eigen::LLT<Eigen::MatrixXd> const information(product);
   fit.covariance = information.solve(Eigen::MatrixXd::Identity(count, count));
   double const log_determinant = 2.0 * information.matrixLLT().diagonal().array().log().sum();

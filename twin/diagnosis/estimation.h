@@ -10,6 +10,7 @@
 
 #include "twin/diagnosis/binned_run.h"
 #include "twin/diagnosis/elimination.h"
+#include "twin/diagnosis/fit.h"
 #include "twin/diagnosis/hypothesis.h"
 #include "twin/diagnosis/linear_unknowns.h"
 #include "twin/diagnosis/linearised_run.h"
@@ -20,25 +21,6 @@
 #include "twin/sensitivity.h"
 
 namespace thermotwin::twin {
-
-/// A fit: the estimates, and what the data and the priors say of them together.
-struct Fit {
-  Eigen::VectorXd x;
-  double cost = 0.0;            ///< |whitened residuals|² + |prior residuals|²: −2 ln posterior + constant
-  Eigen::VectorXd residual;     ///< whitened, then the priors'
-  Eigen::MatrixXd jacobian;     ///< J, of the residual
-  Eigen::MatrixXd information;  ///< JᵀJ
-  Eigen::MatrixXd covariance;   ///< its inverse
-  bool converged = false;
-
-  /// −2 ln evidence + constant, by Laplace's method: cost + ln |JᵀJ|, the priors' volume taken off, the choice of each
-  /// effect's site added.
-  double evidence = 0.0;
-};
-
-/// A fit as if one of its unknowns had been known to be zero, to first order: what its effect explained is in the
-/// residual again. The others are not at their optimum then.
-[[nodiscard]] Fit without(Fit fit, Eigen::Index unknown);
 
 /// Maximum a posteriori of a machine's uncertain numbers, its instruments' offsets and lags, and the amplitudes of
 /// effects that were added to it, from several runs at once (physics.md 8.1):
@@ -112,7 +94,7 @@ class Estimation {
   void add_heat(Traced const& traced, Linearisation& at) const;
   void add_readings(std::size_t run, Traced const& traced, Linearisation& at) const;
   [[nodiscard]] std::vector<MachineDerivative> amplitude_derivatives(Eigen::VectorXd const& x) const;
-  [[nodiscard]] Fit fit_at(Eigen::VectorXd const& x, Linearisation const& at) const;
+  [[nodiscard]] Fit fit_at(Eigen::VectorXd const& x, Linearisation at) const;
 
   Value document_;
   std::vector<BinnedRun> const* data_;

@@ -82,8 +82,8 @@ Eigen::MatrixXd shapes_of(Machine const& machine, std::vector<HeatSite> const& s
 
 /// Response of a run to the heat at the knots from `first` up to `end`: knot by knot, the sites of each; `air`: the
 /// number of its site, or −1.
-Eigen::MatrixXd response_to(LinearisedRun const& twin, Eigen::MatrixXd const& shapes, Eigen::Index air,
-                            Eigen::VectorXd const& knots, Eigen::Index first, Eigen::Index end) {
+ReadingByParameter response_to(LinearisedRun const& twin, Eigen::MatrixXd const& shapes, Eigen::Index air,
+                               Eigen::VectorXd const& knots, Eigen::Index first, Eigen::Index end) {
   auto const sites = shapes.cols();
   auto const& network = twin.machine().network();
   auto const warmer = warmer_air(network);
@@ -183,10 +183,10 @@ std::vector<Eigen::MatrixXd> columns_of(Estimation const& estimation, Machine co
       parts.push_back({r, k, std::min(k + knots_at_once, knots[r].size())});
   in_parallel(parts.size(), [&](std::size_t p) {
     auto const& [r, first, end] = parts[p];
-    Eigen::MatrixXd const response = response_to(*twins[r], shapes, air, knots[r], first, end);
+    std::vector<Eigen::Index> places;
     for (Eigen::Index k = first; k < end; ++k)
-      for (Eigen::Index s = 0; s < shapes.cols(); ++s)
-        columns[r].col(s * knots[r].size() + k) = response.col((k - first) * shapes.cols() + s);
+      for (Eigen::Index s = 0; s < shapes.cols(); ++s) places.push_back(s * knots[r].size() + k);
+    put_columns(response_to(*twins[r], shapes, air, knots[r], first, end), 1.0, places, columns[r]);
   });
   for (std::size_t r = 0; r < knots.size(); ++r) estimation.whiten(r, columns[r]);
   return columns;
@@ -285,12 +285,12 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
   for (auto const& run : estimation.data()) knots.push_back(knots_of(run, count));
   auto const columns = columns_of(estimation, machine, sites, knots);
   Eigen::LLT<Eigen::MatrixXd> const nuisance(fit.information);
-  Eigen::VectorXd const explained = nuisance.solve(fit.jacobian.transpose() * fit.residual);
+  Eigen::VectorXd const explained = nuisance.solve(fit.jacobian.gradient(fit.residual));
   std::vector<Eigen::MatrixXd> shared(knots.size());
   std::vector<Eigen::VectorXd> residual;
   for (std::size_t r = 0; r < knots.size(); ++r) {
     auto const first = estimation.first_row(r), rows = columns[r].rows();
-    shared[r] = thermal::threaded_product(fit.jacobian.middleRows(first, rows).transpose(), columns[r]);
+    shared[r] = fit.jacobian.transposed_times(columns[r], first);
     residual.emplace_back(fit.residual.segment(first, rows));
   }
   std::vector<FreeHeat> scan(sites.size());

@@ -20,6 +20,17 @@ constexpr int most_modes = 150;   // beyond, to find them takes longer than to r
 
 }  // namespace
 
+/// In blocks of rows that stay in the nearest cache.
+void put_columns(ReadingByParameter const& response, double factor, std::vector<Eigen::Index> const& places,
+                 Eigen::Ref<Eigen::MatrixXd> to) {
+  constexpr Eigen::Index most = 32;
+  for (Eigen::Index first = 0; first < response.rows(); first += most) {
+    auto const rows = std::min(most, response.rows() - first);
+    for (Eigen::Index k = 0; k < response.cols(); ++k)
+      to.col(places[std::size_t(k)]).segment(first, rows) = factor * response.col(k).segment(first, rows);
+  }
+}
+
 LinearisedRun::LinearisedRun(Machine const& machine, BinnedRun const& data) : machine_(&machine), data_(&data) {
   trace();
 }
@@ -55,30 +66,38 @@ void LinearisedRun::trace() {
     return End{time, state, std::move(input), std::move(values), {}};
   };
   thermal::Evaluation evaluation(network);
+  std::vector<double> at_begin(states[0].size()), at_end(states[0].size());
+  auto const rate = [&](End const& at, std::vector<double>& rates) {
+    evaluation.rate(at.state.data(), at.input.data(), rates.data());
+  };
   for (std::size_t s = 0; s < steps.size(); ++s) {
     auto const& [begin, end] = std::pair(steps[s].begin, steps[s].end);
     bool const jumps = course.next_jump(begin) <= end;
     begins_.push_back(end_of(begin, states[s], inputs[s]));
     ends_.push_back(end_of(jumps ? end - 1e-6 * (end - begin) : end, states[s + 1], inputs[s]));
-    bend(evaluation, begins_.back(), ends_.back());
+    if (s > 0 && begins_[s].input == ends_[s - 1].input)
+      at_begin.swap(at_end);
+    else
+      rate(begins_[s], at_begin);
+    rate(ends_[s], at_end);
+    bend(begins_[s], ends_[s], at_begin, at_end);
   }
 }
 
 /// The slopes of the nodes at the ends of a step, beyond those of straight lines. A cubic does not overshoot with them
 /// (Fritsch & Carlson, SIAM J. Numer. Anal. 17 (1980) 238): what follows its input within seconds has slopes that say
 /// nothing of the rest of the step.
-void LinearisedRun::bend(thermal::Evaluation& evaluation, End& begin, End& end) const {
+void LinearisedRun::bend(End& begin, End& end, std::vector<double> const& rate_at_begin,
+                         std::vector<double> const& rate_at_end) const {
   auto const& network = machine_->network();
   auto const temperature = [&](std::size_t node, double state) {
     return network.temperature_of_state(int(node), state);
   };
-  std::vector<double> rate(begin.state.size());
-  for (End* at : {&begin, &end}) {
-    evaluation.rate(at->state.data(), at->input.data(), rate.data());
-    at->bend.resize(rate.size());
-    for (std::size_t i = 0; i < rate.size(); ++i) {
+  for (auto const& [at, rate] : {std::pair(&begin, &rate_at_begin), std::pair(&end, &rate_at_end)}) {
+    at->bend.resize(rate->size());
+    for (std::size_t i = 0; i < rate->size(); ++i) {
       double const straight = (temperature(i, end.state[i]) - temperature(i, begin.state[i])) / (end.time - begin.time);
-      double const slope = temperature(i, at->state[i] + rate[i]) - temperature(i, at->state[i]);
+      double const slope = temperature(i, at->state[i] + (*rate)[i]) - temperature(i, at->state[i]);
       at->bend[i] = straight == 0.0 ? 0.0 : straight * (std::clamp(slope / straight, 0.0, steepest) - 1.0);
     }
   }
@@ -142,8 +161,8 @@ LinearisedRun::Lagged LinearisedRun::lagged(double shown, Piece const& piece, do
   return result;
 }
 
-/// The rows of one channel from its pieces, behind its lag.
-Eigen::VectorXd LinearisedRun::rows_of(std::function<Piece(std::size_t step)> const& pieces, double lag) const {
+template <class Pieces>
+Eigen::VectorXd LinearisedRun::rows_of(Pieces const& pieces, double lag) const {
   auto const& steps = data_->steps;
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(data_->time.size());
   double shown = 0.0;
@@ -200,8 +219,8 @@ LinearisedRun::ChannelByNode LinearisedRun::weights() const {
   return result;
 }
 
-Eigen::MatrixXd LinearisedRun::response(thermal::ParameterColumns const& parameters, Eigen::MatrixXd const& initial,
-                                        int forced_nodes) const {
+ReadingByParameter LinearisedRun::response(thermal::ParameterColumns const& parameters, Eigen::MatrixXd const& initial,
+                                           int forced_nodes) const {
   Eigen::Index const nodes = machine_->network().nodes();
   Eigen::MatrixXd const start = initial.size() ? initial : Eigen::MatrixXd::Zero(nodes, parameters.count());
   return response(
@@ -213,8 +232,8 @@ Eigen::MatrixXd LinearisedRun::response(thermal::ParameterColumns const& paramet
       start);
 }
 
-Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd const& initial, Leap const& leap,
-                                        std::size_t first_step) const {
+ReadingByParameter LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd const& initial, Leap const& leap,
+                                           std::size_t first_step) const {
   auto const& network = machine_->network();
   auto const n = Eigen::Index(network.nodes());
   auto const m = initial.cols();
@@ -227,7 +246,7 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
   thermal::NodeByParameter S = initial, from_forcing(n, m), to_forcing(n, m), stage(n, m);
   thermal::NodeByParameter from = H * S, to(H.rows(), m), shown = from;
   thermal::NodeByParameter const at_start = from;
-  thermal::NodeByParameter result = thermal::NodeByParameter::Zero(rows * H.rows(), m);
+  ReadingByParameter result = ReadingByParameter::Zero(rows * H.rows(), m);
   std::vector<double> middle(static_cast<std::size_t>(n)), input;
   for (std::size_t s = first_step; s < steps.size(); ++s) {
     double const h = steps[s].length();
@@ -268,7 +287,7 @@ Eigen::MatrixXd LinearisedRun::response(Forcing const& forcing, Eigen::MatrixXd 
   return result;
 }
 
-Eigen::MatrixXd LinearisedRun::response_to_earlier(std::vector<double> const& jumps) const {
+ReadingByParameter LinearisedRun::response_to_earlier(std::vector<double> const& jumps) const {
   Eigen::Index const nodes = machine_->network().nodes(), count = Eigen::Index(jumps.size());
   Eigen::VectorXd after(nodes), before(nodes);
   auto const leap = [&](thermal::Evaluation& evaluation, std::size_t step, thermal::NodeByParameter& s) {

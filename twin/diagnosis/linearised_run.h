@@ -15,6 +15,13 @@ namespace thermotwin::twin {
 
 struct ChannelReading;
 
+/// What the channels show more per unit of each parameter, (channel · rows + row) × parameter; a row's stand together.
+using ReadingByParameter = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Its columns, times a factor, to some of a matrix whose columns stand together.
+void put_columns(ReadingByParameter const& response, double factor, std::vector<Eigen::Index> const& places,
+                 Eigen::Ref<Eigen::MatrixXd> to);
+
 /// The twin along a measured run, and the tangent-linear system about that course (physics.md 8.3):
 ///
 ///   ds/dt = A(t) s + ∂f/∂θ,   δz = H s,   A = ∂f/∂y,
@@ -36,20 +43,19 @@ class LinearisedRun {
   using Forcing = std::function<void(thermal::Evaluation&, double time, std::vector<double> const& state,
                                      std::vector<double> const& input, thermal::NodeByParameter& forcing)>;
 
-  /// ∂z/∂θ, (channel · rows + row) × parameter. `initial`: node × parameter, dy/dθ where the steps begin.
-  /// `first_step`: before it nothing is forced.
-  [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial,
-                                         std::size_t first_step = 0) const {
+  /// ∂z/∂θ. `initial`: node × parameter, dy/dθ where the steps begin. `first_step`: before it nothing is forced.
+  [[nodiscard]] ReadingByParameter response(Forcing const& forcing, Eigen::MatrixXd const& initial,
+                                            std::size_t first_step = 0) const {
     auto const no_leap = [](thermal::Evaluation&, std::size_t, thermal::NodeByParameter&) { return false; };
     return response(forcing, initial, no_leap, first_step);
   }
   /// The same for numbers of the machine. `forced_nodes`: nodes from there on have no forcing, −1: all have. A mass
   /// that a hypothesis brings along does not depend on its amplitude, as that goes to nothing.
-  [[nodiscard]] Eigen::MatrixXd response(thermal::ParameterColumns const& parameters,
-                                         Eigen::MatrixXd const& initial = {}, int forced_nodes = -1) const;
+  [[nodiscard]] ReadingByParameter response(thermal::ParameterColumns const& parameters,
+                                            Eigen::MatrixXd const& initial = {}, int forced_nodes = -1) const;
   /// What the channels show more for every second that the inputs jumped earlier, at each of these times: f there with
-  /// the inputs after the jump, less f with those before it, stored at once. (channel · rows + row) × jump.
-  [[nodiscard]] Eigen::MatrixXd response_to_earlier(std::vector<double> const& jumps) const;
+  /// the inputs after the jump, less f with those before it, stored at once.
+  [[nodiscard]] ReadingByParameter response_to_earlier(std::vector<double> const& jumps) const;
   /// Σ wᵢ (Tᵢ(t) − Tᵢ(0)) with other weights for the machine's linear channels, row × channel: ∂z/∂θ of what moves the
   /// tool and no temperature.
   [[nodiscard]] Eigen::MatrixXd growth(std::vector<NodeWeights> const& displacements) const;
@@ -83,11 +89,12 @@ class LinearisedRun {
   [[nodiscard]] std::map<std::string, Eigen::VectorXd> heat_of_bodies(
       std::function<void(End const&, Eigen::VectorXd& rates)> const& rates_at) const;
   void trace();
-  void bend(thermal::Evaluation& evaluation, End& begin, End& end) const;
+  void bend(End& begin, End& end, std::vector<double> const& rate_at_begin,
+            std::vector<double> const& rate_at_end) const;
   /// By which s jumps where a step begins; whether it does.
   using Leap = std::function<bool(thermal::Evaluation&, std::size_t step, thermal::NodeByParameter& s)>;
-  [[nodiscard]] Eigen::MatrixXd response(Forcing const& forcing, Eigen::MatrixXd const& initial, Leap const& leap,
-                                         std::size_t first_step) const;
+  [[nodiscard]] ReadingByParameter response(Forcing const& forcing, Eigen::MatrixXd const& initial, Leap const& leap,
+                                            std::size_t first_step) const;
   /// Behind a first-order lag, exactly: a cubic, and what decays from the begin on.
   struct Lagged {
     Piece piece;
@@ -98,7 +105,9 @@ class LinearisedRun {
   [[nodiscard]] Piece along(NodeWeights const& weights, std::size_t step) const;
   [[nodiscard]] Piece since_start(NodeWeights const& weights, std::size_t step) const;
   [[nodiscard]] Piece before_lag(ChannelReading const& channel, std::size_t step) const;
-  [[nodiscard]] Eigen::VectorXd rows_of(std::function<Piece(std::size_t step)> const& pieces, double lag) const;
+  /// The rows of one channel from its pieces, behind its lag.
+  template <class Pieces>
+  [[nodiscard]] Eigen::VectorXd rows_of(Pieces const& pieces, double lag) const;
   using ChannelByNode = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   [[nodiscard]] ChannelByNode weights() const;
 

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "thermal/error.h"
-#include "thermal/threaded_product.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -126,7 +125,7 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
   std::vector<std::size_t> shared, alone;
   for (std::size_t h = 0; h < hypotheses.size(); ++h)
     (way_of(hypotheses[h]) == Way::shared ? shared : alone).push_back(h);
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(estimation.rows(), Eigen::Index(hypotheses.size()));
+  Eigen::MatrixXd columns(estimation.rows(), Eigen::Index(hypotheses.size()));
   Machine const machine = estimation.machine_at(fit.x);
   SharedNetwork const all(document, hypotheses, shared, machine);
   auto const derivatives = all.derivatives();
@@ -139,10 +138,10 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
   in_parts(runs, shared.size(), shapes_at_once, [&](std::size_t r, std::size_t first, std::size_t end) {
     thermal::ParameterColumns const parameters(all.machine().network(), {derivatives.begin() + std::ptrdiff_t(first),
                                                                          derivatives.begin() + std::ptrdiff_t(end)});
-    Eigen::MatrixXd const response = with_all[r]->response(parameters, {}, machine.network().nodes());
-    for (Eigen::Index k = 0; k < response.cols(); ++k)
-      columns.col(Eigen::Index(shared[first + std::size_t(k)])).segment(estimation.first_row(r), response.rows()) =
-          response.col(k);
+    auto const response = with_all[r]->response(parameters, {}, machine.network().nodes());
+    std::vector<Eigen::Index> const places(shared.begin() + std::ptrdiff_t(first),
+                                           shared.begin() + std::ptrdiff_t(end));
+    put_columns(response, 1.0, places, columns.middleRows(estimation.first_row(r), response.rows()));
   });
   std::vector<Eigen::MatrixXd> plain;
   for (auto const& twin : twins) plain.push_back(twin->prediction());
@@ -154,13 +153,13 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
 
 Remainder::Remainder(Fit const& fit, Eigen::MatrixXd const& signatures)
     : fit_(&fit), signatures_(&signatures), information_(fit.information) {
-  shared_ = thermal::threaded_product(fit.jacobian.topRows(signatures.rows()).transpose(), signatures);
+  shared_ = fit.jacobian.transposed_times(signatures);
   taken_ = information_.solve(shared_);
 }
 
 std::vector<Score> Remainder::scores(std::vector<Hypothesis> const& hypotheses) const {
   auto const rows = signatures_->rows();
-  Eigen::VectorXd const explained = information_.solve(fit_->jacobian.transpose() * fit_->residual);
+  Eigen::VectorXd const explained = information_.solve(fit_->jacobian.gradient(fit_->residual));
   std::vector<Score> scores;
   for (Eigen::Index k = 0; k < signatures_->cols(); ++k) {
     auto const signature = signatures_->col(k);

@@ -7,16 +7,15 @@
 namespace thermotwin::twin {
 
 Separation::Separation(Estimation const& estimation, Fit const& fit, Eigen::MatrixXd const& signatures) {
-  auto const unknowns = fit.x.size();
-  Eigen::MatrixXd const prior = fit.jacobian.bottomRows(unknowns);
-  prior_ = prior.transpose() * prior;
+  prior_ = fit.jacobian.priors().cwiseAbs2().asDiagonal();
+  Eigen::MatrixXd const jacobian = fit.jacobian.of_data();
   auto const& channels = estimation.channels();
   for (std::size_t r = 0; r < estimation.data().size(); ++r) {
     auto const& run = estimation.data()[r];
     auto const rows = run.time.size();
     for (std::size_t c = 0; c < run.run->channels.size(); ++c) {
       auto const first = estimation.first_row(r) + Eigen::Index(c) * rows;
-      auto const J = fit.jacobian.middleRows(first, rows);
+      auto const J = jacobian.middleRows(first, rows);
       auto const s = signatures.middleRows(first, rows);
       auto const channel = std::find(channels.begin(), channels.end(), run.run->channels[c].name) - channels.begin();
       blocks_.push_back({r, std::size_t(channel), J.transpose() * J, J.transpose() * s, s.transpose() * s});

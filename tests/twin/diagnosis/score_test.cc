@@ -26,14 +26,17 @@ MatrixXd normal(Index rows, Index columns, unsigned seed) {
 struct Toy {
   static constexpr Index rows = 40, unknowns = 3;
 
-  Toy() {
-    fit.jacobian.setZero(rows + unknowns, unknowns);
-    fit.jacobian.topRows(rows) = normal(rows, unknowns, 1);
-    fit.jacobian.bottomRows(unknowns) = Eigen::Vector3d(1.0, 2.0, 0.5).asDiagonal();
+  explicit Toy(Eigen::Vector3d const& priors = {1.0, 2.0, 0.5}) : J(rows + unknowns, unknowns) {
+    J << normal(rows, unknowns, 1), MatrixXd(priors.asDiagonal());
     VectorXd const start = normal(rows + unknowns, 1, 2);
-    fit.residual = start + fit.jacobian * refitted(start, fit.jacobian);
+    fit.residual = start + J * refitted(start, J);
     fit.cost = fit.residual.squaredNorm();
-    fit.information = fit.jacobian.transpose() * fit.jacobian;
+    tell(fit, J);
+  }
+  /// What a fit knows of this.
+  static void tell(Fit& fit, MatrixXd const& J) {
+    fit.jacobian = Jacobian(J.topRows(J.rows() - J.cols()), J.bottomRows(J.cols()).diagonal());
+    fit.information = J.transpose() * J;
   }
   /// x that makes |r + J x|² smallest.
   static VectorXd refitted(VectorXd const& r, MatrixXd const& J) {
@@ -41,13 +44,14 @@ struct Toy {
   }
   /// The cost when the machine has an effect of this signature besides, and everything is fitted anew; its amplitude.
   [[nodiscard]] std::pair<double, double> with(VectorXd const& signature) const {
-    MatrixXd J(rows + unknowns, unknowns + 1);
-    J << fit.jacobian, VectorXd::Zero(rows + unknowns);
-    J.col(unknowns).head(rows) = -signature;
-    VectorXd const x = refitted(fit.residual, J);
-    return {(fit.residual + J * x).squaredNorm(), x[unknowns]};
+    MatrixXd all(rows + unknowns, unknowns + 1);
+    all << J, VectorXd::Zero(rows + unknowns);
+    all.col(unknowns).head(rows) = -signature;
+    VectorXd const x = refitted(fit.residual, all);
+    return {(fit.residual + all * x).squaredNorm(), x[unknowns]};
   }
 
+  MatrixXd J;  ///< of the residual, priors included
   Fit fit;
   Trial const any{.amplitude = "power", .largest = 1.0, .either_sign = true};
   Trial const positive{.amplitude = "power", .largest = 1.0, .either_sign = false};
@@ -80,11 +84,9 @@ TEST(Score, IsNothingForTheForbiddenSign) {
 }
 
 TEST(Score, IsNothingWhereTheUnknownsExplainEverything) {
-  Toy toy;
-  toy.fit.jacobian.bottomRows(Toy::unknowns).setZero();  // no priors
-  toy.fit.information = toy.fit.jacobian.transpose() * toy.fit.jacobian;
+  Toy const toy(Eigen::Vector3d::Zero());
   MatrixXd signatures(Toy::rows, 2);
-  signatures << toy.fit.jacobian.topRows(Toy::rows) * Eigen::Vector3d(1.0, -2.0, 0.3), VectorXd::Zero(Toy::rows);
+  signatures << toy.J.topRows(Toy::rows) * Eigen::Vector3d(1.0, -2.0, 0.3), VectorXd::Zero(Toy::rows);
   std::vector<Hypothesis> const hypotheses(2, Hypothesis{nullptr, &toy.any, "", "", {}});
   for (auto const& s : Remainder(toy.fit, signatures).scores(hypotheses)) {
     EXPECT_EQ(s.statistic, 0.0);
@@ -101,10 +103,8 @@ TEST(Score, WithoutUnknownsIsThatOfAFitThatNeverHadThem) {
   for (Index const first : {1, 2, 3}) {
     Index const gone = Toy::unknowns - first;
     Fit fewer;
-    fewer.jacobian = toy.fit.jacobian.topLeftCorner(Toy::rows + first, first);
-    fewer.information = fewer.jacobian.transpose() * fewer.jacobian;
-    fewer.residual =
-        (toy.fit.residual - toy.fit.jacobian.rightCols(gone) * toy.fit.x.tail(gone)).head(Toy::rows + first);
+    Toy::tell(fewer, toy.J.topLeftCorner(Toy::rows + first, first));
+    fewer.residual = (toy.fit.residual - toy.J.rightCols(gone) * toy.fit.x.tail(gone)).head(Toy::rows + first);
     auto const expected = Remainder(fewer, signatures).scores(hypotheses);
     Fit fit = toy.fit;
     for (Index unknown = first; unknown < Toy::unknowns; ++unknown) fit = without(fit, unknown);
