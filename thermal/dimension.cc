@@ -30,7 +30,7 @@ std::vector<Usage> const& usages() {
       {dim::mass, "mass", "kg", "14 kg", {"kg", "g"}},
       {dim::time, "time", "s", "15 min", {"min", "s", "h", "day"}},
       {dim::angular_speed, "angular speed", "rad/s", "6000 rpm", {"rpm", "rad/s"}},
-      {dim::speed, "speed", "m/s", "8000 mm/min", {"mm/min", "m/s"}},
+      {dim::speed, "speed", "m/s", "8000 mm/min", {"mm/min", "m/s", "um/h"}},
       {dim::acceleration, "acceleration", "m/s2", "9.81 m/s2", {"m/s2"}},
       {dim::density, "density", "kg/m3", "7850 kg/m3", {"kg/m3"}},
       {dim::force, "force", "N", "1500 N", {"N", "kN"}},

@@ -194,20 +194,22 @@ struct SparseFactors final : LinearFactors {
   /// P A Q = L U.
   bool extract() {
     if (extracted_) return true;
+    if (!numeric_) return false;
     int const n = symbolic_->n;
     SparseMatrix lower(n, n), upper(n, n);
     lower.resizeNonZeros(numeric_->lnz);
     upper.resizeNonZeros(numeric_->unz);
     row_of_.resize(n);
     column_of_.resize(n);
-    extracted_ = klu_extract(numeric_, symbolic_, lower.outerIndexPtr(), lower.innerIndexPtr(), lower.valuePtr(),
-                             upper.outerIndexPtr(), upper.innerIndexPtr(), upper.valuePtr(), nullptr, nullptr, nullptr,
-                             row_of_.data(), column_of_.data(), nullptr, nullptr, &common_) != 0;
+    if (!klu_extract(numeric_, symbolic_, lower.outerIndexPtr(), lower.innerIndexPtr(), lower.valuePtr(),
+                     upper.outerIndexPtr(), upper.innerIndexPtr(), upper.valuePtr(), nullptr, nullptr, nullptr,
+                     row_of_.data(), column_of_.data(), nullptr, nullptr, &common_))
+      return false;
     lower_ = lower;
     upper_ = upper;
     inverse_pivot_.resize(n);
     for (int k = 0; k < n; ++k) inverse_pivot_[k] = 1.0 / upper_.valuePtr()[upper_.outerIndexPtr()[k]];
-    return extracted_;
+    return extracted_ = true;
   }
 
   klu_common common_{};

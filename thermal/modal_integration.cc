@@ -37,7 +37,7 @@ void check_modes(Network const& network) {
 IntegrationSummary integrate_in_modes(Network const& network, Course const& course,
                                       std::span<double const> initial_temperatures,
                                       std::span<double const> output_times, IntegrationOptions const& options,
-                                      Observer const& observe) {
+                                      Observer const& observe, long most_steps) {
   auto const begin = std::chrono::steady_clock::now();
   check_modes(network);
   if (output_times.empty()) throw InputError("there is no output time");
@@ -48,18 +48,20 @@ IntegrationSummary integrate_in_modes(Network const& network, Course const& cour
   Evaluation evaluation(network);
   std::vector<double> state(start.start.size());
   double const tolerance = share_of_tolerance * options.tolerance();
-  auto const done = integrate(modes, course, modes.state_of(initial_temperatures), output_times, tolerance,
-                              [&](ReducedSample const& seen) {
-                                modes.temperatures_of(seen.state, state);
-                                for (int i = 0; i < network.nodes(); ++i)
-                                  state[std::size_t(i)] = network.state_of_temperature(i, state[std::size_t(i)]);
-                                Sample sample;
-                                sample.time = seen.time;
-                                sample.state = state;
-                                sample.temperatures = evaluation.temperatures(state.data(), seen.input.data());
-                                sample.input = seen.input;
-                                observe(sample);
-                              });
+  auto const done = integrate(
+      modes, course, modes.state_of(initial_temperatures), output_times, tolerance,
+      [&](ReducedSample const& seen) {
+        modes.temperatures_of(seen.state, state);
+        for (int i = 0; i < network.nodes(); ++i)
+          state[std::size_t(i)] = network.state_of_temperature(i, state[std::size_t(i)]);
+        Sample sample;
+        sample.time = seen.time;
+        sample.state = state;
+        sample.temperatures = evaluation.temperatures(state.data(), seen.input.data());
+        sample.input = seen.input;
+        observe(sample);
+      },
+      most_steps);
   IntegrationSummary summary;
   summary.steps = done.steps;
   summary.rate_evaluations = done.rate_evaluations;

@@ -15,7 +15,7 @@ constexpr double first_step = 2.0, shortest_step = 1e-6, longest_step = 1800.0;
 
 class ReducedRun {
  public:
-  ReducedRun(ReducedNetwork const& network, Course const& course, double tolerance)
+  ReducedRun(ReducedNetwork const& network, Course const& course, double tolerance, long most_steps)
       : evaluation_(network),
         inputs_(network.network(), course),
         step_(network.decay(),
@@ -23,7 +23,8 @@ class ReducedRun {
                 ++summary_.rate_evaluations;
                 evaluation_.rest(state, inputs_.at(t).data(), result);
               }),
-        tolerance_(tolerance) {}
+        tolerance_(tolerance),
+        most_steps_(most_steps) {}
 
   ReducedSummary operator()(Eigen::VectorXd const& initial, std::span<double const> times,
                             ReducedObserver const& observe);
@@ -35,6 +36,7 @@ class ReducedRun {
   CourseInputs inputs_;
   ExponentialStep step_;
   double tolerance_, h_ = first_step;
+  long most_steps_;
   double longest_ = std::min(longest_step, inputs_.longest_step());
   ReducedSummary summary_;
 };
@@ -43,6 +45,9 @@ class ReducedRun {
 /// longer one behind it.
 double ReducedRun::try_step(double end, bool is_bend) {
   while (true) {
+    if (summary_.steps + summary_.rejected >= most_steps_)
+      throw IntegrationError(fmt::format("the reduced run took {} steps until t = {:.6g} s, its last {:.3g} s",
+                                         most_steps_, step_.time(), h_));
     double const left = end - step_.time();
     double const h = h_ > 0.999 * left ? left : h_ > 0.5 * left ? 0.5 * left : h_;
     step_.attempt(h);
@@ -91,9 +96,10 @@ ReducedSummary ReducedRun::operator()(Eigen::VectorXd const& initial, std::span<
 }  // namespace
 
 ReducedSummary integrate(ReducedNetwork const& network, Course const& course, Eigen::VectorXd const& initial,
-                         std::span<double const> output_times, double tolerance, ReducedObserver const& observe) {
+                         std::span<double const> output_times, double tolerance, ReducedObserver const& observe,
+                         long most_steps) {
   if (output_times.empty()) throw InputError("there is no output time");
-  return ReducedRun(network, course, tolerance)(initial, output_times, observe);
+  return ReducedRun(network, course, tolerance, most_steps)(initial, output_times, observe);
 }
 
 }  // namespace thermotwin::thermal

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,10 @@ struct ReducedSummary {
 
 /// Integrates a reduced network from `initial` with exponential steps; `tolerance` [K] bounds the estimated error of
 /// one step in every temperature that a law sees. Stops at every jump of the course; output times in between are
-/// interpolated. InputError when the course lacks a channel; IntegrationError when the step runs to nothing.
+/// interpolated. InputError when the course lacks a channel; IntegrationError when the step runs to nothing, or more
+/// are tried than `most_steps`.
 ReducedSummary integrate(ReducedNetwork const& network, Course const& course, Eigen::VectorXd const& initial,
-                         std::span<double const> output_times, double tolerance, ReducedObserver const& observe);
+                         std::span<double const> output_times, double tolerance, ReducedObserver const& observe,
+                         long most_steps = std::numeric_limits<long>::max());
 
 }  // namespace thermotwin::thermal

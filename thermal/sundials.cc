@@ -128,7 +128,7 @@ class Run {
 
   ContextHandle context_;
   VectorHandle y_;
-  N_Vector weights_ = nullptr;  ///< the vector that has them
+  N_Vector weighted_ = nullptr;  ///< CVODES' vector that has the error weights already
   std::optional<ForwardSensitivities> sensitivities_;
   MatrixHandle matrix_;
   SolverHandle solver_;
@@ -231,7 +231,7 @@ void Run::attach_linear_solver() {
 /// over the nodes. CVODES asks at every step, with one vector.
 int Run::error_weights(N_Vector, N_Vector weights, void* user) {
   auto& run = self(user);
-  if (std::exchange(run.weights_, weights) == weights) return 0;
+  if (std::exchange(run.weighted_, weights) == weights) return 0;
   double const nodes = run.network_.nodes();
   N_VConst(std::sqrt((nodes + NewtonSystem::energies) / nodes) / run.options_.tolerance(), weights);
   std::fill_n(data(weights) + run.network_.nodes(), NewtonSystem::energies, 1e-6 / run.options_.tolerance());
@@ -248,6 +248,7 @@ void Run::set_up(IntegrationState const& from) {
   next_switch_ = from.next_switch;
   summary_ = from.summary;
   cvode_.reset(CVodeCreate(CV_BDF, context_.get()));
+  weighted_ = nullptr;
   void* cvode = cvode_.get();
   CVodeSetErrHandlerFn(cvode, collect_message, this);
   CVodeInit(cvode, rate, t_, y_.get());

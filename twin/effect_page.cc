@@ -105,14 +105,18 @@ std::string field_rows(std::vector<FieldRecord> const& fields, std::string const
 std::string tried(Effect const& effect) {
   std::vector<std::string> lines;
   for (auto const& trial : effect.trials) {
-    auto const field = std::find_if(effect.parameters.begin(), effect.parameters.end(),
-                                    [&](auto const& f) { return f.key == trial.amplitude; });
-    std::string sites;
+    auto const text = [&](std::string const& key, double value) {
+      auto const field =
+          std::find_if(effect.parameters.begin(), effect.parameters.end(), [&](auto const& f) { return f.key == key; });
+      return thermal::format_quantity(value, field->dimension);
+    };
+    std::string sites, along;
+    for (auto const& [key, factor] : trial.proportional)
+      along += fmt::format(" with {} {}", key, text(key, factor * trial.largest));
     for (auto const& site : trial.sites) sites += (sites.empty() ? " at every " : " by ") + site.kind;
-    std::string const from =
-        trial.ordinary > 0.0 ? "beyond " + thermal::format_quantity(trial.ordinary, field->dimension) + " " : "";
-    lines.push_back(fmt::format("{} {}up to {}{}{}", trial.amplitude, from, trial.either_sign ? "± " : "",
-                                thermal::format_quantity(trial.largest, field->dimension), sites));
+    std::string const from = trial.ordinary > 0.0 ? "beyond " + text(trial.amplitude, trial.ordinary) + " " : "";
+    lines.push_back(fmt::format("{} {}up to {}{}{}{}", trial.amplitude, from, trial.either_sign ? "± " : "",
+                                text(trial.amplitude, trial.largest), along, sites));
   }
   return fmt::format("{}", fmt::join(lines, "; "));
 }

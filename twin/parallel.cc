@@ -48,6 +48,11 @@ void in_parallel(std::size_t count, std::function<void(double)> const& progress,
   if (stop && *stop) throw Interrupted("stopped; nothing was written");
 }
 
+void in_parts(std::size_t count, std::size_t at_once,
+              std::function<void(std::size_t first, std::size_t end)> const& work) {
+  in_parts(1, count, at_once, [&](std::size_t, std::size_t first, std::size_t end) { work(first, end); });
+}
+
 void in_parts(std::size_t runs, std::size_t count, std::size_t at_once,
               std::function<void(std::size_t run, std::size_t first, std::size_t end)> const& work) {
   std::size_t const parts = (count + at_once - 1) / at_once;

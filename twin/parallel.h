@@ -15,7 +15,10 @@ inline void in_parallel(std::size_t count, std::function<void(std::size_t)> cons
   in_parallel(count, {}, nullptr, work);
 }
 
-/// `work(run, first, end)` for `count` things in each run: in parts that are as equal as can be, of `at_once` at most.
+/// `work(first, end)` for `count` things, in parts that are as equal as can be, of `at_once` at most.
+void in_parts(std::size_t count, std::size_t at_once,
+              std::function<void(std::size_t first, std::size_t end)> const& work);
+/// `work(run, first, end)` for `count` things in each run, likewise.
 void in_parts(std::size_t runs, std::size_t count, std::size_t at_once,
               std::function<void(std::size_t run, std::size_t first, std::size_t end)> const& work);
 

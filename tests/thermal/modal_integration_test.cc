@@ -93,6 +93,19 @@ TEST(ModalIntegration, AgreesWithBdfToItsTolerance) {
   EXPECT_GT(compared, 70);
 }
 
+TEST(ModalIntegration, GivesUpWhereItTakesTooManySteps) {
+  auto const random = random_network(0);
+  std::vector<double> const times{0.0, 3000.0};
+  auto const nobody = [](Sample const&) {};
+  auto const within = [&](long steps) {
+    return integrate_in_modes(random.network, random_course(), random.start, times, tight(1e-5), nobody, steps);
+  };
+  auto const summary = within(1'000'000);
+  long const needed = summary.steps + summary.error_test_failures;
+  EXPECT_EQ(within(needed).steps, summary.steps);
+  EXPECT_THROW((void)within(needed - 1), IntegrationError);
+}
+
 TEST(ModalIntegration, RefusesWhatHasNoConstantModes) {
   EXPECT_THROW(check_modes(with_thermostat()), InputError);
 

@@ -18,4 +18,10 @@ double squared_birge_ratio(Estimation const& estimation, Fit const& fit) {
   return squares > known ? squares / known : 1.0;
 }
 
+double strictness(Estimation const& estimation, Fit const& fit) {
+  constexpr double most = 4.0;
+  double const ratio = squared_birge_ratio(estimation, fit);
+  return std::min(ratio * ratio, most);
+}
+
 }  // namespace thermotwin::twin

@@ -13,4 +13,8 @@ namespace thermotwin::twin {
 /// large, as if all uncertainties were R times what they are taken for (R. T. Birge, Phys. Rev. 40, 1932, p. 207).
 [[nodiscard]] double squared_birge_ratio(Estimation const& estimation, Fit const& fit);
 
+/// How many times more 2 ln must say than where R is 1, since they are too large and chance makes large ones more
+/// often: R⁴, and no more than 4, for a rough file is no reason to name nothing.
+[[nodiscard]] double strictness(Estimation const& estimation, Fit const& fit);
+
 }  // namespace thermotwin::twin

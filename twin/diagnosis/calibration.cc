@@ -73,12 +73,14 @@ std::vector<std::vector<std::string>> inseparable(std::vector<Unknown> const& un
   return groups;
 }
 
-void add_collinearity(Calibration& calibration, Fit const& fit) {
+void add_collinearity(Calibration& calibration, Estimation const& estimation, Fit const& fit) {
   std::vector<Eigen::Index> identified;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n)
     if (calibration.numbers[n].identified) identified.push_back(Eigen::Index(n));
   if (identified.empty()) return;
-  Eigen::MatrixXd const sensitivities = fit.jacobian.of_data()(Eigen::all, identified).colwise().normalized();
+  Eigen::MatrixXd sensitivities(estimation.rows(), Eigen::Index(identified.size()));
+  for (std::size_t k = 0; k < identified.size(); ++k)
+    sensitivities.col(Eigen::Index(k)) = fit.jacobian.column(identified[k]).normalized();
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const solver((sensitivities.transpose() * sensitivities).eval());
   calibration.collinearity = 1.0 / std::sqrt(std::max(solver.eigenvalues()[0], 1e-12));
   for (std::size_t k = 0; k < identified.size(); ++k)
@@ -164,7 +166,7 @@ Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) 
   Machine const before = Machine::build(machine);
   add_estimates(calibration, estimation, fit, before);
   calibration.inseparable = inseparable(estimation.unknowns(), fit);
-  add_collinearity(calibration, fit);
+  add_collinearity(calibration, estimation, fit);
   calibration.misfit = misfit_of(estimation, fit);
   add_written(calibration, estimation);
   Machine const after = Machine::build(calibration.document);

@@ -57,6 +57,7 @@ class Diagnostician {
   Machine machine_;
   std::vector<Hypothesis> hypotheses_;
   EffectSearch search_;
+  std::optional<Value> calibrated_;  ///< what a file can say of the machine without effects
   Diagnosis diagnosis_;
 };
 
@@ -136,19 +137,19 @@ void Diagnostician::write_down() {
   d.amended = search_.fit();
   d.effects = amended.effects();
   d.unknowns = amended.unknowns();
-  std::optional<Written> written, calibrated;
-  in_parallel(d.effects.empty() ? 1 : 2, [&](std::size_t i) {
+  std::optional<Written> written;
+  in_parallel(d.effects.empty() || calibrated_ ? 1 : 2, [&](std::size_t i) {
     if (i == 0)
       written.emplace(amended, d.amended);
     else
-      calibrated.emplace(search_.plain(), d.calibrated);
+      calibrated_ = Written(search_.plain(), d.calibrated).document;
   });
   d.changes = changed_numbers(amended, written->fit);
   for (auto& lag : changed_lags(amended, written->fit)) d.changes.push_back(std::move(lag));
   for (auto& change : written->form.changes()) d.changes.push_back(std::move(change));
   d.written = std::move(written->fit);
   d.document = std::move(written->document);
-  d.calibrated_document = calibrated ? std::move(calibrated->document) : d.document;
+  d.calibrated_document = d.effects.empty() ? d.document : *calibrated_;
   auto const first = d.amended.x.size() - Eigen::Index(d.effects.size());
   for (std::size_t e = 0; e < d.effects.size(); ++e) {
     auto const u = first + Eigen::Index(e);

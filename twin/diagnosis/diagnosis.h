@@ -37,7 +37,7 @@ struct Diagnosis {
   std::optional<FaultySensor> faulty_sensor;
   std::vector<FreeHeat> scan;          ///< before any effect was added, best first
   std::vector<FreeHeat> left;          ///< with the effects, best first
-  std::vector<Hypothesis> hypotheses;  ///< those that were tried
+  std::vector<Hypothesis> hypotheses;  ///< those that were tried, once for each amplitude about which they were
   Fit calibrated;                      ///< without any effect
   Fit amended;                         ///< with those found, the best alternative of each
   Fit written;  ///< the same where lumps are lumps, as they are in a file: what the amended file gets

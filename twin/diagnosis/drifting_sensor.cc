@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
+#include "twin/diagnosis/birge_ratio.h"
 #include "twin/diagnosis/score.h"
 
 namespace thermotwin::twin {
@@ -50,7 +51,8 @@ std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit co
                                          [](Score const& a, Score const& b) { return a.statistic < b.statistic; });
   auto const drifting =
       std::count_if(scores.begin(), scores.end(), [](Score const& s) { return s.statistic >= least_statistic; });
-  if (drifting < 1 || drifting > most_drifting) return std::nullopt;
+  bool const clear = clearest->statistic >= least_statistic * strictness(estimation, calibrated);
+  if (!clear || drifting > most_drifting) return std::nullopt;
   auto const& drift = drifts[std::size_t(clearest - scores.begin())];
   std::vector<Hypothesis> others;
   std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(others), is_of_machine);

@@ -15,9 +15,9 @@ namespace thermotwin::twin {
 /// (ChannelNoise::slow_share) of the way that a reading has gone from where it began (way_share), instead of that share
 /// of its range throughout. With that noise the numbers are fitted again, and every drift among `hypotheses` has its
 /// score T = b²/a. The largest must reach a threshold amid the 12 to 20 that physics.md 8.6 expects with correlated
-/// errors. Where more than two reach it, it is no sensor: a room that swings pulls at all of them. Nor is it where an
-/// effect of the machine explains more: slow heat that is too little to be named looks like a drift of the sensor next
-/// to it.
+/// errors, and more where the machine's form is not quite right (birge_ratio.h). Where more than two reach the former,
+/// it is no sensor: a room that swings pulls at all of them. Nor is it where an effect of the machine explains more:
+/// slow heat that is too little to be named looks like a drift of the sensor next to it.
 [[nodiscard]] std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit const& calibrated,
                                                           std::vector<Hypothesis> const& hypotheses);
 

@@ -20,8 +20,7 @@ namespace {
 // named.
 constexpr int to_the_end = 50;
 constexpr double open_loop = 0.2;  // share of free growth
-constexpr std::size_t most_refits = 24, most_growths = 3;
-constexpr double most_squared_birge_ratio = 2.0;  // a rough file is no reason to name nothing
+constexpr std::size_t most_refits = 24, most_growths = 3, whitened_at_once = 32;
 // What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
 constexpr double hopeful_score = 0.3, hopeful_refit = 0.5;
 
@@ -109,8 +108,7 @@ double EffectSearch::share_of_strongest() const {
 }
 
 double EffectSearch::evident_beside() const {
-  double const too_large = std::min(squared_birge_ratio(*estimation_, fit_), most_squared_birge_ratio);
-  return std::max(too_large * too_large * options_.threshold, share_of_strongest());
+  return std::max(strictness(*estimation_, fit_) * options_.threshold, share_of_strongest());
 }
 
 /// Lets displacements leave their structural loops where that is evident, and more so than any one effect on a
@@ -178,7 +176,7 @@ EffectSearch::Candidates EffectSearch::candidates(std::optional<std::size_t> in_
   }
   auto const count = Eigen::Index(open.size());
   result.columns.resize(signatures_.rows(), in_place_of ? count + 1 : count);
-  in_parts(1, open.size(), 32, [&](std::size_t, std::size_t first, std::size_t end) {
+  in_parts(open.size(), whitened_at_once, [&](std::size_t first, std::size_t end) {
     for (std::size_t k = first; k < end; ++k) result.columns.col(Eigen::Index(k)) = signatures_.col(open[k]);
     estimation_->whiten(result.columns.middleCols(Eigen::Index(first), Eigen::Index(end - first)));
   });

@@ -38,8 +38,8 @@ struct Suspicion {
 /// check and an exchange of each for what could stand in its place (physics.md 8.5, 8.6).
 class EffectSearch {
  public:
-  /// Calibrates, and hears the noise that the calibrated machine leaves. `document`, `runs` and `options` must outlive
-  /// this.
+  /// Calibrates, and hears the noise that the calibrated machine leaves. `hypotheses`: all that are tried, those of
+  /// some size, too. `document`, `runs` and `options` must outlive this.
   EffectSearch(Value const& document, std::vector<BinnedRun> const& runs, std::vector<Hypothesis> hypotheses,
                DiagnosisOptions const& options);
 

@@ -17,6 +17,7 @@ bool Jacobian::is_linear(Eigen::Index unknown) const {
 }
 
 Eigen::Index Jacobian::place(Eigen::Index unknown) const {
+  eigen_assert(!is_linear(unknown));
   return unknown < first_linear_ ? unknown : unknown - linear();
 }
 
@@ -43,8 +44,7 @@ Eigen::MatrixXd Jacobian::transposed_times(Eigen::MatrixXd const& signals, Eigen
 }
 
 Eigen::VectorXd Jacobian::gradient(Eigen::VectorXd const& residual) const {
-  Eigen::VectorXd const of_data = transposed_times(residual.head(own_.rows()));
-  return of_data + priors_.cwiseProduct(residual.tail(priors_.size()));
+  return transposed_times(residual.head(own_.rows())) + priors_.cwiseProduct(residual.tail(priors_.size()));
 }
 
 void Jacobian::forget(Eigen::Index unknown) {

@@ -17,6 +17,8 @@ namespace {
 constexpr double gamma = 1.0 - 0.70710678118654752440;
 constexpr double steepest = 3.0;  // slope at an end of a step, of the straight line's
 constexpr int most_modes = 150;   // beyond, to find them takes longer than to run without
+// From one sample to the next; most machines take three at most. What is stiff and not linear takes a hundred.
+constexpr long most_steps_in_modes = 20;
 
 }  // namespace
 
@@ -52,10 +54,19 @@ void LinearisedRun::trace() {
   };
   auto const& network = machine_->network();
   auto const from = initial_temperatures(*machine_, start, course);
-  if (network.nodes() <= most_modes && thermal::why_irreducible(network).empty())
-    thermal::integrate_in_modes(network, course, from, times, options, keep);
-  else
-    thermal::integrate(network, course, from, times, options, keep);
+  auto const in_modes = [&] {
+    if (network.nodes() > most_modes || !thermal::why_irreducible(network).empty()) return false;
+    try {
+      thermal::integrate_in_modes(network, course, from, times, options, keep,
+                                  most_steps_in_modes * long(times.size()));
+      return true;
+    } catch (thermal::IntegrationError const&) {
+      states.clear();
+      inputs.clear();
+      return false;
+    }
+  };
+  if (!in_modes()) thermal::integrate(network, course, from, times, options, keep);
   auto const& names = network.channel_names();
   std::vector<int> places(std::size_t(network.external_channels()));
   for (std::size_t i = 0; i < places.size(); ++i) places[i] = course.index_of(names[i]);
@@ -75,13 +86,18 @@ void LinearisedRun::trace() {
     bool const jumps = course.next_jump(begin) <= end;
     begins_.push_back(end_of(begin, states[s], inputs[s]));
     ends_.push_back(end_of(jumps ? end - 1e-6 * (end - begin) : end, states[s + 1], inputs[s]));
-    if (s > 0 && begins_[s].input == ends_[s - 1].input)
+    if (continues(s))
       at_begin.swap(at_end);
     else
       rate(begins_[s], at_begin);
     rate(ends_[s], at_end);
     bend(begins_[s], ends_[s], at_begin, at_end);
   }
+}
+
+/// Whether a step begins as the one before it ended: with the same inputs. The state always is the same.
+bool LinearisedRun::continues(std::size_t step) const {
+  return step > 0 && begins_[step].time == ends_[step - 1].time && begins_[step].input == ends_[step - 1].input;
 }
 
 /// The slopes of the nodes at the ends of a step, beyond those of straight lines. A cubic does not overshoot with them
@@ -247,6 +263,7 @@ ReadingByParameter LinearisedRun::response(Forcing const& forcing, Eigen::Matrix
   thermal::NodeByParameter from = H * S, to(H.rows(), m), shown = from;
   thermal::NodeByParameter const at_start = from;
   ReadingByParameter result = ReadingByParameter::Zero(rows * H.rows(), m);
+  if (m == 0) return result;
   std::vector<double> middle(static_cast<std::size_t>(n)), input;
   for (std::size_t s = first_step; s < steps.size(); ++s) {
     double const h = steps[s].length();
@@ -256,7 +273,7 @@ ReadingByParameter LinearisedRun::response(Forcing const& forcing, Eigen::Matrix
     input = begins_[s].input;
     for (std::size_t i = 0; i < input.size(); ++i) input[i] = 0.5 * (input[i] + ends_[s].input[i]);
     system.linearise(evaluation, middle.data(), input.data());
-    if (s > first_step && begins_[s].time == ends_[s - 1].time && begins_[s].input == ends_[s - 1].input)
+    if (s > first_step && continues(s))
       from_forcing.swap(to_forcing);
     else
       forcing(evaluation, begins_[s].time, begins_[s].state, begins_[s].input, from_forcing);

@@ -89,6 +89,7 @@ class LinearisedRun {
   [[nodiscard]] std::map<std::string, Eigen::VectorXd> heat_of_bodies(
       std::function<void(End const&, Eigen::VectorXd& rates)> const& rates_at) const;
   void trace();
+  [[nodiscard]] bool continues(std::size_t step) const;
   void bend(End& begin, End& end, std::vector<double> const& rate_at_begin,
             std::vector<double> const& rate_at_end) const;
   /// By which s jumps where a step begins; whether it does.

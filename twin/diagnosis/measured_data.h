@@ -17,7 +17,8 @@ namespace thermotwin::twin {
 
 /// What was recorded, wherever it comes from, before it is laid over a machine. Times from the start of the run.
 struct MeasuredData {
-  std::string machine;  ///< name of the machine that was measured or simulated, if it is known
+  std::string machine;                 ///< name of the machine that was measured or simulated, if it is known
+  std::filesystem::path machine_file;  ///< where a measurement file names one
   std::vector<scenarios::SampledInput> inputs;
   Eigen::VectorXd time;                   ///< of the readings [s], strictly increasing
   std::vector<output::Channel> readings;  ///< of sensors, in their units

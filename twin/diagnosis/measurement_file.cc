@@ -174,14 +174,19 @@ void add_columns(MeasuredTable const& table, Value const& place, LoadedTable con
   }
 }
 
+/// Where it is named; empty: it is a name alone.
+std::filesystem::path file_of_machine(std::string const& named, std::filesystem::path const& directory) {
+  for (auto const& file : {directory / named, directory / (named + ".toml")})
+    if (!named.empty() && file.extension() == ".toml" && std::filesystem::is_regular_file(file)) return file;
+  return {};
+}
+
 /// As it calls itself, where its file is named.
-std::string name_of_machine(std::string const& named, std::filesystem::path const& directory) {
-  for (auto const& file : {directory / named, directory / (named + ".toml")}) {
-    if (named.empty() || file.extension() != ".toml" || !std::filesystem::is_regular_file(file)) continue;
-    try {
-      if (auto const name = name_in(read_toml(file)); !name.empty()) return name;
-    } catch (InputError const&) {  // told where the machine is read
-    }
+std::string name_of_machine(std::string const& named, std::filesystem::path const& file) {
+  if (file.empty()) return named;
+  try {
+    if (auto const name = name_in(read_toml(file)); !name.empty()) return name;
+  } catch (InputError const&) {  // told where the machine is read
   }
   return named;
 }
@@ -216,7 +221,8 @@ MeasuredData read_measurement_file(std::filesystem::path const& path) {
       throw FileError(words.empty() ? places[t].where : place_of(places[t], "'" + words.front() + "'"), error.what());
     }
 
-  data.machine = name_of_machine(file.machine, directory);
+  data.machine_file = file_of_machine(file.machine, directory);
+  data.machine = name_of_machine(file.machine, data.machine_file);
   data.initial_temperature = file.initial_temperature;
   located(document, [&] {
     Window const window = window_of(file, tables);

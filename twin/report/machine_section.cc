@@ -37,16 +37,16 @@ Machine build_beside(std::string const& text, std::string const& settings, std::
 /// None when the run names no machine.
 std::optional<Machine> named_machine(ShownRun const& run) {
   if (run.machine.empty()) return {};
-  auto beside = run.path.parent_path() / run.machine;
-  if (beside.extension() != ".toml") beside += ".toml";
-  if (std::filesystem::exists(beside)) return Machine::read(beside);
+  if (!run.machine_file.empty()) return Machine::read(run.machine_file);
   try {
     return Machine::read(machine_file(run.machine));
   } catch (thermal::InputError const&) {
+    auto beside = std::filesystem::path(run.machine);
+    if (beside.extension() != ".toml") beside += ".toml";
     throw thermal::InputError(
         fmt::format("{} says that it was '{}', but there is no {} beside it, and none such is shipped; name its file "
                     "with --machine",
-                    run.path.filename().string(), run.machine, beside.filename().string()));
+                    run.path.filename().string(), run.machine, beside.string()));
   }
 }
 

@@ -154,6 +154,7 @@ ShownRun read_shown_run(std::filesystem::path const& path) {
     run.data = dataset_of(measured);
     run.data.title = title_of_measurement(path);
     run.machine = measured.machine;
+    run.machine_file = measured.machine_file;
     max_gap = measured.max_gap;
   } else {
     run.data = output::read(path);

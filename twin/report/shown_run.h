@@ -17,7 +17,8 @@ struct ShownRun {
   bool simulated = false;  ///< with the provenance of a run of this program
   /// A run that goes on: what its instruments show is known at its end only; their channels hold the truth.
   bool without_instruments = false;
-  std::string machine{};  ///< that a measurement file names; empty: none
+  std::string machine{};                 ///< that a measurement file names; empty: none
+  std::filesystem::path machine_file{};  ///< where it names a file
   /// Samples farther apart than this, and than ten usual intervals of their channel, have nothing between them [s].
   double max_gap = std::numeric_limits<double>::infinity();
 };

@@ -289,7 +289,7 @@ TEST(EffectSearch, TriesNoMoreWhatWasTakenBack) {
   std::vector<BinnedRun> const runs = {bin(run, 300.0)};
   DiagnosisOptions const options;
   Value const document = tests::v450();
-  EffectSearch search(document, runs, hypotheses(document, Machine::build(document)), options);
+  EffectSearch search(document, runs, with_those_of_some_size(hypotheses(document, Machine::build(document))), options);
   double const calibrated = search.fit().evidence;
   search();
   ASSERT_EQ(search.explanations().size(), 1);
