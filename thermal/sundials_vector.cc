@@ -76,14 +76,13 @@ int linear_combination(int count, realtype* factors, N_Vector* vectors, N_Vector
   if (count > int(terms.size())) return -1;
   for (int k = 0; k < count; ++k) terms[std::size_t(k)] = {factors[k], values(vectors[k])};
   on_blocks(result, [count, terms, z = values(result)](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (int k = 0; k < count; ++k) {
-      double const factor = terms[std::size_t(k)].factor, *x = terms[std::size_t(k)].x;
-      if (k == 0)
+    double const first = terms[0].factor, *const x = terms[0].x;
 #pragma omp simd
-        for (auto i = begin; i < end; ++i) z[i] = factor * x[i];
-      else
+    for (auto i = begin; i < end; ++i) z[i] = first * x[i];
+    for (int k = 1; k < count; ++k) {
+      double const factor = terms[std::size_t(k)].factor, *const y = terms[std::size_t(k)].x;
 #pragma omp simd
-        for (auto i = begin; i < end; ++i) z[i] += factor * x[i];
+      for (auto i = begin; i < end; ++i) z[i] += factor * y[i];
     }
   });
   return 0;
