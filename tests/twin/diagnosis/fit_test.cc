@@ -1,8 +1,9 @@
 #include "twin/diagnosis/fit.h"
 
 #include <gtest/gtest.h>
-#include <random>
 #include <vector>
+
+#include "tests/twin/diagnosis/normal_matrix.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -10,12 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-MatrixXd normal(Index rows, Index columns, unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> draw;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return draw(random); });
-}
+using tests::normal;
 
 /// Seven unknowns, of which the third to the fifth are linear: one acts in the first 20 rows alone, one in the last 30.
 struct Mixed {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
-#include <random>
+
+#include "tests/twin/diagnosis/normal_matrix.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using tests::normal;
 
 ChannelNoise noise() { return {0.08, 0.02, 0.1, 600.0, 0.3, 3.0 * 3600.0}; }
 
@@ -33,12 +35,6 @@ MatrixXd covariance(ChannelNoise const& n, VectorXd const& time, VectorXd const&
       if (i == j) S(i, j) += n.white * n.white / samples[i] + n.rounding * n.rounding;
     }
   return S;
-}
-
-MatrixXd normal(Index rows, Index columns, unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> draw;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return draw(random); });
 }
 
 double log_likelihood(Whitening const& whitening, MatrixXd signal) {

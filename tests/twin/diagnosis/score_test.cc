@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "tests/twin/diagnosis/normal_matrix.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -14,13 +15,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using tests::normal;
 using tests::v450;
-
-MatrixXd normal(Index rows, Index columns, unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> draw;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return draw(random); });
-}
 
 /// z = −J x + noise, three unknowns with priors; fitted.
 struct Toy {
