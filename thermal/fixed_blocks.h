@@ -25,13 +25,17 @@ void for_blocks(std::ptrdiff_t length, Visit const& visit) {
   for (std::ptrdiff_t b = 0; b < blocks; ++b) visit_block(b);
 }
 
-/// visit(i) for each i of [0, length), several at once: none may read what another writes.
+/// visit(i) for each i of [begin, end), several at once: none may read what another writes.
+template <class Visit>
+void for_terms_within(std::ptrdiff_t begin, std::ptrdiff_t end, Visit const& visit) {
+#pragma omp simd
+  for (auto i = begin; i < end; ++i) visit(i);
+}
+
+/// visit(i) for each i of [0, length), likewise.
 template <class Visit>
 void for_terms(std::ptrdiff_t length, Visit const& visit) {
-  for_blocks(length, [&visit](std::ptrdiff_t begin, std::ptrdiff_t end) {
-#pragma omp simd
-    for (auto i = begin; i < end; ++i) visit(i);
-  });
+  for_blocks(length, [&](std::ptrdiff_t begin, std::ptrdiff_t end) { for_terms_within(begin, end, visit); });
 }
 
 /// Σ term(i) over [begin, end), in sixteen sums side by side: a single one would wait for itself at every term.

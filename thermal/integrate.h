@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ struct IntegrationOptions {
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-6;  ///< [K]
   LinearSolver solver = LinearSolver::automatic;
+  /// Of a run in modes, with those that were rejected.
+  long most_steps = std::numeric_limits<long>::max();
   /// Parameters whose forward sensitivities are integrated with the run.
   std::vector<NetworkDerivative> parameters;
 

@@ -37,7 +37,7 @@ void check_modes(Network const& network) {
 IntegrationSummary integrate_in_modes(Network const& network, Course const& course,
                                       std::span<double const> initial_temperatures,
                                       std::span<double const> output_times, IntegrationOptions const& options,
-                                      Observer const& observe, long most_steps) {
+                                      Observer const& observe) {
   auto const begin = std::chrono::steady_clock::now();
   check_modes(network);
   if (output_times.empty()) throw InputError("there is no output time");
@@ -61,7 +61,7 @@ IntegrationSummary integrate_in_modes(Network const& network, Course const& cour
         sample.input = seen.input;
         observe(sample);
       },
-      most_steps);
+      options.most_steps);
   IntegrationSummary summary;
   summary.steps = done.steps;
   summary.rate_evaluations = done.rate_evaluations;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "thermal/integrate.h"
 
 namespace thermotwin::thermal {
@@ -15,12 +13,11 @@ namespace thermotwin::thermal {
 /// Keeps no energies: those of samples and summary are 0. Knows no parameters, solver or longest step of `options`.
 ///
 /// InputError for a network with relays or tracks, for more than 400 nodes (a mode touches every node), and when the
-/// course lacks a channel; IntegrationError when the step runs to nothing, or more are tried than
-/// `most_steps`.
+/// course lacks a channel; IntegrationError when the step runs to nothing, or more are tried than `options` allow.
 IntegrationSummary integrate_in_modes(Network const& network, Course const& course,
                                       std::span<double const> initial_temperatures,
                                       std::span<double const> output_times, IntegrationOptions const& options,
-                                      Observer const& observe, long most_steps = std::numeric_limits<long>::max());
+                                      Observer const& observe);
 
 /// The same InputError, before anything is run.
 void check_modes(Network const& network);

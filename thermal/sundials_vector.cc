@@ -16,9 +16,9 @@ namespace {
 using LateWork = std::vector<std::function<void(std::ptrdiff_t begin, std::ptrdiff_t end)>>;
 
 struct Content {
-  std::ptrdiff_t length = 0;
-  std::unique_ptr<double[]> values;
+  std::ptrdiff_t length;
   std::shared_ptr<LateWork> late;  ///< of all clones; none of short vectors
+  std::unique_ptr<double[]> values = std::make_unique_for_overwrite<double[]>(std::size_t(length));
 
   void do_late_work(std::ptrdiff_t begin, std::ptrdiff_t end) const {
     if (late)
@@ -46,10 +46,7 @@ void on_blocks(N_Vector v, Work const& work) {
 
 template <class Term>
 void on_terms(N_Vector v, Term const& term) {
-  on_blocks(v, [term](std::ptrdiff_t begin, std::ptrdiff_t end) {
-#pragma omp simd
-    for (auto i = begin; i < end; ++i) term(i);
-  });
+  on_blocks(v, [term](std::ptrdiff_t begin, std::ptrdiff_t end) { for_terms_within(begin, end, term); });
 }
 
 void linear_sum(realtype a, N_Vector first, realtype b, N_Vector second, N_Vector sum) {
@@ -77,12 +74,10 @@ int linear_combination(int count, realtype* factors, N_Vector* vectors, N_Vector
   for (int k = 0; k < count; ++k) terms[std::size_t(k)] = {factors[k], values(vectors[k])};
   on_blocks(result, [count, terms, z = values(result)](std::ptrdiff_t begin, std::ptrdiff_t end) {
     double const first = terms[0].factor, *const x = terms[0].x;
-#pragma omp simd
-    for (auto i = begin; i < end; ++i) z[i] = first * x[i];
+    for_terms_within(begin, end, [=](std::ptrdiff_t i) { z[i] = first * x[i]; });
     for (int k = 1; k < count; ++k) {
       double const factor = terms[std::size_t(k)].factor, *const y = terms[std::size_t(k)].x;
-#pragma omp simd
-      for (auto i = begin; i < end; ++i) z[i] += factor * y[i];
+      for_terms_within(begin, end, [=](std::ptrdiff_t i) { z[i] += factor * y[i]; });
     }
   });
   return 0;
@@ -115,8 +110,7 @@ Result never(Arguments...) {
 N_Vector make_like(N_Vector from) {
   N_Vector v = N_VNewEmpty(from->sunctx);
   N_VCopyOps(from, v);
-  auto const& like = content(from);
-  v->content = new Content{like.length, std::make_unique_for_overwrite<double[]>(std::size_t(like.length)), like.late};
+  v->content = new Content{content(from).length, content(from).late};
   return v;
 }
 
@@ -151,8 +145,7 @@ N_Vector make_vector(sunindextype length, SUNContext context) {
   can.nvabs = can.nvinv = never;
   can.nvaddconst = never;
   can.nvmaxnorm = never;
-  v->content = new Content{length, std::make_unique_for_overwrite<double[]>(std::size_t(length)),
-                           length < worth_a_thread ? nullptr : std::make_shared<LateWork>()};
+  v->content = new Content{length, length < worth_a_thread ? nullptr : std::make_shared<LateWork>()};
   return v;
 }
 

@@ -45,11 +45,13 @@ struct InputTerm {
   double power = 1.0;
 };
 
-/// A term of a displacement channel that follows the mean temperature of a place: coefficient · (T(t) − T(0)).
+/// A term of a displacement channel that follows the mean temperature of a place: coefficient · (T(t) − T(0)). Of a
+/// ball screw's error of position at x, (coefficient + strain · x) (T(t) − T(0)).
 struct TemperatureTerm {
-  std::string displacement;
+  std::string displacement;  ///< channel, or ball screw
   Place place;
   double coefficient = 0.0;  ///< [m/K] or [rad/K]
+  double strain = 0.0;       ///< [1/K]
 };
 
 /// How the air at the machine departs from what the experiment says of the room: by a rise that follows an input, or
@@ -61,13 +63,14 @@ struct AirTerm {
   double reference_height = 0.0;  ///< [m]
 };
 
-/// What a part does to the reading of one instrument.
+/// What a part does to the reading of one instrument; of a ball screw, to all its errors of position.
 struct ReadingTerm {
-  std::string channel;     ///< sensor, or displacement channel
-  double drift = 0.0;      ///< [K/s] or [m/s], from the start of the run
-  double lag = 0.0;        ///< of first order, besides the instrument's own [s]
-  double air_share = 0.0;  ///< of the way from the body's temperature to that of the air [1]
-  double per_air = 0.0;    ///< of a displacement, per kelvin of the air near the tool since the start [m/K]
+  std::string channel;      ///< sensor, displacement channel, or ball screw
+  double drift = 0.0;       ///< [K/s] or [m/s], from the start of the run
+  double lag = 0.0;         ///< of first order, besides the instrument's own [s]
+  double air_share = 0.0;   ///< of the way from the body's temperature to that of the air [1]
+  double per_air = 0.0;     ///< of a displacement, per kelvin of the air near the tool since the start [m/K]
+  double air_strain = 0.0;  ///< of an error of position besides, per metre of it [1/K]
   bool of_displacement = false;
 };
 

@@ -16,7 +16,7 @@ constexpr double to_um = 1e6;
 
 /// Of a screw in a row of values: the parting of its seats [m], the strain of what it is measured against [1], the
 /// rises of its cells [K].
-constexpr std::size_t screw_seats = 0, screw_reference = 1, screw_cells = 2;
+constexpr std::size_t screw_seats = 0, screw_reference = 1, screw_zero = 2, screw_cells = 3;
 
 std::size_t width_of(Screw const& screw) { return screw_cells + screw.screw.edges.size() - 1; }
 
@@ -110,11 +110,10 @@ void measure_nest(History const& history, InstrumentChannel channel, output::Dat
 /// What the machine's parts do to the readings of displacements.
 void misread_displacements(History const& history, output::Dataset& dataset) {
   auto const times = sampled(history, history.times()), air = sampled(history, history.air());
-  auto const& channels = history.machine().displacements;
   for (auto const& term : history.machine().reading_terms)
-    for (std::size_t c = 0; c < channels.size(); ++c)
-      if (term.of_displacement && channels[c].name == term.channel)
-        dataset.displacements[c].values += to_um * (term.drift * times + term.per_air * (air - air[0])).matrix();
+    for (auto& channel : dataset.displacements)
+      if (term.of_displacement && channel.name == term.channel)
+        channel.values += to_um * (term.drift * times + term.per_air * (air - air[0])).matrix();
 }
 
 Screw const& screw_of_laser(Machine const& machine, scenarios::LaserMeasurement const& laser) {
@@ -161,6 +160,7 @@ std::vector<NodeWeights> watched_sums(Machine const& machine) {
   for (auto const& screw : machine.screws) {
     sums.push_back(screw.seat_growth);
     sums.push_back(screw.reference_strain);
+    sums.push_back(screw.zero_shift);
     for (int i = 0; i + 1 < int(screw.screw.edges.size()); ++i) sums.push_back({{screw.first_node + i, 1.0}});
   }
   return sums;
@@ -225,7 +225,7 @@ double History::position_error(std::size_t screw, double x, std::size_t row) con
   auto const& built = machine_->screws[screw].screw;
   double const* const own = values_.data() + row * std::size_t(values_.cols()) + first_of_screw(screw);
   std::span<double const> const rise(own + screw_cells, built.edges.size() - 1);
-  return built.position_error(x, rise, own[screw_seats]) - own[screw_reference] * x;
+  return built.position_error(x, rise, own[screw_seats]) - own[screw_reference] * x + own[screw_zero];
 }
 
 Eigen::VectorXd History::displacements_at(std::size_t row) const {

@@ -14,7 +14,7 @@
 namespace thermotwin::twin {
 
 /// What instruments look at, as weighted sums of node temperatures, in this order: sensors, displacements, and of every
-/// ball screw its seats, its reference and its cells.
+/// ball screw its seats, its reference, its zero and its cells.
 [[nodiscard]] std::vector<NodeWeights> watched_sums(Machine const& machine);
 
 /// The noise-free course of everything that an instrument could look at, in SI, one row per look (sampling.h).

@@ -156,6 +156,7 @@ class MachineBuilder {
   void read_displacements();
   void check_moves(DisplacementDescription const& description) const;
   void read_screws();
+  void read_reading_terms();
   void read_displacement_instruments();
   void check_volumetric() const;
   void build_network();
@@ -256,11 +257,15 @@ void MachineBuilder::check_terms() const {
       throw InputError(fmt::format("unknown {} '{}'; {}", kind, name, thermal::did_you_mean(name, names)));
   };
   auto const displacements = names_of({"displacement", "rotation"}), sensors = names_of({"temperature_sensor"});
+  auto errors = displacements;
+  for (auto const& table : tables_.of("ball_screw")) {
+    auto const name = texts_of(table, "name");
+    errors.push_back(name.empty() ? BallScrewDescription().name : name[0]);
+  }
   for (auto const& term : assembly_.input_terms()) check("displacement", term.displacement, displacements);
-  for (auto const& term : assembly_.temperature_terms()) check("displacement", term.displacement, displacements);
+  for (auto const& term : assembly_.temperature_terms()) check("displacement", term.displacement, errors);
   for (auto const& term : assembly_.reading_terms())
-    check(term.of_displacement ? "displacement" : "sensor", term.channel,
-          term.of_displacement ? displacements : sensors);
+    check(term.of_displacement ? "displacement" : "sensor", term.channel, term.of_displacement ? errors : sensors);
 }
 
 void MachineBuilder::read_sensors() {
@@ -339,7 +344,7 @@ void MachineBuilder::read_screws() {
       screw.unilateral = d.unilateral;
       screw.released_stiffness = d.released_stiffness;
       screw.edges = body.edges[0];
-      Screw built{d, screw, {}, {}, assembly_.first_node(d.body)};
+      Screw built{d, screw, {}, {}, {}, assembly_.first_node(d.body)};
       auto const add = [&](NodeWeights& weights, std::string const& text, double length) {
         if (text.empty()) return;
         Place const place = assembly_.place(text);
@@ -347,6 +352,11 @@ void MachineBuilder::read_screws() {
       };
       add(built.seat_growth, d.seats, screw.length());
       add(built.reference_strain, d.reference, 1.0);
+      for (auto const& term : assembly_.temperature_terms()) {
+        if (term.displacement != d.name) continue;
+        add_growth(built.zero_shift, term.place, term.coefficient);
+        add_growth(built.reference_strain, term.place, -term.strain);
+      }
       machine_.screws.push_back(std::move(built));
     });
   machine_.linear_channels = machine_.displacements;
@@ -354,6 +364,23 @@ void MachineBuilder::read_screws() {
     for (double const x : screw.description.positions)
       if (screw.is_linear())
         machine_.linear_channels.push_back({screw.channel_at(x), "", false, screw.weights_at(x), {}});
+}
+
+/// Of a ball screw, one for each of its positions.
+void MachineBuilder::read_reading_terms() {
+  for (auto const& term : assembly_.reading_terms()) {
+    auto const screw = std::find_if(machine_.screws.begin(), machine_.screws.end(), [&](auto const& s) {
+      return term.of_displacement && s.description.name == term.channel;
+    });
+    if (screw == machine_.screws.end())
+      machine_.reading_terms.push_back(term);
+    else
+      for (double const x : screw->description.positions) {
+        auto& own = machine_.reading_terms.emplace_back(term);
+        own.channel = screw->channel_at(x);
+        own.per_air += term.air_strain * x;
+      }
+  }
 }
 
 void MachineBuilder::read_displacement_instruments() {
@@ -463,7 +490,7 @@ Machine MachineBuilder::operator()() {
   read_displacement_instruments();
   check_volumetric();
   static_cast<void>(tables_.read<UncertainRange>("uncertain"));  // the keys; what they say is for ranged_numbers()
-  machine_.reading_terms = assembly_.reading_terms();
+  read_reading_terms();
   assembly_.add_air_terms();
   build_network();
   refuse_names_of_inputs();

@@ -84,7 +84,7 @@ class Machine {
   /// The displacements, and the errors of position at the screws' positions, where they are linear.
   std::vector<Displacement> linear_channels;
   std::vector<ProbeDescription> probes;
-  std::vector<ReadingTerm> reading_terms;
+  std::vector<ReadingTerm> reading_terms;  ///< those of a ball screw for each of its positions
   std::optional<FiveProbeNest> nest;
   LaserInterferometer laser;
 

@@ -20,6 +20,7 @@ NodeWeights Screw::weights_at(double x) const {
   }
   for (auto const& [node, growth] : seat_growth) weights.emplace_back(node, by_seats * growth);
   for (auto const& [node, strain] : reference_strain) weights.emplace_back(node, -x * strain);
+  weights.insert(weights.end(), zero_shift.begin(), zero_shift.end());
   return weights;
 }
 

@@ -14,6 +14,7 @@ struct Screw {
   thermal::BallScrew screw;
   NodeWeights seat_growth;       ///< by how much the bearings' seats part [m/K]
   NodeWeights reference_strain;  ///< of what the position is measured against [1/K]
+  NodeWeights zero_shift;        ///< of all positions alike [m/K]
   int first_node = 0;
 
   /// "E_P_120mm": of the error with the nut at x [m].

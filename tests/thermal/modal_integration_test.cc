@@ -100,8 +100,9 @@ TEST(ModalIntegration, GivesUpWhereItTakesTooManySteps) {
   Network const network = builder.build();
   std::vector<double> const start{T0 + 10.0}, times{0.0, 9000.0};
   auto const within = [&](long steps) {
-    return integrate_in_modes(
-        network, FunctionCourse(), start, times, tight(1e-5), [](Sample const&) {}, steps);
+    auto options = tight(1e-5);
+    options.most_steps = steps;
+    return integrate_in_modes(network, FunctionCourse(), start, times, options, [](Sample const&) {});
   };
   auto const summary = within(1'000'000);
   long const needed = summary.steps + summary.error_test_failures;

@@ -24,8 +24,8 @@ scenarios::Experiment experiment(std::string const& more = "") {
                          "experiment.toml");
 }
 
-Value with(std::string const& effect) {
-  Value document = read_toml(machine_file("v450"));
+Value with(std::string const& effect, std::string const& machine = "v450") {
+  Value document = read_toml(machine_file(machine));
   Value const added = parse_toml(effect, "added.toml");
   for (auto const& entry : std::get<Value::Table>(added.content))
     std::get<Value::Table>(document.content).push_back(entry);
@@ -108,6 +108,67 @@ TEST(ProbeDrift, GrowsWithTimeAndWithTheAir) {
   change.expect_nothing_but("E_Z");
   EXPECT_NEAR(change.displacement("E_Z")[0], 0.0, 1e-9);
   EXPECT_NEAR(change.displacement("E_Z")[60], 5.0 * (0.3 - 2.0), 1e-6);
+}
+
+/// Of a screw at rest in a room that warms by 1 K/h.
+output::Dataset in_a_warming_room(std::string const& effect) {
+  auto const warming = read_experiment(parse_toml(R"(
+    title = "at rest"
+    machine = "vmc850"
+    duration = "5 h"
+    sampling = "10 min"
+    ambient.drift = "1 K/h"
+)",
+                                                  "rest.toml"),
+                                       "rest.toml");
+  return run(Machine::build(with(effect, "vmc850")), warming, {}).dataset;
+}
+
+/// What an effect adds to a screw's errors at its three positions, row by row.
+Eigen::MatrixXd added_to_screw(std::string const& effect, bool reading = false) {
+  auto const changed = in_a_warming_room(effect), plain = in_a_warming_room("");
+  Eigen::MatrixXd added(Eigen::Index(plain.time_s.size()), 3);
+  for (Eigen::Index p = 0; p < 3; ++p) {
+    auto const name = fmt::format("E_P_{}mm", 120 + 300 * p);
+    added.col(p) = reading ? values(changed.displacements, name) - values(plain.displacements, name)
+                           : values(changed.truth_displacements, name) - values(plain.truth_displacements, name);
+    if (reading) {
+      EXPECT_EQ(values(changed.truth_displacements, name), values(plain.truth_displacements, name));
+    }
+  }
+  return added;
+}
+
+TEST(Scale, ShowsItsGrowthInProportionToThePosition) {
+  auto const added =
+      added_to_screw("[[scale]]\nname = \"glass\"\nscrew = \"E_P\"\nat = \"head\"\nexpansion = \"8e-6 1/K\"");
+  auto const plain = in_a_warming_room("");
+  Eigen::VectorXd const head = values(plain.truth_readings, "S12");
+  double const warmer = head[head.size() - 1] - head[0];
+  ASSERT_GT(warmer, 0.5);
+  for (Eigen::Index p = 0; p < 3; ++p)
+    EXPECT_NEAR(added(added.rows() - 1, p), -8.0 * (0.12 + 0.3 * double(p)) * warmer, 1e-9) << p;
+}
+
+TEST(Compensation, OfAScrewShiftsAllPositionsAlike) {
+  auto const added =
+      added_to_screw("[[compensation]]\nname = \"zero\"\ndisplacement = \"E_P\"\nat = \"head\"\ngain = \"2 um/K\"");
+  auto const plain = in_a_warming_room("");
+  Eigen::VectorXd const head = values(plain.truth_readings, "S12");
+  for (Eigen::Index p = 0; p < 3; ++p)
+    EXPECT_NEAR(added(added.rows() - 1, p), -2.0 * (head[head.size() - 1] - head[0]), 1e-9) << p;
+}
+
+TEST(LaserAir, IsReadInProportionToThePosition) {
+  auto const added = added_to_screw("[[laser_air]]\nname = \"path\"\nscrew = \"E_P\"", true);
+  for (Eigen::Index p = 0; p < 3; ++p)
+    EXPECT_NEAR(added(added.rows() - 1, p), 5.0 * 0.955 * (0.12 + 0.3 * double(p)), 1e-9) << p;
+}
+
+TEST(ProbeDrift, OfAScrewIsReadAtAllItsPositions) {
+  auto const added =
+      added_to_screw("[[probe_drift]]\nname = \"laser\"\ndisplacement = \"E_P\"\ndrift = \"0.3 um/h\"", true);
+  for (Eigen::Index p = 0; p < 3; ++p) EXPECT_NEAR(added(added.rows() - 1, p), 5.0 * 0.3, 1e-9) << p;
 }
 
 TEST(DisplacementStep, ComesAndGoesWithItsInput) {

@@ -296,10 +296,11 @@ double answer(Value const& document, Snippet const& snippet, std::string const& 
     auto const shift = [](Machine const& m) {
       double sum = 0.0;
       auto const temperatures = bench_temperatures(m);
-      for (auto const& [node, weight] : m.displacements.at(0).weights)
-        sum += weight * (temperatures[std::size_t(node)] - 293.15);
-      for (auto const& term : m.displacements.at(0).input_terms)
-        sum += term.coefficient * std::pow(bench_input(term.channel), term.power);
+      for (auto const& channel : m.linear_channels) {
+        for (auto const& [node, weight] : channel.weights) sum += weight * (temperatures[std::size_t(node)] - 293.15);
+        for (auto const& term : channel.input_terms)
+          sum += term.coefficient * std::pow(bench_input(term.channel), term.power);
+      }
       for (auto const& term : m.reading_terms)  // after an hour, 16 K above air that is 3 K warmer, rising by 1 mK/s
         sum += 3600.0 * term.drift - 1e-3 * term.lag - 16.0 * term.air_share + 3.0 * term.per_air;
       return sum;

@@ -4,26 +4,54 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
+#include <map>
+#include <string>
 
+#include "thermal/bounding_box.h"
+#include "twin/assembly.h"
+#include "twin/bodies.h"
 #include "twin/diagnosis/birge_ratio.h"
 #include "twin/diagnosis/score.h"
+#include "twin/file/tables.h"
 
 namespace thermotwin::twin {
 namespace {
 
 constexpr double air_slow = 0.02;         // what is not known of the air around a sensor [K]
 constexpr double way_of_range = 0.5;      // of what is expected of a range, for the way from the start
+constexpr double share_of_slab = 0.02;    // of what a slab of a lump's longest edge would show, for the same
 constexpr double least_statistic = 13.0;  // T of a drift
 constexpr int most_drifting = 2;          // beyond, something else pulls at all of them
 constexpr double seconds_a_day = 86400.0;
 
+/// By how much more than its mean the face of a slab rises that was heated through it for a time t, L²/(3 α t), L: the
+/// longest edge of a lump; of every sensor on one (Carslaw & Jaeger, Conduction of Heat in Solids, 2nd ed. 1959, 3.8).
+std::map<std::string, double> unevenness_after(double t, Value const& document) {
+  Tables tables(document);
+  Bodies const bodies(tables);
+  std::map<std::string, double> shares;
+  for (auto const& [sensor, table] : tables.read<SensorDescription>("temperature_sensor"))
+    for (auto const& place : sensor.at) {
+      auto const body = bodies.all().find(body_of(place));
+      if (body == bodies.all().end() || body->second.nodes() > 1) continue;
+      auto const* material = bodies.material_of(body->first);
+      if (!material) continue;
+      double const edge = thermal::bounding_box(body->second.cells).sizes().maxCoeff();
+      double& share = shares[sensor.name];
+      share = std::max(share, edge * edge / (3.0 * thermal::diffusivity(*material) * t));
+    }
+  return shares;
+}
+
 /// The question to the same runs when a model is taken to be the better the nearer the machine is to rest.
 Estimation with_rest(Estimation const& estimation, std::vector<Hypothesis> const& drifts) {
   auto noise = estimation.noise();
+  auto unevenness = unevenness_after(noise[0].slow_time, estimation.document());
   for (std::size_t c = 0; c < noise.size(); ++c) {
     auto const reads = [&](Hypothesis const& drift) { return drift.body == estimation.channels()[c]; };
     if (std::none_of(drifts.begin(), drifts.end(), reads)) continue;
-    noise[c].way_share = way_of_range * noise[c].slow_share;
+    noise[c].way_share =
+        std::max(way_of_range * noise[c].slow_share, share_of_slab * unevenness[estimation.channels()[c]]);
     noise[c].slow_share = 0.0;
     noise[c].slow += air_slow;
   }
@@ -34,7 +62,13 @@ Estimation with_rest(Estimation const& estimation, std::vector<Hypothesis> const
 
 std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit const& calibrated,
                                             std::vector<Hypothesis> const& hypotheses) {
-  auto const is_drift = [](Hypothesis const& h) { return h.effect->name == "sensor_drift"; };
+  auto const sensors = Machine::build(estimation.document()).sensors;
+  auto const is_drift = [&](Hypothesis const& h) {
+    auto const touches = [&](Sensor const& sensor) {
+      return sensor.description.name == h.body && !sensor.weights.empty();
+    };
+    return h.effect->name == "sensor_drift" && std::any_of(sensors.begin(), sensors.end(), touches);
+  };
   auto const is_of_machine = [](Hypothesis const& h) { return !h.is_about("sensor"); };
   std::vector<Hypothesis> drifts;
   std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(drifts), is_drift);

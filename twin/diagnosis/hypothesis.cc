@@ -71,6 +71,9 @@ Sites::Sites(Value const& document, Machine const& machine) : document_(document
   for (auto const& sensor : machine.sensors) add("sensor", {sensor.description.name, sensor.description.name});
   for (auto const& channel : machine.displacements)
     if (!channel.rotation) add("displacement", {channel.name, channel.name});
+  for (auto const& screw : machine.screws)
+    if (screw.is_linear() && !screw.description.positions.empty())
+      add("screw", {screw.description.name, screw.description.name});
 }
 
 void Sites::add(std::string const& kind, Candidate candidate) {

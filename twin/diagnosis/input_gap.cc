@@ -18,7 +18,11 @@ using scenarios::Experiment;
 
 constexpr double usual_intervals = 10.0;
 constexpr std::size_t least_left = 10;
-constexpr double settling = 900.0;  // in which a shaft and its bearings forget their speed [s]
+constexpr double in_a_gap = 0.7;        // deviation of the share of the other extreme
+constexpr double late_record = 30.0;    // shorter than what comes and goes in a room [s]
+constexpr double late_deviation = 4.0;  // 2 min
+constexpr double least_swing = 0.2;     // of a temperature of which that could be seen [K]
+constexpr double settling = 900.0;      // in which a shaft and its bearings forget their speed [s]
 
 /// What is held between rows and whose zero is rest; a stroke's is a place. A share or a switch that never changes is a
 /// setting.
@@ -112,9 +116,26 @@ void add_alternatives(MeasuredRun& run, std::vector<std::vector<RecordGap>> cons
       for (auto const& [half, from, to] : {std::tuple{"first", gap.from, middle}, {"second", middle, gap.to}})
         run.alternatives.push_back(
             {fmt::format("{} {}, {} half", driven[missing.front()].channel.name, words_of(gap), half),
-             std::make_shared<scenarios::ExperimentCourse const>(otherwise(experiment, missing, {from, to}), limits)});
+             std::make_shared<scenarios::ExperimentCourse const>(otherwise(experiment, missing, {from, to}), limits),
+             in_a_gap});
       leave_out_rows(run, gap.from, gap.to + settling);
     }
+  }
+}
+
+void add_late_records(MeasuredRun& run, Experiment const& experiment, scenarios::MachineLimits const& limits) {
+  for (std::size_t k = 0; k < experiment.driven.size(); ++k) {
+    auto const& driven = experiment.driven[k];
+    auto const& values = driven.signal.values();
+    auto const [low, high] = std::minmax_element(values.begin(), values.end());
+    bool const held = driven.signal.interpolation() == scenarios::Interpolation::step;
+    if (driven.channel.unit != "K" || held || *high - *low < least_swing) continue;
+    auto earlier = driven.signal.times();
+    for (double& t : earlier) t -= late_record;
+    Experiment other = experiment;
+    other.driven[k].signal = scenarios::Signal(std::move(earlier), values, scenarios::Interpolation::linear);
+    run.alternatives.push_back({fmt::format("{} {:.0f} s before its record", driven.channel.name, late_record),
+                                std::make_shared<scenarios::ExperimentCourse const>(other, limits), late_deviation});
   }
 }
 

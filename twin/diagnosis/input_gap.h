@@ -24,6 +24,11 @@ namespace thermotwin::twin {
 void add_alternatives(MeasuredRun& run, std::vector<std::vector<RecordGap>> const& gaps,
                       scenarios::Experiment const& experiment, scenarios::MachineLimits const& limits);
 
+/// Adds the machine's course where temperatures that drive it were recorded late: a thermometer in still air takes
+/// minutes. Of those that change at all.
+void add_late_records(MeasuredRun& run, scenarios::Experiment const& experiment,
+                      scenarios::MachineLimits const& limits);
+
 /// For people: one remark for each gap, which names the inputs that have it.
 void remark_gaps(std::vector<std::vector<RecordGap>> const& gaps, scenarios::Experiment const& experiment,
                  std::vector<std::string>& remarks);

@@ -17,7 +17,6 @@ constexpr double zero_deviation = 1e-6;   // of a displacement's zero [m]
 constexpr double unread_zero = 200e-6;    // where the run begins before the channel was read
 constexpr double start_deviation = 0.3;   // [K]
 constexpr double air_deviation = 0.2;     // [K]
-constexpr double input_deviation = 0.7;   // of the response to what may have been given instead
 constexpr double mean_moment = 0.25;      // between a programme that runs with the samples, 0, and one that does not
 constexpr double mean_moment_deviation = 0.25;
 constexpr double moment_deviation = 0.289;  // about that mean, of any moment between two samples: 1/√12
@@ -126,7 +125,7 @@ void LinearUnknowns::add_of_run(BinnedRun const& data, int run) {
   for (std::size_t a = 0; a < alternatives.size(); ++a)
     unknowns_.push_back({.kind = Kind::input,
                          .name = fmt::format("{}, run {}", alternatives[a].name, number),
-                         .deviation = input_deviation,
+                         .deviation = alternatives[a].deviation,
                          .index = a,
                          .run = run});
   auto const& changes = data.run->changes;

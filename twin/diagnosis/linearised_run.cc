@@ -47,6 +47,7 @@ void LinearisedRun::trace() {
   thermal::IntegrationOptions options;
   options.relative_tolerance = 1e-5;  // 3 mK
   options.absolute_tolerance = 1e-4;
+  options.most_steps = most_steps_in_modes * long(times.size());
   std::vector<std::vector<double>> states, inputs;
   auto const keep = [&](thermal::Sample const& sample) {
     states.emplace_back(sample.state.begin(), sample.state.end());
@@ -57,8 +58,7 @@ void LinearisedRun::trace() {
   auto const in_modes = [&] {
     if (network.nodes() > most_modes || !thermal::why_irreducible(network).empty()) return false;
     try {
-      thermal::integrate_in_modes(network, course, from, times, options, keep,
-                                  most_steps_in_modes * long(times.size()));
+      thermal::integrate_in_modes(network, course, from, times, options, keep);
       return true;
     } catch (thermal::IntegrationError const&) {
       states.clear();

@@ -23,21 +23,23 @@ struct MeasuredChannel {
   Eigen::VectorXd values;  ///< NaN: missing
 };
 
-/// What the machine may have been given instead where its inputs were not recorded.
+/// What the machine may have been given instead where its inputs were not recorded, or late.
 struct AlternativeCourse {
   std::string name;  ///< "spindle.speed from 6.00 h to 7.60 h, first half"
   std::shared_ptr<thermal::Course const> course;
+  double deviation = 0.0;  ///< of the share of what channels show more with it
 };
 
 /// One run to calibrate or diagnose with: the inputs that the machine was given, and what its channels showed.
 struct MeasuredRun {
   std::string name;
   std::shared_ptr<thermal::Course const> course;
-  std::vector<AlternativeCourse> alternatives;  ///< two of each gap in what is held between rows: one of each half
-  std::vector<InputChange> changes;             ///< when its inputs changed, as far as the record tells
-  Eigen::VectorXd time;                         ///< [s], strictly increasing
-  std::vector<MeasuredChannel> channels;        ///< those of the machine that the data have, in the machine's order
-  std::optional<double> initial_temperature;    ///< of the whole machine [K]; default: that of the air around each part
+  /// Two of each gap in what is held between rows, one of each half; and one of each temperature.
+  std::vector<AlternativeCourse> alternatives;
+  std::vector<InputChange> changes;           ///< when its inputs changed, as far as the record tells
+  Eigen::VectorXd time;                       ///< [s], strictly increasing
+  std::vector<MeasuredChannel> channels;      ///< those of the machine that the data have, in the machine's order
+  std::optional<double> initial_temperature;  ///< of the whole machine [K]; default: that of the air around each part
   std::vector<std::string> remarks;  ///< for people: another machine, dead sensors, gaps, channels that the data lack
 
   /// One of the inputs at these times [SI]; empty where the course does not have it.

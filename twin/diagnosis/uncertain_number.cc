@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "twin/effect.h"
+#include "twin/file/document.h"
 #include "twin/sensitivity.h"
 #include "twin/uncertain_range.h"
 
@@ -13,6 +14,8 @@ namespace thermotwin::twin {
 namespace {
 
 namespace dimension = thermal::dimension;
+
+constexpr double inlet_deviation = 0.3;  // [K]
 
 std::optional<double> deviation_of(std::string const& table, std::string const& key, thermal::Dimension const& of) {
   bool const friction = key == "grease_factor" || (table == "ball_nut" && key == "preload");
@@ -50,6 +53,13 @@ void add_numbers(Value const& document, std::string const& kind, Value const& ta
     } catch (thermal::InputError const&) {
       continue;  // a text, a list
     }
+    if (entry.key == "inlet_offset")
+      numbers.push_back({.path = parameter.path,
+                         .nominal = parameter.value,
+                         .dimension = parameter.dimension,
+                         .deviation = inlet_deviation,
+                         .unit = unit_of(entry.value),
+                         .of_either_sign = true});
     auto const deviation = deviation_of(kind, entry.key, parameter.dimension);
     if (deviation && parameter.value > 0.0 && !parameter.absolute_temperature)
       numbers.push_back({parameter.path, parameter.value, parameter.dimension, *deviation, unit_of(entry.value)});
@@ -64,6 +74,14 @@ bool is_nothing(Value const& value) {
 
 void add_factor(Value& table, char const* key) {
   if (!table.find(key)) std::get<Value::Table>(table.content).push_back({key, table.where, {table.where, 1.0}});
+}
+
+/// What is left to its default, of conductances.
+void add_defaults(Effect const& effect, Value& table) {
+  for (auto const& field : effect.parameters)
+    if (field.dimension == dimension::conductance && !field.initial.empty() && field.initial != "required" &&
+        !table.find(field.key))
+      set_key(table, field.key, field.initial);
 }
 
 /// Every step of the structural loop may do more or less than it was computed to.
@@ -122,8 +140,10 @@ std::vector<UncertainNumber> uncertain_numbers(Value& document) {
   with_tables("film", [](Value& film) {  // as uncertain as its correlation
     if (!film.find("area") && !film.find("coefficient")) add_factor(film, "factor");
   });
-  for (auto const& entry : effect_catalogue())
+  for (auto const& entry : effect_catalogue()) {
+    with_tables(entry.name, [&](Value& table) { add_defaults(entry, table); });
     with_tables(entry.name, [&](Value& table) { add_numbers(document, entry.name, table, numbers); });
+  }
   for (std::string const kind : {"rotation", "displacement"})
     with_tables(kind, [&](Value& table) { add_growth(table, kind, document, numbers); });
   for (auto const& range : ranged_numbers(document)) set_range(document, range, numbers);

@@ -11,7 +11,8 @@ struct Compensation {
   template <class Fields>
   static void fields(Fields& f) {
     f.name("name", &Compensation::name, "unique among these");
-    f.name("displacement", &Compensation::displacement, "channel that the controller corrects");
+    f.name("displacement", &Compensation::displacement,
+           "channel that the controller corrects, or ball screw whose zero it shifts");
     f.name("at", &Compensation::at, "place of the sensor that the controller reads");
     f("gain", &Compensation::gain, dimension::growth_per_kelvin, "taken off per kelvin", Range{-5e-6, 5e-6});
   }
@@ -22,21 +23,25 @@ struct Compensation {
 }  // namespace
 
 Effect const& compensation_effect() {
-  static Effect const effect =
-      make_effect<Compensation>({"compensation",
-                                 "the controller's own compensation was left on while the error was measured",
-                                 "ΔE = −k (T_s − T_s(0))",
-                                 "deformation",
-                                 "a displacement channel; place of the controller's sensor",
-                                 "the displacement alone: collinear with one temperature, and all temperatures agree",
-                                 "physics.md §7 no. 34",
-                                 {34},
-                                 {"centrifugal_growth", "bearing_shift", "probe_drift"},
-                                 "compensation switched off; the controller's sensor warmed alone; steps of 1 um"},
-                                {{.amplitude = "gain",
-                                  .largest = 5e-6,
-                                  .either_sign = true,
-                                  .sites = {{"displacement", "displacement"}, {"at", "resting solid"}}}});
+  static Effect const effect = make_effect<Compensation>(
+      {"compensation",
+       "the controller's own compensation was left on while the error was measured",
+       "ΔE = −k (T_s − T_s(0))",
+       "deformation",
+       "a displacement channel, or all errors of position of a ball screw; place of the controller's sensor",
+       "the displacement alone: collinear with one temperature, and all temperatures agree",
+       "physics.md §7 no. 34",
+       {34},
+       {"centrifugal_growth", "bearing_shift", "probe_drift", "scale"},
+       "compensation switched off; the controller's sensor warmed alone; steps of 1 um"},
+      {{.amplitude = "gain",
+        .largest = 5e-6,
+        .either_sign = true,
+        .sites = {{"displacement", "displacement"}, {"at", "resting solid"}}},
+       {.amplitude = "gain",
+        .largest = 5e-6,
+        .either_sign = true,
+        .sites = {{"displacement", "screw"}, {"at", "resting solid"}}}});
   return effect;
 }
 

@@ -12,7 +12,8 @@ struct ProbeDrift {
   template <class Fields>
   static void fields(Fields& f) {
     f.name("name", &ProbeDrift::name, "unique among these");
-    f.name("displacement", &ProbeDrift::displacement, "channel whose probe or fixture drifts");
+    f.name("displacement", &ProbeDrift::displacement,
+           "channel whose probe or fixture drifts, or ball screw, for its laser");
     f("drift", &ProbeDrift::drift, dimension::speed, "steady, from the start of the run", Range{-1.4e-10, 1.4e-10});
     f("per_air", &ProbeDrift::per_air, dimension::growth_per_kelvin,
       "per kelvin of the air near the tool since the start", Range{-2e-6, 2e-6});
@@ -31,17 +32,19 @@ Effect const& probe_drift_effect() {
        "probe, electronics or fixture of a displacement drift",
        "y = E + b t + a (T_air − T_air(0))",
        "sensor",
-       "one displacement channel",
+       "one displacement channel, or all errors of position of a ball screw",
        "the displacement alone, with the spindle locked too: with time, or with the air near the fixture",
-       "physics.md 4, §7 no. 35",
-       {35},
-       {"compensation", "ambient_cycle", "displacement_step"},
+       "physics.md 4, §7 nos. 35 and 36",
+       {35, 36},
+       {"compensation", "ambient_cycle", "displacement_step", "laser_air"},
        "cap test: a fixed target before the same probes"},
       {{.amplitude = "drift",
         .largest = 0.5e-6 / 3600.0,
         .either_sign = true,
         .sites = {{"displacement", "displacement"}}},
-       {.amplitude = "per_air", .largest = 2e-6, .either_sign = true, .sites = {{"displacement", "displacement"}}}});
+       {.amplitude = "per_air", .largest = 2e-6, .either_sign = true, .sites = {{"displacement", "displacement"}}},
+       {.amplitude = "drift", .largest = 0.5e-6 / 3600.0, .either_sign = true, .sites = {{"displacement", "screw"}}},
+       {.amplitude = "per_air", .largest = 2e-6, .either_sign = true, .sites = {{"displacement", "screw"}}}});
   return effect;
 }
 
