@@ -312,6 +312,7 @@ struct BallScrewDescription {
   double youngs_modulus = 2.06e11;
   bool unilateral = true;
   double released_stiffness = 0.0;
+  double growth_factor = 1.0;
   std::vector<double> positions;
 
   template <class Fields>
@@ -334,6 +335,8 @@ struct BallScrewDescription {
     f("unilateral", &BallScrewDescription::unilateral, "the far bearing can only pull; false: holds both ways");
     f("released_stiffness", &BallScrewDescription::released_stiffness, dimension::dimensionless,
       "stiffness left when the pretension is gone, as a share", Range{0.0, 1.0});
+    f("growth_factor", &BallScrewDescription::growth_factor, dimension::dimensionless,
+      "of the screw's own growth: what it was seen to grow, of what its material does", Range{0.3, 3.0});
     f("positions", &BallScrewDescription::positions, dimension::length, "of the nut, from the start of the screw");
   }
 };

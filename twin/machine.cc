@@ -334,7 +334,7 @@ void MachineBuilder::read_screws() {
       screw.support = d.support == "fixed-free"    ? Support::fixed_free
                       : d.support == "fixed-fixed" ? Support::fixed_fixed
                                                    : Support::fixed_supported;
-      screw.expansion = metal.expansion;
+      screw.expansion = d.growth_factor * metal.expansion;
       screw.section_area =
           body.capacities[0] / (metal.density * metal.specific_heat * (body.edges[0][1] - body.edges[0][0]));
       screw.youngs_modulus = d.youngs_modulus;

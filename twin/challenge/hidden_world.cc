@@ -135,6 +135,17 @@ void vary_loops(Value& document, Variation& vary) {
     }
 }
 
+/// What a screw grows beyond what its material does.
+void vary_screws(Value& document, std::uint64_t seed, std::map<std::string, double>& drawn) {
+  RandomStream stream(seed, "screws");
+  Variation vary(document, stream, 1.0, drawn);
+  for (auto* table : tables_of(document, "ball_screw")) {
+    if (!table->find("growth_factor")) set_key(*table, "growth_factor", 1.0);
+    vary(*table, fmt::format("ball_screw.{}", name_in(*table)), "growth_factor", dimension::dimensionless,
+         capacity_spread);
+  }
+}
+
 void draw_sensors(Value& document, RandomStream& stream, std::map<std::string, double>& drawn) {
   for (auto* table : tables_of(document, "temperature_sensor")) {
     auto const set = [&](std::string const& key, double value, std::string const& text) {
@@ -375,6 +386,7 @@ HiddenWorld draw_hidden_world(Value const& nominal, std::uint64_t seed, CaseKind
   RefinedForm const form(nominal);
   world.healthy = vary_parameters(form.document(), seed, 1.0, world.drawn);
   vary_bars(world.healthy, seed, world.drawn);
+  vary_screws(world.healthy, seed, world.drawn);
   RandomStream sensors(seed, "sensors"), effects(seed, "effects");
   draw_sensors(world.healthy, sensors, world.drawn);
   world.hidden = world.healthy;

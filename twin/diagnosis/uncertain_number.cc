@@ -25,6 +25,7 @@ std::optional<double> deviation_of(std::string const& table, std::string const& 
   if (of == dimension::conductance || of == dimension::film_coefficient) return 0.30;
   if (of == dimension::power) return 0.25;
   if (key == "mass" || key == "heat_capacity" || key == "capacity_factor") return 0.10;
+  if (table == "ball_screw") return key == "growth_factor" ? std::optional(0.10) : std::nullopt;
   return std::nullopt;
 }
 
@@ -146,6 +147,10 @@ std::vector<UncertainNumber> uncertain_numbers(Value& document) {
   }
   for (std::string const kind : {"rotation", "displacement"})
     with_tables(kind, [&](Value& table) { add_growth(table, kind, document, numbers); });
+  with_tables("ball_screw", [&](Value& table) {
+    add_factor(table, "growth_factor");
+    add_numbers(document, "ball_screw", table, numbers);
+  });
   for (auto const& range : ranged_numbers(document)) set_range(document, range, numbers);
   return numbers;
 }

@@ -39,7 +39,8 @@ struct UncertainNumber {
 /// | area of a film, film coefficient         | 0.20      |
 /// | flow, resistance of a winding            | 0.20      |
 /// | mass, heat capacity, capacity_factor     | 0.10      |
-/// | growth of a segment of the loop          | 0.10      |
+/// | growth of a segment of the loop, or of a |           |
+/// | ball screw that has a name               | 0.10      |
 /// | offset of a coolant's inlet              | 0.3 K     |
 ///
 /// A conductance that a table leaves to its default is known no better than one that it states.
@@ -50,8 +51,8 @@ struct UncertainNumber {
 /// A number of which the file states a range (`[[uncertain]]`), of whatever kind but a temperature, stays within it,
 /// with the deviation of an even distribution there (JCGM 100:2008, 4.3.7).
 ///
-/// `document` gets a growth_factor, or a capacity_factor, of 1 wherever a segment or a bar has none, and defaults of
-/// conductances, so that every path can be set.
+/// `document` gets a growth_factor of 1 wherever a segment or a screw has none, a capacity_factor wherever a bar has
+/// none, and the defaults of conductances, so that every path can be set.
 [[nodiscard]] std::vector<UncertainNumber> uncertain_numbers(Value& document);
 
 }  // namespace thermotwin::twin
