@@ -50,6 +50,26 @@ TEST(DriftingSensor, IsNotOneThatTouchesBadly) {
     air_share = 0.03)")));
 }
 
+/// It may as well be the room's record that drifts.
+TEST(DriftingSensor, IsNoneInTheAir) {
+  EXPECT_FALSE(drifting(tests::with_table(tests::v450(), R"(
+    [[sensor_drift]]
+    name = "fault"
+    sensor = "T10"
+    drift = "-0.5 K/day")")));
+}
+
+/// One end of a column is warmer than the other for hours: what would be a drift of a sensor on the head is none there.
+TEST(DriftingSensor, IsToldOfALongCastingWhereItIsLargerOnly) {
+  auto const of = [](std::string const& sensor) {
+    return drifting(tests::with_table(
+        tests::v450(), "[[sensor_drift]]\nname = \"fault\"\nsensor = \"" + sensor + "\"\ndrift = \"0.4 K/day\"\n"));
+  };
+  ASSERT_TRUE(of("T6"));
+  EXPECT_EQ(of("T6")->name, "T6");
+  EXPECT_FALSE(of("T9"));
+}
+
 /// What pulls at many is no sensor's fault.
 TEST(DriftingSensor, IsNoneWhereManySeemToDrift) {
   Value truth = tests::v450();

@@ -183,5 +183,22 @@ TEST_F(Hypotheses, OfALagAreAlsoOfSomeSize) {
   }
 }
 
+/// Of a screw whose errors are read; a machine without one has none of these.
+TEST(Hypotheses, ErrorsOfPositionHaveScaleCompensationLaserAndItsAir) {
+  auto const labels = [](std::string const& machine) {
+    Value const document = read_toml(machine_file(machine));
+    std::set<std::string> all;
+    for (auto const& hypothesis : hypotheses(document, Machine::build(document))) all.insert(hypothesis.label());
+    return all;
+  };
+  auto const axis = labels("vmc850"), spindle = labels("v450");
+  for (std::string const expected : {"scale at E_P by bed", "compensation at E_P by head", "laser_air at E_P",
+                                     "probe_drift at E_P", "scale at E_P_fixed by column_top"})
+    EXPECT_TRUE(axis.contains(expected)) << expected;
+  EXPECT_FALSE(axis.contains("scale at E_P by lower_ring")) << "no scale sits on a ring";
+  for (auto const& label : spindle)
+    EXPECT_TRUE(!label.starts_with("scale") && !label.starts_with("laser_air")) << label;
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

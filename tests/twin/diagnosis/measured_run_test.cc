@@ -199,7 +199,8 @@ TEST(MeasuredRun, WhatMayHaveBeenGivenInAGapIsTheOtherExtremeInEachHalf) {
                                                    "z.feed from 0.90 h to 1.23 h, first half",
                                                    "z.feed from 0.90 h to 1.23 h, second half"));
   double const fastest = thermal::from_unit(6000.0, "rpm");
-  for (auto const& [name, course] : run.alternatives) {
+  for (auto const& [name, course, deviation] : run.alternatives) {
+    EXPECT_EQ(deviation, 0.7);
     bool const spindle = name.starts_with("spindle"), first = name.ends_with("first half");
     for (double const minute : {53.0, 58.0, 70.0, 75.0}) {
       bool const other = first ? minute == 58.0 : minute == 70.0;
@@ -209,6 +210,24 @@ TEST(MeasuredRun, WhatMayHaveBeenGivenInAGapIsTheOtherExtremeInEachHalf) {
           << name << minute;
       EXPECT_EQ(value_at(*course, "machine.on", t), 1.0);
     }
+  }
+}
+
+/// Of what goes along straight lines and changes at all.
+TEST(MeasuredRun, TheRoomMayHaveBeenThereBeforeItsRecord) {
+  auto dataset = simulated();
+  keep_inputs(dataset, {"spindle.speed", "ambient.temperature"});
+  auto& room = channel(dataset.inputs, "ambient.temperature").values;
+  room.setConstant(22.0);
+  EXPECT_TRUE(measured_run(dataset, machine(), "constant").alternatives.empty());
+  room = 20.0 + dataset.time_s.array() / 3600.0;
+  auto const run = measured_run(dataset, machine(), "rising");
+  ASSERT_EQ(run.alternatives.size(), 1U);
+  EXPECT_EQ(run.alternatives[0].name, "ambient.temperature 30 s before its record");
+  auto const at = [](thermal::Course const& course, double t) { return value_at(course, "ambient.temperature", t); };
+  for (double const t : {600.0, 2000.0}) {
+    EXPECT_NEAR(at(*run.alternatives[0].course, t), at(*run.course, t + 30.0), 1e-9);
+    EXPECT_EQ(value_at(*run.alternatives[0].course, "spindle.speed", t), value_at(*run.course, "spindle.speed", t));
   }
 }
 

@@ -61,11 +61,16 @@ TEST(UncertainNumbers, ABarsCapacityFactorIsAFactorOfItsCapacities) {
   }
 }
 
-TEST(UncertainNumbers, OfTheOtherMachinesAreTheNutsPreloadAndTheOilsFlowToo) {
+/// What a table leaves to its default, as the conductances of a nut, is not known better.
+TEST(UncertainNumbers, OfTheOtherMachinesAreNutsScrewsAndTheOilToo) {
   auto const of = [](std::string const& name) { return Uncertain(read_toml(machine_file(name))); };
   auto const axis = of("vmc850"), spindle = of("g200");
   for (auto const& [numbers, path, deviation] : {std::tuple{&axis, "ball_nut.nut.preload", 0.25},
                                                  {&axis, "feed_motor.motor.resistance", 0.20},
+                                                 {&axis, "ball_nut.nut.conductance_rest", 0.30},
+                                                 {&axis, "ball_nut.nut.conductance_speed", 0.30},
+                                                 {&axis, "ball_screw.E_P.growth_factor", 0.10},
+                                                 {&spindle, "coolant_flow.jacket.inlet_offset", 0.3},
                                                  {&spindle, "coolant_flow.jacket.flow", 0.20}}) {
     ASSERT_TRUE(numbers->find(path)) << path;
     EXPECT_EQ(numbers->find(path)->deviation, deviation) << path;
