@@ -128,8 +128,9 @@ void add_late_records(MeasuredRun& run, Experiment const& experiment, scenarios:
     auto const& driven = experiment.driven[k];
     auto const& values = driven.signal.values();
     auto const [low, high] = std::minmax_element(values.begin(), values.end());
+    bool const of_air = driven.channel.unit == "K" && driven.channel.name.starts_with("ambient.");
     bool const held = driven.signal.interpolation() == scenarios::Interpolation::step;
-    if (driven.channel.unit != "K" || held || *high - *low < least_swing) continue;
+    if (!of_air || held || *high - *low < least_swing) continue;
     auto earlier = driven.signal.times();
     for (double& t : earlier) t -= late_record;
     Experiment other = experiment;

@@ -34,7 +34,7 @@ struct AlternativeCourse {
 struct MeasuredRun {
   std::string name;
   std::shared_ptr<thermal::Course const> course;
-  /// Two of each gap in what is held between rows, one of each half; and one of each temperature.
+  /// Two of each gap in what is held between rows, one of each half; and one of the air.
   std::vector<AlternativeCourse> alternatives;
   std::vector<InputChange> changes;           ///< when its inputs changed, as far as the record tells
   Eigen::VectorXd time;                       ///< [s], strictly increasing

@@ -27,7 +27,7 @@ struct Scale {
 Effect const& scale_effect() {
   static Effect const effect = make_effect<Scale>(
       {"scale",
-       "an axis is measured against something that grows, or corrected in proportion to its position",
+       "the scale of an axis grows, or its position is corrected by a temperature",
        "ΔE(x) = −α x (T_s − T_s(0))",
        "deformation",
        "all errors of position of a ball screw; place of the scale or of the controller's sensor",

@@ -73,6 +73,7 @@ TEST_P(HypothesesOf, NameSitesThatTheMachineHas) {
   for (auto const& body : subject.machine.geometry) names.insert(body.name);
   for (auto const& sensor : subject.machine.sensors) names.insert(sensor.description.name);
   for (auto const& displacement : subject.machine.displacements) names.insert(displacement.name);
+  for (auto const& screw : subject.machine.screws) names.insert(screw.description.name);
   for (auto const& hypothesis : subject.all) EXPECT_TRUE(names.contains(hypothesis.body)) << text_of(hypothesis);
 }
 
@@ -184,7 +185,7 @@ TEST_F(Hypotheses, OfALagAreAlsoOfSomeSize) {
 }
 
 /// Of a screw whose errors are read; a machine without one has none of these.
-TEST(Hypotheses, ErrorsOfPositionHaveScaleCompensationLaserAndItsAir) {
+TEST_F(Hypotheses, ErrorsOfPositionHaveScaleCompensationLaserAndItsAir) {
   auto const labels = [](std::string const& machine) {
     Value const document = read_toml(machine_file(machine));
     std::set<std::string> all;

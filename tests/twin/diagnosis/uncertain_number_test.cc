@@ -180,8 +180,8 @@ TEST_P(UncertainNumbersOf, DoSomething) {
   };
   for (auto const& number : machine.numbers) {
     auto const d = differentiate(machine.document, number.path);
-    bool const heat =
-        any(d.network.capacity) || std::any_of(d.network.coefficients.begin(), d.network.coefficients.end(), any);
+    bool const heat = any(d.network.boundary_offset) || any(d.network.capacity) ||
+                      std::any_of(d.network.coefficients.begin(), d.network.coefficients.end(), any);
     bool const tool = std::any_of(d.displacements.begin(), d.displacements.end(), [](auto const& weights) {
       return std::any_of(weights.begin(), weights.end(), [](auto const& w) { return w.second != 0.0; });
     });
