@@ -24,8 +24,8 @@ namespace thermotwin::twin {
 void add_alternatives(MeasuredRun& run, std::vector<std::vector<RecordGap>> const& gaps,
                       scenarios::Experiment const& experiment, scenarios::MachineLimits const& limits);
 
-/// Adds the machine's course where temperatures of the air were recorded late: a thermometer in still air takes minutes.
-/// Of those that change at all.
+/// Adds the machine's course where temperatures of the air were recorded late: a thermometer in still air takes
+/// minutes. Of those that change at all.
 void add_late_records(MeasuredRun& run, scenarios::Experiment const& experiment,
                       scenarios::MachineLimits const& limits);
 
