@@ -237,7 +237,7 @@ void Assembly::displace(InputTerm term) {
 void Assembly::displace(TemperatureTerm term) {
   if (!std::isfinite(term.coefficient) || !std::isfinite(term.strain))
     throw InputError(fmt::format("the displacement '{}' would change by {} per kelvin of '{}'", term.displacement,
-                                 term.coefficient + term.strain, term.place.text));
+                                 std::isfinite(term.coefficient) ? term.strain : term.coefficient, term.place.text));
   temperature_terms_.push_back(std::move(term));
 }
 

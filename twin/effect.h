@@ -31,8 +31,8 @@ struct Trial {
   ///   solid, shaft, ring, motor   a stretch of a body; of one that turns; a bearing's outer ring or seat; with a loss
   ///   resting solid, casting      a stretch of a body that does not turn; of one with a material: no ring, no fluid
   ///   room surface, bare surface, base     with a film to the room; with one that does not radiate; carried by none
-  ///   sensor, displacement, screw, channel      an instrument; a channel of displacement; a ball screw of which errors
-  ///                               of position are read; a line of fluid
+  ///   sensor, displacement, channel        an instrument; a channel of displacement; a line of fluid
+  ///   screw, displacement or screw         a ball screw of which errors of position are read; either
   ///   bearing, nut                shaft and outer ring of a spindle bearing; nut and screw (and `axis`) of a drive
   ///   pair, wetted wall           two solids that no joint connects; what encloses a line of fluid
   struct Site {

@@ -89,15 +89,14 @@ void vary_capacities(Value& document, Variation& vary) {
              std::string(key) == "solidity" ? 1.0 : INFINITY);
 }
 
-/// What a drawing does not show of them.
-void vary_bars(Value& document, std::uint64_t seed, std::map<std::string, double>& drawn) {
-  RandomStream stream(seed, "bars");
+/// What a drawing does not show of them: a factor, 1 where the file has none, from a stream of its own.
+void vary_factor(Value& document, std::vector<std::string> const& kinds, std::string const& key, RandomStream stream,
+                 std::map<std::string, double>& drawn) {
   Variation vary(document, stream, 1.0, drawn);
-  for (std::string const kind : {"bar", "hollow_cylinder"})
+  for (auto const& kind : kinds)
     for (auto* table : tables_of(document, kind)) {
-      if (!table->find("capacity_factor")) set_key(*table, "capacity_factor", 1.0);
-      vary(*table, fmt::format("{}.{}", kind, name_in(*table)), "capacity_factor", dimension::dimensionless,
-           capacity_spread);
+      if (!table->find(key)) set_key(*table, key, 1.0);
+      vary(*table, fmt::format("{}.{}", kind, name_in(*table)), key, dimension::dimensionless, capacity_spread);
     }
 }
 
@@ -133,17 +132,6 @@ void vary_loops(Value& document, Variation& vary) {
         }
       }
     }
-}
-
-/// What a screw grows beyond what its material does.
-void vary_screws(Value& document, std::uint64_t seed, std::map<std::string, double>& drawn) {
-  RandomStream stream(seed, "screws");
-  Variation vary(document, stream, 1.0, drawn);
-  for (auto* table : tables_of(document, "ball_screw")) {
-    if (!table->find("growth_factor")) set_key(*table, "growth_factor", 1.0);
-    vary(*table, fmt::format("ball_screw.{}", name_in(*table)), "growth_factor", dimension::dimensionless,
-         capacity_spread);
-  }
 }
 
 void draw_sensors(Value& document, RandomStream& stream, std::map<std::string, double>& drawn) {
@@ -385,8 +373,8 @@ HiddenWorld draw_hidden_world(Value const& nominal, std::uint64_t seed, CaseKind
   world.seed = seed;
   RefinedForm const form(nominal);
   world.healthy = vary_parameters(form.document(), seed, 1.0, world.drawn);
-  vary_bars(world.healthy, seed, world.drawn);
-  vary_screws(world.healthy, seed, world.drawn);
+  vary_factor(world.healthy, {"bar", "hollow_cylinder"}, "capacity_factor", RandomStream(seed, "bars"), world.drawn);
+  vary_factor(world.healthy, {"ball_screw"}, "growth_factor", RandomStream(seed, "screws"), world.drawn);
   RandomStream sensors(seed, "sensors"), effects(seed, "effects");
   draw_sensors(world.healthy, sensors, world.drawn);
   world.hidden = world.healthy;

@@ -69,11 +69,14 @@ Sites::Sites(Value const& document, Machine const& machine) : document_(document
   add_channels();
   add_pairs();
   for (auto const& sensor : machine.sensors) add("sensor", {sensor.description.name, sensor.description.name});
+  auto const add_error = [&](std::string const& kind, std::string const& name) {
+    add(kind, {name, name});
+    add("displacement or screw", {name, name});
+  };
   for (auto const& channel : machine.displacements)
-    if (!channel.rotation) add("displacement", {channel.name, channel.name});
+    if (!channel.rotation) add_error("displacement", channel.name);
   for (auto const& screw : machine.screws)
-    if (screw.is_linear() && !screw.description.positions.empty())
-      add("screw", {screw.description.name, screw.description.name});
+    if (screw.is_linear() && !screw.description.positions.empty()) add_error("screw", screw.description.name);
 }
 
 void Sites::add(std::string const& kind, Candidate candidate) {

@@ -24,8 +24,7 @@ std::optional<double> deviation_of(std::string const& table, std::string const& 
   if (table == "film" && (key == "area" || key == "coefficient" || key == "factor")) return 0.20;
   if (of == dimension::conductance || of == dimension::film_coefficient) return 0.30;
   if (of == dimension::power) return 0.25;
-  if (key == "mass" || key == "heat_capacity" || key == "capacity_factor") return 0.10;
-  if (table == "ball_screw") return key == "growth_factor" ? std::optional(0.10) : std::nullopt;
+  if (key == "mass" || key == "heat_capacity" || key == "capacity_factor" || key == "growth_factor") return 0.10;
   return std::nullopt;
 }
 

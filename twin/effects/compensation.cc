@@ -37,11 +37,7 @@ Effect const& compensation_effect() {
       {{.amplitude = "gain",
         .largest = 5e-6,
         .either_sign = true,
-        .sites = {{"displacement", "displacement"}, {"at", "resting solid"}}},
-       {.amplitude = "gain",
-        .largest = 5e-6,
-        .either_sign = true,
-        .sites = {{"displacement", "screw"}, {"at", "resting solid"}}}});
+        .sites = {{"displacement", "displacement or screw"}, {"at", "resting solid"}}}});
   return effect;
 }
 

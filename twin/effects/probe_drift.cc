@@ -41,10 +41,11 @@ Effect const& probe_drift_effect() {
       {{.amplitude = "drift",
         .largest = 0.5e-6 / 3600.0,
         .either_sign = true,
-        .sites = {{"displacement", "displacement"}}},
-       {.amplitude = "per_air", .largest = 2e-6, .either_sign = true, .sites = {{"displacement", "displacement"}}},
-       {.amplitude = "drift", .largest = 0.5e-6 / 3600.0, .either_sign = true, .sites = {{"displacement", "screw"}}},
-       {.amplitude = "per_air", .largest = 2e-6, .either_sign = true, .sites = {{"displacement", "screw"}}}});
+        .sites = {{"displacement", "displacement or screw"}}},
+       {.amplitude = "per_air",
+        .largest = 2e-6,
+        .either_sign = true,
+        .sites = {{"displacement", "displacement or screw"}}}});
   return effect;
 }
 

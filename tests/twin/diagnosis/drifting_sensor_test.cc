@@ -60,7 +60,7 @@ TEST(DriftingSensor, IsNoneInTheAir) {
 }
 
 /// One end of a column is warmer than the other for hours: what would be a drift of a sensor on the head is none there.
-TEST(DriftingSensor, IsToldOfALongCastingWhereItIsLargerOnly) {
+TEST(DriftingSensor, IsNotToldOfALongCastingAsSoonAsOfAHead) {
   auto const of = [](std::string const& sensor) {
     return drifting(tests::with_table(
         tests::v450(), "[[sensor_drift]]\nname = \"fault\"\nsensor = \"" + sensor + "\"\ndrift = \"0.4 K/day\"\n"));
