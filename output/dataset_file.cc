@@ -88,14 +88,16 @@ void DatasetWriter::set_positioning(std::vector<Positioning> measured, std::vect
   dataset_.truth_positioning = std::move(truth);
 }
 
-void DatasetWriter::set_measured(std::vector<Channel> readings, std::vector<Channel> displacements) {
-  for (auto const* channels : {&readings, &displacements})
+void DatasetWriter::set_measured(std::vector<Channel> readings, std::vector<Channel> displacements,
+                                 std::vector<Channel> truth_displacements) {
+  for (auto const* channels : {&readings, &displacements, &truth_displacements})
     for (auto const& channel : *channels)
       if (channel.values.size() != rows_)
         throw thermal::InputError(
             fmt::format("'{}' has {} values for {} rows", channel.name, channel.values.size(), rows_));
   dataset_.readings = std::move(readings);
   dataset_.displacements = std::move(displacements);
+  dataset_.truth_displacements = std::move(truth_displacements);
 }
 
 Dataset DatasetWriter::finish(std::map<std::string, std::string> const& provenance) {

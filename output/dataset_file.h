@@ -13,15 +13,17 @@ namespace thermotwin::output {
 
 /// Data sets as HDF5 that others can open (xarray with `engine="h5netcdf"`, netCDF4, h5py, MATLAB, ParaView).
 ///
-/// | place                                  | holds                                                                 |
-/// |----------------------------------------|-----------------------------------------------------------------------|
-/// | `/`                                    | attributes `title`, `Conventions`, `source`, `complete` (1, or 0:
-/// partial) | | `/time`                                | s from the start; the dimension `time` of everything below,
-/// unlimited  | | `/inputs`, `/readings`, `/displacements`, `/heat` | a variable per channel, double, missing = NaN |
-/// | `/truth/readings`, `/truth/displacements` | the same without noise                                             |
-/// | `/positioning/<axis>`, `/truth/positioning/<axis>` | `forward`, `backward` [um] over `pass_time` [s] × `position`
-/// [mm] | | `/nodes`                               | `temperature` [degC], float, over `time` × `node`; `node` holds
-/// the names | | `/provenance`                          | attributes; a text beyond 60,000 bytes is a variable |
+/// | place                              | holds                                                              |
+/// |------------------------------------|--------------------------------------------------------------------|
+/// | `/`                                | attributes `title`, `Conventions`, `source`, `complete` (0: partial) |
+/// | `/time`                            | s from the start; the dimension `time` of everything below         |
+/// | `/inputs`, `/readings`,            | a variable per channel, double, missing = NaN                      |
+/// | `/displacements`, `/heat`          |                                                                    |
+/// | `/truth/readings`, …               | the same without noise                                             |
+/// | `/positioning/<axis>`,             | `forward`, `backward` [um] over `pass_time` [s] × `position` [mm]  |
+/// | `/truth/positioning/<axis>`        |                                                                    |
+/// | `/nodes`                           | `temperature` [degC], float, over `time` × `node`, with the names  |
+/// | `/provenance`                      | attributes; a text beyond 60,000 bytes is a variable               |
 ///
 /// Every variable has `units` and `long_name`. Each group shows `time` too (a link, no copy), so that opening one group
 /// alone gives its time axis. Channels keep their order. The same data give the same bytes: no dates are stored.
@@ -56,8 +58,8 @@ struct Row {
 class DatasetWriter {
  public:
   /// `head` has everything but the rows: title, channels, node names, provenance so far; its time is empty.
-  /// Writes the empty partial file at once, so that a directory that cannot be written is told before the run; with its
-  /// first row it takes the place of a partial file of an interrupted run. OutputError when anything else has that
+  /// Writes the empty partial file at once, so that a directory that cannot be written is told before the run; a partial
+  /// file of an interrupted run stays until the first row takes its place. OutputError when anything else has that
   /// name. With no time between checkpoints every row is one.
   DatasetWriter(std::filesystem::path path, Dataset head,
                 std::chrono::duration<double> between_checkpoints = std::chrono::seconds(5));
@@ -68,9 +70,11 @@ class DatasetWriter {
   /// Time must be later than the last row's. thermal::InputError when a part has not as many values as channels.
   void append(Row const& row);
 
-  /// What the instruments showed, once the whole course is known; until then those channels are missing (NaN).
+  /// What the instruments showed, once the whole course is known; until then those channels are missing (NaN). A nest
+  /// of probes adds channels of its own, and their truth.
   /// Every channel must have a value for each row so far; thermal::InputError otherwise.
-  void set_measured(std::vector<Channel> readings, std::vector<Channel> displacements);
+  void set_measured(std::vector<Channel> readings, std::vector<Channel> displacements,
+                    std::vector<Channel> truth_displacements);
   void set_positioning(std::vector<Positioning> measured, std::vector<Positioning> truth);
 
   /// Writes the file with what became known at the end (solver summary, energy balance) and gives the data set back.

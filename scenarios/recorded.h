@@ -57,9 +57,8 @@ struct DrivenChannel {
 std::vector<DrivenChannel> read_recordings(std::vector<Recording> const& recordings,
                                            std::filesystem::path const& directory, double duration);
 
-/// The file's name with ${NAME} replaced by the environment's value (relative values start at the working directory)
-/// and
-/// ${NAME:-default} by the default where there is none (relative defaults start at `directory`).
+/// The file's name with ${NAME} replaced by the environment's value, and ${NAME:-default} by the default where there is
+/// none. Relative values start at the working directory, relative defaults at `directory`.
 std::filesystem::path resolved_path(std::string_view file, std::filesystem::path const& directory);
 
 }  // namespace thermotwin::scenarios

@@ -45,7 +45,7 @@ double median_step(std::vector<double> const& values, std::size_t apart = 1) {
 
 bool is_held(SampledInput const& input, std::vector<double> const& values) {
   if (input.interpolation != "automatic") return input.interpolation == "step";
-  if (input.absolute_temperature || input.unit == "s" || input.name.ends_with(".position") ||
+  if (is_temperature(input) || input.unit == "s" || input.name.ends_with(".position") ||
       input.name.ends_with(".revolutions") || input.name.starts_with("clock."))
     return false;
   auto const dimension = thermal::dimension_of(input.unit);
@@ -140,7 +140,7 @@ std::vector<double> recorded_times(SampledInput const& input) {
 DrivenChannel driven_channel(SampledInput const& input) {
   Course samples = finite_part(input);
   bool const held = is_held(input, samples.values);
-  if (!held && input.absolute_temperature) samples.values = without_noise(samples.times, samples.values);
+  if (!held && is_temperature(input)) samples.values = without_noise(samples.times, samples.values);
   Course const course = held ? blocks(samples) : means(samples, input.average);
   Interpolation const between = held ? Interpolation::step : Interpolation::linear;
   return {{input.name, input.unit, "measured"}, Signal(course.times, course.values, between)};

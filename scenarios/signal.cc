@@ -84,7 +84,10 @@ Signal Signal::running() const {
   return {times, states, Interpolation::step};
 }
 
-double Signal::piece_start(double t) const { return std::max(0.0, times_[piece(t)]); }
+double Signal::piece_start(double t) const {
+  auto const k = piece(t);
+  return k == 0 ? 0.0 : std::max(0.0, times_[k]);  // what was before the first breakpoint is as it
+}
 
 double Signal::largest_magnitude() const {
   double largest = 0.0;

@@ -51,7 +51,7 @@ void RunCommand::add_to(CLI::App& command) {
   command.add_option("--picture", picture, "PNG of the last frame; needs a display, or xvfb-run");
   command.add_option("--set", settings,
                      "change a parameter: bearing.front.grease_factor=0.8, experiment.duration=\"2 h\"");
-  command.add_option("--tolerance", tolerance, "relative tolerance of the integration")
+  command.add_option("--tolerance", tolerance, "relative tolerance of the integration; --reduced has its own")
       ->capture_default_str()
       ->check(number_between(finest_tolerance, coarsest_tolerance));
   command.add_option("--checkpoint", checkpoint,

@@ -38,7 +38,7 @@ struct Trial {
   struct Site {
     std::string key;
     std::string kind;
-    std::string other = {};  ///< key of the second place, of the last three kinds; empty: it has none
+    std::string other = {};  ///< key of the second place, of bearing, nut and pair; empty: it has none
   };
   std::string amplitude = {};  ///< key of the number that grows from nothing; the flows are linear in it
   double largest = 0.0;        ///< plausible upper end of the amplitude [SI]

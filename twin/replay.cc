@@ -71,6 +71,15 @@ std::string difference(std::string const& group, std::vector<output::Channel> co
   return text;
 }
 
+/// Each direction of each axis, pass after pass.
+std::vector<output::Channel> channels_of(std::vector<output::Positioning> const& axes) {
+  std::vector<output::Channel> channels;
+  for (auto const& axis : axes)
+    for (auto const& [direction, errors] : {std::pair{"forward", &axis.forward_um}, {"backward", &axis.backward_um}})
+      channels.push_back({axis.axis + " " + direction, "um", "", errors->reshaped()});
+  return channels;
+}
+
 std::string differences(output::Dataset const& a, output::Dataset const& b) {
   std::string text;
   for (auto const& [key, value] : a.provenance)
@@ -82,7 +91,9 @@ std::string differences(output::Dataset const& a, output::Dataset const& b) {
           difference("displacement", a.displacements, b.displacements) +
           difference("true reading", a.truth_readings, b.truth_readings) +
           difference("true displacement", a.truth_displacements, b.truth_displacements) +
-          difference("heat", a.heat, b.heat);
+          difference("heat", a.heat, b.heat) + difference("positioning", channels_of(a.positioning), channels_of(b.positioning)) +
+          difference("true positioning", channels_of(a.truth_positioning), channels_of(b.truth_positioning));
+  if (a.node_temperatures != b.node_temperatures) text += "  node temperatures: not the same\n";
   return text.empty() ? "  only what stands around these numbers\n" : text;
 }
 

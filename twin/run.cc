@@ -243,7 +243,7 @@ output::Dataset Recorder::finish(std::map<std::string, std::string> const& prove
   measure(history_, experiment_, dataset_);
   for (auto const& [key, text] : provenance) dataset_.provenance[key] = text;
   if (writer_) {
-    writer_->set_measured(dataset_.readings, dataset_.displacements);
+    writer_->set_measured(dataset_.readings, dataset_.displacements, dataset_.truth_displacements);
     writer_->set_positioning(dataset_.positioning, dataset_.truth_positioning);
     writer_->finish(dataset_.provenance);
   }

@@ -30,6 +30,8 @@ Parameter find_number(Value const& document, std::string_view path) {
         fmt::format("parameter '{}': '{}' is not given in the file; give it there or with --set; {}", path, key,
                     thermal::did_you_mean(key, table->keys())));
   if (double const* number = std::get_if<double>(&value->content)) return {std::string(path), *number, {}, false};
+  if (auto const* whole = std::get_if<std::int64_t>(&value->content))
+    return {std::string(path), double(*whole), {}, false};
   if (!value->is_text())
     throw thermal::InputError(fmt::format(
         "parameter '{}' is {}; only a number, with or without unit, has a sensitivity", path, value->kind()));
@@ -42,10 +44,10 @@ void set_number(Value& document, Parameter const& parameter, double number) {
   auto& content = table->find(key)->content;
   if (parameter.absolute_temperature)
     content = thermal::format_temperature(number);
-  else if (std::holds_alternative<double>(content))
-    content = number;
-  else
+  else if (std::holds_alternative<std::string>(content))
     content = thermal::format_quantity(number, parameter.dimension);
+  else
+    content = number;
 }
 
 Value with_number(Value document, Parameter const& parameter, double number) {

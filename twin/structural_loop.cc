@@ -99,6 +99,8 @@ void StructuralLoop::add(DisplacementDescription const& description, bool rotati
                                  [](LoopSegment const& segment) { return segment.against.empty(); });
   if (rotation && !description.base && grows)
     throw InputError(fmt::format("rotation '{}': 'base' is missing", description.name));
+  if (!rotation && description.base)
+    throw InputError(fmt::format("displacement '{}' has a 'base'; only a [[rotation]] has one", description.name));
   for (auto const& segment : description.segment) add_segment(channel, description, segment);
   for (auto const& influence : description.influence)
     add_influence(channel.weights, machine_file_, influence, description.direction, assembly_.body(influence.body),

@@ -45,8 +45,6 @@ std::vector<Seam> const seams = {
     {"HDF5", std::regex("(hdf5|H5).*"), std::regex("output/hdf5[^/]*\\.cc")},
     {"VTK", std::regex("vtk.*"), std::regex("output/vtk[^/]*\\.cc")},
     {"toml++", std::regex("toml(\\+\\+|plusplus).*"), std::regex("twin/file/toml[^/]*\\.cc")},
-    {"Eigen's unsupported modules", std::regex("unsupported/Eigen/.*"),
-     std::regex("twin/diagnosis/discretisation\\.cc")},
     {"zlib", std::regex("zlib\\.h"), std::regex("output/(report_page|checksum)\\.cc")},
     {"CLI11", std::regex("CLI/.*"), std::regex("twin/(main|command_line[^/]*)\\.cc")},
 };

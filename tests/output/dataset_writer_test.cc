@@ -165,10 +165,10 @@ TEST(DatasetWriter, TakesWhatTheInstrumentsShowedAtTheEnd) {
   DatasetWriter writer(directory / "run.h5", head());
   for (int i = 0; i < 3; ++i) writer.append(row_at(i));
   Channel measured{"T1", "degC", "front", Eigen::Vector2d(20.0, 21.0)};
-  EXPECT_THAT([&] { writer.set_measured({measured}, {}); },
+  EXPECT_THAT([&] { writer.set_measured({measured}, {}, {}); },
               ThrowsMessage<InputError>(HasSubstr("'T1' has 2 values for 3 rows")));
   measured.values = Eigen::Vector3d(20.0, 21.0, 22.0);
-  writer.set_measured({measured}, {});
+  writer.set_measured({measured}, {}, {});
   writer.finish();
   EXPECT_EQ(read(directory / "run.h5").readings[0].values, measured.values);
 }

@@ -77,6 +77,23 @@ TEST(SampledInput, AStaircaseIsTakenAtItsWord) {
   expect_word_for_word(programme(times, values));
 }
 
+/// A log in kelvin is a log of temperatures.
+TEST(SampledInput, TemperaturesAreSmoothedWhateverTheirUnit) {
+  Record record;
+  record.add(120, 295.0, 0.0, 0.05);
+  record.input.name = "ambient.temperature";
+  record.input.unit = "K";
+  Signal const kelvin = driven_channel(record.input).signal;
+  record.input.absolute_temperature = true;
+  Signal const celsius = driven_channel(record.input).signal;
+  double rough = 0.0;
+  for (std::size_t i = 0; i < record.input.times.size(); ++i) {
+    EXPECT_EQ(kelvin.at(record.input.times[i]), celsius.at(record.input.times[i]));
+    rough = std::max(rough, std::abs(kelvin.at(record.input.times[i]) - 295.0));
+  }
+  EXPECT_LT(rough, 0.05);
+}
+
 /// Of 3 % of the largest, as of a motor's load.
 TEST(SampledInput, CoarseNoiseIsStillNoise) {
   Record record;

@@ -403,6 +403,10 @@ TEST(Campaign, MistakesAreToldWithTheirPlace) {
             std::string::npos);
   EXPECT_NE(refusal(changed("golden_b_6000", "etve")).find("give 'every'"), std::string::npos);
   EXPECT_NE(refusal(changed("count = 2", "count = 1000000000")).find("at most"), std::string::npos);
+  EXPECT_NE(refusal(changed("golden_b_6000", "golden_b_6000\"]\nrepetitions = 1\n[latin_hypercube]\nvary = [{path = "
+                                             "\"bearing.rear.grease_factor\", from = 1, to = 2}]\nseed = 1\n#"))
+                .find("[latin_hypercube] needs 'count'"),
+            std::string::npos);
   EXPECT_NE(refusal(changed("part = 7", "prt = 7")).find("unknown key 'prt'; did you mean 'part'?"), std::string::npos);
 }
 

@@ -216,6 +216,17 @@ segment = [{ of = "head", length = "1 m" }]
               HasSubstr("rotation 'A': 'base' is missing"));
 }
 
+/// It would divide what grows.
+TEST(Displacement, OnlyARotationHasABase) {
+  EXPECT_THAT(message_of(R"(
+[[displacement]]
+name = "E_Z"
+base = "500 mm"
+segment = [{ of = "head", length = "1 m" }]
+)"),
+              HasSubstr("displacement 'E_Z' has a 'base'; only a [[rotation]] has one"));
+}
+
 constexpr char const* axial = R"(
 [[displacement]]
 name = "E_Z"

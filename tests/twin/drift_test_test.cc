@@ -1,6 +1,7 @@
 #include "twin/drift_test.h"
 
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
 
@@ -42,6 +43,13 @@ Value with_nest() {
   return parse_toml(tests::contents(machine_file("v450")) + "\n[five_probe_nest]\nbar_points_to = \"-z\"\n" +
                         "[five_probe_nest.radial]\n" + noisy_probe + "[five_probe_nest.axial]\n" + noisy_probe,
                     "v450");
+}
+
+TEST(DriftTest, TheProbesOfANestHaveNamesOfTheirOwn) {
+  auto const text = tests::contents(machine_file("v450")) + "\n[[displacement]]\nname = \"X1\"\nsegment = [{of = "
+                    "\"column_front\", length = \"1 m\"}]\n[five_probe_nest]\nbar_points_to = \"-z\"\n";
+  EXPECT_THAT([&] { static_cast<void>(Machine::build(parse_toml(text, "v450"))); },
+              testing::ThrowsMessage<FileError>(testing::HasSubstr("no displacement may have its name")));
 }
 
 /// What perfect instruments would have shown.

@@ -46,6 +46,20 @@ TEST(Replay, NeedsNoneOfTheFilesNotEvenTheWeightsOfANeighbour) {
   EXPECT_TRUE(again.same_bytes) << again.text;
 }
 
+/// What is kept on disk is what was measured, with the truth of each probe of a nest.
+TEST(Replay, OfANestHasTheTruthOfItsProbes) {
+  TemporaryDirectory const directory;
+  put(directory / "nest.toml", contents(machine_file("v450")) + "\n[five_probe_nest]\nbar_points_to = \"-z\"\n");
+  put(directory / "experiment.toml", "machine = \"nest.toml\"\nduration = \"2 min\"\n");
+  make_run(directory / "nest.toml", directory / "experiment.toml", directory / "run.h5");
+  auto const kept = output::read(directory / "run.h5");
+  ASSERT_EQ(kept.truth_displacements.size(), kept.displacements.size());
+  for (std::size_t c = 0; c < kept.displacements.size(); ++c)
+    EXPECT_EQ(kept.truth_displacements[c].name, kept.displacements[c].name);
+  auto const again = replay(directory / "run.h5", {}, {}, nullptr);
+  EXPECT_TRUE(again.same_bytes) << again.text;
+}
+
 TEST(Replay, DoesNotMakeAReducedRunAnew) {
   TemporaryDirectory const directory;
   output::Dataset reduced;

@@ -91,6 +91,17 @@ TEST(Sensitivity, OfADisplacementWeightIsTheLength) {
   }
 }
 
+/// `grease_factor = 1` says what `1.0` does.
+TEST(Sensitivity, AWholeNumberIsANumber) {
+  Value document = v450();
+  auto const grease = [&](auto value) {
+    auto const [table, key] = find_parameter(document, "bearing.front.grease_factor");
+    table->find(key)->content = value;
+    return differentiate(document, "bearing.front.grease_factor").network.coefficients;
+  };
+  EXPECT_EQ(grease(std::int64_t{1}), grease(1.0));
+}
+
 TEST(Sensitivity, RefusesWhatIsNoNumber) {
   auto const document = v450();
   EXPECT_THROW((void)differentiate(document, "bearing.front.oil"), thermal::InputError);

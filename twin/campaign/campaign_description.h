@@ -6,6 +6,7 @@
 
 #include "thermal/units.h"
 #include "twin/file/schema.h"
+#include "twin/run.h"
 
 namespace thermotwin::twin {
 
@@ -95,7 +96,7 @@ struct CampaignDescription {
       "what stays of each run: readings, displacements, inputs, truth (both without the instruments' errors), summary "
       "(first, last, lowest and highest of both)");
     f("tolerance", &CampaignDescription::tolerance, thermal::dimension::dimensionless,
-      "relative tolerance of the integration", Range{0.0});
+      "relative tolerance of the integration; a reduced model has its own", Range{finest_tolerance, coarsest_tolerance});
     f("part", &CampaignDescription::part, "runs per file; default: a 256th of all, at most 1000", Range{0.0, 1e6});
   }
 };

@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_values_tried = 20;
 constexpr double most_runs = 1e9;
+constexpr std::size_t most_letters = 50'000;  // of words; HDF5 takes 64 KiB for an attribute
 
 /// Beside the campaign's file, or as the command line takes it.
 template <class Shipped>
@@ -103,6 +104,13 @@ CampaignParameter grid_parameter(Value const& table, GridDescription const& grid
       parameter.numeric = parameter.numeric && unit == parameter.unit;
     }
     if (!parameter.numeric) parameter.unit.clear();
+    std::size_t letters = 0;
+    for (auto const& value : grid.values) letters += value.size();
+    if (!parameter.numeric && letters > most_letters)
+      throw FileError(place_of_key(table, "values"),
+                      fmt::format("values that are words may have {} letters, not {}: the campaign's file names each of "
+                                  "them beside its numbers",
+                                  most_letters, letters));
     return parameter;
   }
   if (grid.count < 1) throw FileError(table.where, "give either 'values', or 'from', 'to' and 'count' from 1 on");
@@ -154,6 +162,8 @@ void Campaign::read_parameters(Value const& document) {
     grid.push_back(grid_parameter(tables(document, "grid")[g], description.grid[g]));
   if (!description.latin_hypercube) return;
   Value const& latin = *document.find("latin_hypercube");
+  if (description.latin_hypercube->count < 1)
+    throw FileError(latin.where, "[latin_hypercube] needs 'count', how many samples, from 1 on");
   auto const& varied = description.latin_hypercube->vary;
   for (std::size_t v = 0; v < varied.size(); ++v) {
     Value const& table = tables(latin, "vary")[v];

@@ -35,12 +35,16 @@ std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machin
   return unit_of(*of_zero, machine);
 }
 
+/// Whether it is a number, or of an instrument: what the tables show.
+bool is_shown(Unknown const& unknown) {
+  return !is_beyond_a_file(unknown.kind) && unknown.kind != Unknown::Kind::moment &&
+         unknown.kind != Unknown::Kind::moments;
+}
+
 void add_estimates(Calibration& calibration, Estimation const& estimation, Fit const& fit, Machine const& machine) {
   auto const& unknowns = estimation.unknowns();
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
-    using Kind = Unknown::Kind;
-    if (is_beyond_a_file(unknowns[u].kind) || unknowns[u].kind == Kind::moment || unknowns[u].kind == Kind::moments)
-      continue;
+    if (!is_shown(unknowns[u])) continue;
     auto const i = Eigen::Index(u);
     double const deviation = std::sqrt(fit.covariance(i, i));
     if (unknowns[u].kind != Unknown::Kind::number) {
@@ -58,6 +62,7 @@ std::vector<std::vector<std::string>> inseparable(std::vector<Unknown> const& un
   std::iota(group.begin(), group.end(), std::size_t{0});
   for (std::size_t a = 0; a < unknowns.size(); ++a)
     for (std::size_t b = a + 1; b < unknowns.size(); ++b) {
+      if (!is_shown(unknowns[a]) || !is_shown(unknowns[b])) continue;
       auto const i = Eigen::Index(a), j = Eigen::Index(b);
       double const covariance = fit.covariance(i, j);
       if (std::abs(covariance) > tied * std::sqrt(fit.covariance(i, i) * fit.covariance(j, j)))

@@ -53,7 +53,8 @@ ComparedChannel compare_channel(MeasuredChannel const& channel, std::string cons
 }
 
 ComparedRun compare_run(Machine const& before, Machine const& after, MeasuredRun const& run) {
-  auto const regimes = speed_regimes(run, run.time);
+  auto regimes = speed_regimes(run, run.time);
+  if (regimes.names.size() == 1) regimes.names.clear();  // it is the whole run
   Eigen::MatrixXd const was = predict(before, run), is = predict(after, run);
   ComparedRun result{run.name, regimes.names, {}, run.remarks};
   for (std::size_t c = 0; c < run.channels.size(); ++c)

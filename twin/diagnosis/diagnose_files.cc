@@ -12,22 +12,9 @@
 namespace thermotwin::twin {
 namespace {
 
-/// The explanation whose best alternative is this effect.
-Explanation const* explanation_of(Diagnosis const& diagnosis, Hypothesis const& effect) {
-  auto const it =
-      std::find_if(diagnosis.explanations.begin(), diagnosis.explanations.end(), [&](Explanation const& explanation) {
-        if (explanation.alternatives.empty()) return false;
-        auto const& best = explanation.alternatives[0].hypothesis;
-        return best.label() == effect.label() && best.trial == effect.trial;
-      });
-  return it == diagnosis.explanations.end() ? nullptr : &*it;
-}
-
-std::string origin_of(Diagnosis const& diagnosis, Hypothesis const& effect, RunFiles const& data) {
+std::string origin_of(Explanation const& explanation, Hypothesis const& effect, RunFiles const& data) {
   std::string text = fmt::format("Diagnosed from {}: {}, at {}.", names_of(data), effect.effect->meaning, effect.site);
-  Explanation const* explanation = explanation_of(diagnosis, effect);
-  if (!explanation) return text;
-  auto const& all = explanation->alternatives;
+  auto const& all = explanation.alternatives;
   text += fmt::format("\n2 ln of the evidence against the machine without it: {:.0f}.", all[0].strength);
   if (all.size() == 1) return text;
   text += fmt::format(" One of {}, which these data do not tell apart:", all.size());
@@ -41,15 +28,13 @@ AddedTable table_of(Diagnosis const& diagnosis, std::size_t u, RunFiles const& d
   auto const& effect = diagnosis.effects[number];
   auto const i = Eigen::Index(u);
   double const amplitude = diagnosis.written.x[i] * effect.largest;
-  Explanation const* explanation = explanation_of(diagnosis, effect);
-  double const error = std::sqrt(diagnosis.written.covariance(i, i)) * effect.largest;
+  auto const& explanation = diagnosis.explanations[number];  // in the order of the effects
   std::string const unit = readable_unit(amplitude, effect.dimension());
-  AddedTable table{effect.effect->name, {}, origin_of(diagnosis, effect, data)};
+  AddedTable table{effect.effect->name, {}, origin_of(explanation, effect, data)};
   for (auto const& [key, text] : table_of(effect, fmt::format("diagnosed_{}", number + 1), amplitude))
     if (key == effect.trial->amplitude)
       table.keys.push_back(
-          {key, written_value(amplitude, unit),
-           explanation ? explanation->alternatives[0].interval_text(unit) : written_interval(error, unit)});
+          {key, written_value(amplitude, unit), explanation.alternatives[0].interval_text(unit)});
     else
       table.keys.push_back({key, text, ""});
   return table;

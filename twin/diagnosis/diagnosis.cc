@@ -222,6 +222,7 @@ void Diagnostician::find_where() {
     }
     return tell_where(heat);
   }
+  if (diagnosis_.effects.empty()) return;
   auto const& amended = search_.estimation();
   Eigen::VectorXd x = diagnosis_.amended.x;
   x.tail(Eigen::Index(diagnosis_.effects.size())).setConstant(as_good_as_none);

@@ -27,7 +27,7 @@ struct Diagnosis {
   std::vector<Disagreement> disagreement;
   std::vector<Disagreement> disagreement_left;  ///< of the amended one; empty where nothing was added
   std::vector<Explanation> explanations;        ///< of `none_known`: what stands in for it, and does not suffice
-  /// Bodies that the missing heat enters, and whether it does so while the spindle turns or while it stands.
+  /// Bodies that the missing heat enters, and whether it does so while the machine moves or while it stands.
   std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`, where it is heat
   HeatBySpeed unknown_heat_by_speed;

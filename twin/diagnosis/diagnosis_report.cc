@@ -116,13 +116,18 @@ std::size_t widest(Rows const& rows, std::size_t least, Name const& name) {
 /// A number of a table, or "-" where a dead channel has none.
 std::string in_column(double number) { return std::isnan(number) ? "-" : fmt::format("{:.3f}", number); }
 
-/// Where and when: of each channel that disagrees significantly, the speed at which it does so most.
+/// Where and when: of each channel that disagrees significantly, the speed at which it does so most; where there is
+/// none, the hours.
 std::string words_of(std::vector<Disagreement> const& cells, bool something_is_missing) {
   std::map<std::string, Disagreement const*> worst;
-  for (auto const& cell : cells) {
-    if (!cell.significant || cell.cut == "time") continue;
-    auto& most = worst[cell.channel];
-    if (!most || cell.power > most->power) most = &cell;
+  for (bool const hours : {false, true}) {
+    std::map<std::string, Disagreement const*> here;
+    for (auto const& cell : cells) {
+      if (!cell.significant || (cell.cut == "time") != hours) continue;
+      auto& most = here[cell.channel];
+      if (!most || cell.power > most->power) most = &cell;
+    }
+    worst.merge(here);
   }
   if (worst.empty())
     return something_is_missing
@@ -391,9 +396,10 @@ std::string report_json(DiagnosisReport const& report) {
   }
   json["proposals"] = Json::array();
   for (auto const& proposal : diagnosis.proposals)
-    json["proposals"].push_back({{"schedule", proposal.schedule},
+    json["proposals"].push_back({{"experiment", proposal.schedule},
+                                 {"file", proposal.file.string()},
                                  {"hours", proposal.hours},
-                                 {"sensor", proposal.sensor},
+                                 {"added_sensor", proposal.sensor},
                                  {"distance", proposal.distance}});
   json["estimates"] = Json::array();
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {

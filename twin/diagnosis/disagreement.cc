@@ -88,7 +88,7 @@ std::vector<Disagreement> disagreements(Estimation const& estimation, Eigen::Vec
       auto const residual =
           residual_of(residuals[r].col(Eigen::Index(c)), run, Eigen::Index(c), estimation.noise()[std::size_t(place)]);
       for (auto const& [cut, regimes] : cuts)
-        for (std::size_t part = 0; part < regimes.names.size(); ++part)
+        for (std::size_t part = 0; regimes.names.size() > 1 && part < regimes.names.size(); ++part)
           add_part(cells, {run.run->name, channel.name, unit_of(channel, machine), cut, regimes.names[part]}, residual,
                    regimes, part);
     }

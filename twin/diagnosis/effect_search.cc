@@ -19,14 +19,15 @@ namespace {
 // A fit that all later ones start from converges: half a valley down, the ninth digit of a number would decide what is
 // named.
 constexpr int to_the_end = 50;
+constexpr int most_effects = 8;
 constexpr double open_loop = 0.2;  // share of free growth
 constexpr std::size_t most_refits = 24, most_growths = 3, whitened_at_once = 32;
 // What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
 constexpr double hopeful_score = 0.3, hopeful_refit = 0.5;
 
-/// The most promising hypotheses, one per effect and site, strongest first: all within `behind` of the strongest.
+/// The most promising hypotheses, one per effect and site, strongest first.
 std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector<Hypothesis> const& hypotheses,
-                                   double least, double behind) {
+                                   double least) {
   std::vector<double> evidence;
   for (std::size_t k = 0; k < scores.size(); ++k) evidence.push_back(evidence_of(scores[k], hypotheses[k]));
   std::vector<std::size_t> order(scores.size());
@@ -35,7 +36,7 @@ std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector
   std::vector<std::size_t> chosen;
   std::map<std::string, int> seen;
   for (std::size_t const k : order) {
-    if (evidence[k] < std::max(least, evidence[order[0]] - behind) || chosen.size() == most_refits) break;
+    if (evidence[k] < least || chosen.size() == most_refits) break;
     if (seen[hypotheses[k].label()]++ == 0) chosen.push_back(k);
   }
   return chosen;
@@ -83,7 +84,7 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
 
 void EffectSearch::operator()() {
   linearise();
-  for (int round = 1; round <= options_.most_effects && add_effect(round); ++round) continue;
+  for (int round = 1; round <= most_effects && add_effect(round); ++round) continue;
   if (estimation_->effects().size() < 2) return;  // what was found alone was held against all others then
   if (drop_superfluous()) linearise();
   if (exchange()) drop_superfluous();
@@ -128,7 +129,7 @@ double EffectSearch::gain_of_one_growth() {
   auto const all = candidates();
   auto const scores = Remainder(fit_, all.columns).scores(all.hypotheses);
   std::vector<std::size_t> chosen;
-  for (std::size_t const k : promising(scores, all.hypotheses, 0.0, INFINITY))
+  for (std::size_t const k : promising(scores, all.hypotheses, 0.0))
     if (all.hypotheses[k].is_about("deformation") && chosen.size() < most_growths) chosen.push_back(k);
   auto const found = refits(fit_, chosen, all, scores);
   return found.empty() ? 0.0 : found[0].strength;
@@ -226,7 +227,7 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   double const own_evidence = evidence_of(scores.back(), own);
   std::vector<Refit> result = {
       {own, fit_.x[own_place], std::sqrt(fit_.covariance(own_place, own_place)), fit_.x, strength}};
-  for (std::size_t const k : promising(scores, tried, 0.0, INFINITY)) {
+  for (std::size_t const k : promising(scores, tried, 0.0)) {
     if (tried[k].label() == own.label() || std::abs(alike[Eigen::Index(k)]) < confusable_cosine) continue;
     Refit refit{tried[k], probable_amplitude(scores[k]), probable_error(scores[k]), fit_.x,
                 strength + evidence_of(scores[k], tried[k]) - own_evidence};
@@ -256,7 +257,7 @@ std::vector<std::size_t> EffectSearch::most_promising(Candidates const& candidat
   std::set<std::string> bodies;
   int elsewhere = 0;
   double const least = std::max(0.6 * options_.threshold, hopeful_score * threshold);
-  for (std::size_t const k : promising(scores, candidates.hypotheses, least, INFINITY)) {
+  for (std::size_t const k : promising(scores, candidates.hypotheses, least)) {
     auto const& hypothesis = candidates.hypotheses[k];
     bool const one_more_effect = effects.size() < 3 && !effects.contains(hypothesis.effect);
     if (!one_more_effect && (bodies.contains(hypothesis.body) || ++elsewhere > 2)) continue;
@@ -345,7 +346,9 @@ bool EffectSearch::drop_superfluous() {
     for (std::size_t e = 0; e < strengths.size(); ++e) {
       auto& alternatives = explanations_[e].alternatives;
       double const change = strengths[e] - alternatives[0].strength;
-      for (auto& alternative : alternatives) alternative.strength += change;
+      for (auto& alternative : alternatives)
+        if (std::isfinite(change)) alternative.strength += change;
+      alternatives[0].strength = strengths[e];
     }
     if (strengths[std::size_t(weakest)] >= evident_beside()) break;
     dropped = true;

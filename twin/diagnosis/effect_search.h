@@ -15,7 +15,6 @@ namespace thermotwin::twin {
 
 struct DiagnosisOptions {
   std::vector<std::string> without;  ///< effects that are not tried
-  int most_effects = 8;
   /// 2 ln of the evidence that an effect must have, and heat of free course, times the fourth power of the Birge ratio
   /// of the fit that has it, at most four; see docs/diagnosis.md for how often chance alone reaches it.
   double threshold = 11.0;

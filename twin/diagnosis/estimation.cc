@@ -25,14 +25,6 @@ constexpr double relative_step = 1e-4;
 constexpr int start_halvings = 4;
 constexpr std::size_t numbers_at_once = 64;  // whose responses are found together
 
-bool changes_heat(thermal::NetworkDerivative const& d) {
-  auto const any = [](std::vector<double> const& values) {
-    return std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
-  };
-  return any(d.capacity) || any(d.boundary_offset) || std::any_of(d.coefficients.begin(), d.coefficients.end(), any) ||
-         std::any_of(d.boundary_weights.begin(), d.boundary_weights.end(), any);
-}
-
 /// Every sensor one second slower.
 Machine later(Machine machine) {
   for (auto& sensor : machine.sensors) sensor.description.lag = sensor.description.lag.value_or(0.0) + 1.0;
@@ -232,7 +224,7 @@ Value Estimation::document_at(Eigen::VectorXd const& x) const {
 
 Machine Estimation::machine_at(Eigen::VectorXd const& x) const { return Machine::build(document_at(x)); }
 
-/// One per effect, in units of its trial's largest.
+/// One per effect, in units of its hypothesis' `largest`.
 std::vector<MachineDerivative> Estimation::amplitude_derivatives(Eigen::VectorXd const& x) const {
   std::vector<MachineDerivative> derivatives;
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
@@ -335,6 +327,12 @@ void Estimation::add_heat(Traced const& traced, Linearisation& at) const {
   });
 }
 
+/// It changes readings at the same temperatures.
+bool Estimation::is_read_directly(Unknown const& unknown) const {
+  if (unknown.kind == Unknown::Kind::amplitude) return effects_[unknown.index].is_read_directly();
+  return unknown.kind == Unknown::Kind::number && derivatives_->is_read_directly(unknown.index);
+}
+
 /// To a linearisation, what searched unknowns do to the readings of one run at the same temperatures.
 void Estimation::add_readings(std::size_t run, Traced const& traced, Linearisation& at) const {
   auto const& data = (*data_)[run];
@@ -354,7 +352,7 @@ void Estimation::add_readings(std::size_t run, Traced const& traced, Linearisati
     if (unknown.kind == Unknown::Kind::number)
       if (auto const& weights = derivatives_->displacements(unknown.index); !weights.empty())
         column -= numbers_[unknown.index].slope(value) * twin.growth(weights).reshaped();
-    if (unknown.kind == Unknown::Kind::amplitude && effects_[unknown.index].is_read_directly()) {
+    if (is_read_directly(unknown)) {
       double const step = relative_step * std::max(std::abs(value), 1e-3);
       Eigen::VectorXd plus = traced.x;
       plus[unknowns[k]] += step;

@@ -92,6 +92,7 @@ class Estimation {
   [[nodiscard]] bool evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const>& traced, bool linearised,
                               Linearisation& at) const;
   void add_heat(Traced const& traced, Linearisation& at) const;
+  [[nodiscard]] bool is_read_directly(Unknown const& unknown) const;
   void add_readings(std::size_t run, Traced const& traced, Linearisation& at) const;
   [[nodiscard]] std::vector<MachineDerivative> amplitude_derivatives(Eigen::VectorXd const& x) const;
   [[nodiscard]] Fit fit_at(Eigen::VectorXd const& x, Linearisation at) const;

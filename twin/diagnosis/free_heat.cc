@@ -361,7 +361,7 @@ HeatBySpeed heat_by_speed(FreeHeat const& heat, std::vector<BinnedRun> const& da
     auto const& knots = heat.knots[r];
     auto const first = first_knot(heat.knots, r);
     for (Eigen::Index i = 0; i < data[r].time.size(); ++i) {
-      auto const& name = regimes.names.empty() ? std::string() : regimes.names[regimes.of_row[std::size_t(i)]];
+      auto const& name = regimes.names[regimes.of_row[std::size_t(i)]];
       auto const [weight, is_new] = weights.try_emplace(name, Eigen::VectorXd::Zero(heat.spread.rows()));
       if (is_new) names.push_back(name);
       double q = 0.0;

@@ -23,9 +23,6 @@ Eigen::VectorXd ChannelNoise::slow_along(Eigen::VectorXd const& time, Eigen::Vec
   return sigma.array() + (slow + slow_share * std::max(0.0, high - low));
 }
 
-Whitening::Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eigen::VectorXd const& samples)
-    : Whitening(noise, time, samples, Eigen::VectorXd::Constant(time.size(), noise.slow)) {}
-
 Whitening::Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eigen::VectorXd const& samples,
                      Eigen::VectorXd const& slow) {
   Eigen::Vector2d const stationary(noise.fast * noise.fast, 1.0);
@@ -44,7 +41,6 @@ Whitening::Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eig
       P -= gain * gain.transpose() * variance;
       row = {decay[0], decay[1], slow[r], gain[0], gain[1], 1.0 / std::sqrt(variance)};
       log_scale_ += 0.5 * std::log(2.0 * std::numbers::pi * variance);
-      ++count_;
     }
     rows_.push_back(row);
   }

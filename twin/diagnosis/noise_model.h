@@ -31,9 +31,7 @@ struct ChannelNoise {
 /// standard deviation. Linear, so that residuals and sensitivities pass through the same filter.
 class Whitening {
  public:
-  /// `time` of the rows [s]; `samples` averaged in each, 0: missing, whose whitened value is 0.
-  Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eigen::VectorXd const& samples);
-  /// With a σ₂ of each row instead of the noise's.
+  /// `time` of the rows [s]; `samples` averaged in each, 0: missing, whose whitened value is 0; σ₂ in each.
   Whitening(ChannelNoise const& noise, Eigen::VectorXd const& time, Eigen::VectorXd const& samples,
             Eigen::VectorXd const& slow);
 
@@ -41,7 +39,6 @@ class Whitening {
   void apply(Eigen::Ref<Eigen::MatrixXd> signals) const;
   /// ½ Σ ln |2π S| of the innovations.
   [[nodiscard]] double log_scale() const { return log_scale_; }
-  [[nodiscard]] int count() const { return count_; }
 
  private:
   struct Row {
@@ -49,7 +46,6 @@ class Whitening {
   };
   std::vector<Row> rows_;
   double log_scale_ = 0.0;
-  int count_ = 0;
 };
 
 }  // namespace thermotwin::twin

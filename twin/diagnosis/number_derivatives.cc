@@ -38,10 +38,23 @@ bool all_zero(std::vector<NodeWeights> const& channels) {
 
 }  // namespace
 
+bool changes_heat(thermal::NetworkDerivative const& d) {
+  auto const any = [](std::vector<double> const& values) {
+    return std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
+  };
+  return any(d.capacity) || any(d.boundary_offset) || std::any_of(d.coefficients.begin(), d.coefficients.end(), any) ||
+         std::any_of(d.boundary_weights.begin(), d.boundary_weights.end(), any);
+}
+
 NumberDerivatives::NumberDerivatives(Value document, std::vector<UncertainNumber> numbers)
     : numbers_(std::move(numbers)), derivatives_(numbers_.size()), is_bent_(numbers_.size(), 0) {
   in_parallel(numbers_.size(), [&](std::size_t i) {
-    derivatives_[i] = differentiate(document, numbers_[i].path);
+    try {
+      derivatives_[i] = differentiate(document, numbers_[i].path);
+    } catch (thermal::InputError const&) {  // another structure, or other relays: what it does is not asked
+      numbers_[i].of_any_kind = false;
+      return;
+    }
     if (all_zero(derivatives_[i].displacements)) derivatives_[i].displacements.clear();
     is_bent_[i] = bends(document, i) ? 1 : 0;
   });
@@ -49,7 +62,8 @@ NumberDerivatives::NumberDerivatives(Value document, std::vector<UncertainNumber
 
 bool NumberDerivatives::bends(Value document, std::size_t i) const {
   auto const& number = numbers_[i];
-  double const x = std::clamp(0.5 * number.deviation, number.lower, number.upper);
+  double const half = 0.5 * number.deviation;
+  double const x = number.upper >= half ? half : std::max(-half, number.lower);
   set_number(document, {number.path, number.nominal, number.dimension, false}, number.value(x));
   try {
     auto const there = differentiate(document, number.path).network;
@@ -57,6 +71,10 @@ bool NumberDerivatives::bends(Value document, std::size_t i) const {
   } catch (thermal::InputError const&) {  // so much of it no machine may have
     return false;
   }
+}
+
+bool NumberDerivatives::is_read_directly(std::size_t i) const {
+  return numbers_[i].of_any_kind && derivatives_[i].displacements.empty() && !changes_heat(derivatives_[i].network);
 }
 
 thermal::NetworkDerivative NumberDerivatives::network(std::size_t i, Value const& at, double x) const {

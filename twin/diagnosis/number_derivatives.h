@@ -14,12 +14,15 @@ class NumberDerivatives {
  public:
   NumberDerivatives(Value document, std::vector<UncertainNumber> numbers);
 
-  /// ∂network/∂x of a number at x; `at`: the document with all estimates.
+  /// ∂network/∂x of a number at x; `at`: the document with all estimates. Nothing for one that changes what the network
+  /// consists of, or when a relay switches.
   [[nodiscard]] thermal::NetworkDerivative network(std::size_t number, Value const& at, double x) const;
   /// ∂(weights)/∂value per displacement; empty where the number moves none.
   [[nodiscard]] std::vector<NodeWeights> const& displacements(std::size_t number) const {
     return derivatives_[number].displacements;
   }
+  /// It acts on instruments, or on what a channel shows besides: neither on heat nor on what castings grow.
+  [[nodiscard]] bool is_read_directly(std::size_t number) const;
 
  private:
   [[nodiscard]] bool bends(Value document, std::size_t number) const;

@@ -46,7 +46,6 @@ Regimes speed_regimes(MeasuredRun const& run, Eigen::VectorXd const& time) {
   double const fastest = *std::max_element(speeds.begin(), speeds.end());
   std::map<double, std::size_t> order;
   for (double const speed : speeds) order[speed] = 0;
-  if (order.size() == 1) return {{}, std::vector<std::size_t>(speeds.size(), 0)};
   bool const quarters = order.size() > most_speeds;
   if (quarters) {
     order.clear();

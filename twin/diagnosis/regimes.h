@@ -14,8 +14,7 @@ struct Regimes {
   std::vector<std::size_t> of_row;
 };
 
-/// By spindle speed: "idle" and each speed to 10 rpm; with more than eight speeds, quarters of the largest. A machine
-/// whose spindle never turns has one regime without a name.
+/// By spindle speed: "idle" and each speed to 10 rpm; with more than eight speeds, quarters of the largest.
 [[nodiscard]] Regimes speed_regimes(MeasuredRun const& run, Eigen::VectorXd const& time);
 
 /// By what its sensors do together, on average and over two rows: "warm-up" while it moves and they rise by more than

@@ -19,7 +19,7 @@ struct Remedy {
   double distance = 0.0;       ///< least d_ij among the rivals, of one alone its d_i, in units of the noise
 };
 
-/// Effects as somebody may look for them: an amplitude each [units of the trial's largest].
+/// Effects as somebody may look for them: an amplitude each [units of the hypothesis' largest].
 struct Rivals {
   std::vector<Hypothesis> hypotheses;
   std::vector<double> amplitudes;

@@ -167,7 +167,6 @@ std::vector<Score> Remainder::scores(std::vector<Hypothesis> const& hypotheses) 
     double const whole = signature.squaredNorm();
     score.information = whole - shared_.col(k).dot(taken_.col(k));
     double const b = signature.dot(fit_->residual.head(rows)) - shared_.col(k).dot(explained);
-    score.kept = whole > 0.0 ? std::sqrt(std::max(0.0, score.information) / whole) : 0.0;
     if (score.information > 1e-9 * whole && whole > 0.0) {
       score.amplitude = b / score.information;
       bool const allowed = score.amplitude > 0.0 || hypotheses[std::size_t(k)].trial->either_sign;

@@ -18,7 +18,6 @@ struct Score {
   double statistic = 0.0;    ///< T; 0 where the sign is not allowed
   double amplitude = 0.0;    ///< ψ̂, in units of its largest
   double information = 0.0;  ///< a
-  double kept = 0.0;         ///< |s⊥|/|s|: what nuisance parameters leave of the signature
 };
 
 /// The responses of hypotheses about a fit of an estimation, one column each, not whitened: one linearisation for all.

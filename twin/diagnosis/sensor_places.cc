@@ -57,6 +57,14 @@ NodeWeights slope_at(thermal::Body const& body, int node, int first) {
   return {{first + after, 1.0 / way}, {first + before, -1.0 / way}};
 }
 
+/// A position along a bar that a place names, `cartridge[10 mm]`: where its number stands in the text.
+std::optional<std::pair<std::size_t, std::size_t>> position_in(std::string const& place) {
+  auto const open = place.find('['), close = place.find(']');
+  if (open == place.npos || close == place.npos || place.find("..", open) < close || place.find(',', open) < close)
+    return {};
+  return std::pair(open + 1, close - open - 1);
+}
+
 class Places {
  public:
   Places(thermal::Body const& body, int first, std::vector<Meeting> const& meetings)
@@ -71,6 +79,9 @@ class Places {
     auto const& name = sensor.description.name;
     if (body_.nodes() > 1) {
       SensorPlace along{fmt::format("{} along {}", name, body_.name), name, body_.name, "", {}};
+      along.can_be_written = std::any_of(sensor.description.at.begin(), sensor.description.at.end(), [&](auto const& at) {
+        return body_of(at) == body_.name && position_in(at).has_value();
+      });
       for (auto const& [node, weight] : own)
         for (auto const& [at, slope] : slope_at(body_, node, first_))
           along.change.emplace_back(at, way_along * weight * slope);
@@ -101,14 +112,6 @@ class Places {
   int first_;
   std::vector<Meeting> const& meetings_;
 };
-
-/// A position along a bar that a place names, `cartridge[10 mm]`: where its number stands in the text.
-std::optional<std::pair<std::size_t, std::size_t>> position_in(std::string const& place) {
-  auto const open = place.find('['), close = place.find(']');
-  if (open == place.npos || close == place.npos || place.find("..", open) < close || place.find(',', open) < close)
-    return {};
-  return std::pair(open + 1, close - open - 1);
-}
 
 /// Moved along the bar by `way` [m], to a hundredth of a millimetre, as far as the bar goes.
 std::string moved(std::string const& place, double way, thermal::Body const& bar) {
@@ -195,7 +198,7 @@ std::vector<PlacedSensor> placed_sensors(Value const& document, std::vector<Sens
     std::vector<std::pair<SensorPlace const*, double>> leanings;
     bool elsewhere = false;
     for (std::size_t p = 0; p < places.size(); ++p) {
-      if (places[p].sensor != sensor.name || x[p] == 0.0) continue;
+      if (places[p].sensor != sensor.name || x[p] == 0.0 || !places[p].can_be_written) continue;
       elsewhere = true;
       if (places[p].toward.empty())
         seat.move(places[p], way_along * x[p], bodies.all().at(places[p].body));

@@ -22,6 +22,7 @@ struct SensorPlace {
   std::string body;
   std::string toward;  ///< the joint's place on the other body; empty: along this one
   NodeWeights change;  ///< of its weights where x is 1; Σ = 0
+  bool can_be_written = true;  ///< along a bar, only a position can be another one, no stretch
 };
 
 [[nodiscard]] std::vector<SensorPlace> sensor_places(Value const& document, Machine const& machine);
@@ -33,8 +34,8 @@ struct PlacedSensor {
   std::vector<double> shares;  ///< empty: equal
 };
 
-/// The sensors that are not where the document has them: x of each of `places`, 0 where it is as it was. Along a bar
-/// only a position, `cartridge[10 mm]`, can be another one; it stays on the bar.
+/// The sensors that are not where the document has them: x of each of `places`, 0 where it is as it was. A position
+/// stays on its bar.
 [[nodiscard]] std::vector<PlacedSensor> placed_sensors(Value const& document, std::vector<SensorPlace> const& places,
                                                        std::vector<double> const& x);
 

@@ -112,6 +112,7 @@ void set_range(Value& document, RangedNumber const& range, std::vector<Uncertain
     auto const [table, key] = find_parameter(document, range.number.path);
     it = numbers.insert(
         it, {range.number.path, range.number.value, range.number.dimension, 0.0, unit_of(*table->find(key))});
+    it->of_any_kind = true;
   }
   it->of_either_sign = it->of_either_sign || range.low <= 0.0;
   auto const end = [&](double at) { return it->of_either_sign ? at - it->nominal : std::log(at / it->nominal); };

@@ -10,7 +10,7 @@ namespace thermotwin::twin {
 struct Unknown {
   enum class Kind {
     number,     ///< ln(value/nominal) of a number of the file
-    amplitude,  ///< of an effect that was added, in units of its trial's `largest`
+    amplitude,  ///< of an effect that was added, in units of its hypothesis' `largest`
     offset,     ///< of a channel [K, m]: of a sensor in all runs, of a displacement in one
     lag,        ///< of a sensor [s]
     start,      ///< deviation of the whole machine's temperature at the start of a run [K]

@@ -1,7 +1,7 @@
-#include "thermal/error.h"
 #include "thermal/laws.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/effects/sized_surface.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -23,10 +23,7 @@ struct Draught {
   }
 
   void add_to(Assembly& assembly) const {
-    Place place = assembly.surface(on);
-    if (area) place.site = thermal::with_area(place.site, *area);
-    if (!(place.area() > 0.0))
-      throw thermal::InputError("draught '" + name + "': '" + on + "' has no area of its own; give one");
+    Place const place = sized_surface(assembly.surface(on), area, "draught '" + name + "'");
     for (auto const& contact : place.site.contacts)
       assembly.network().add<thermal::SwitchedConductance>(
           assembly.part(), {assembly.node(place, contact.node), assembly.air(contact.centre)},

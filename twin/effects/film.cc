@@ -6,6 +6,7 @@
 #include "thermal/rotating_surface.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/effects/sized_surface.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -145,12 +146,10 @@ struct Film {
     std::vector<Place> places;
     double drawn = 0.0;
     for (auto const& text : on) drawn += places.emplace_back(assembly.surface(text)).area();
-    for (auto& place : places) {
+    for (auto const& place : places) {
       double const share = drawn > 0.0 ? place.area() / drawn : 1.0 / double(places.size());
-      if (area) place.site = thermal::with_area(place.site, *area * share);
-      if (!(place.area() > 0.0))
-        throw thermal::InputError("film '" + name + "': '" + place.text + "' has no area of its own; give one");
-      add_to(assembly, place);
+      auto const own = area ? std::optional(*area * share) : std::nullopt;
+      add_to(assembly, sized_surface(place, own, "film '" + name + "'"));
     }
   }
 

@@ -1,7 +1,7 @@
-#include "thermal/error.h"
 #include "thermal/laws.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/effects/sized_surface.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -25,10 +25,7 @@ struct FloodCoolant {
   }
 
   void add_to(Assembly& assembly) const {
-    Place place = assembly.surface(on);
-    if (area) place.site = thermal::with_area(place.site, *area);
-    if (!(place.area() > 0.0))
-      throw thermal::InputError("flood_coolant '" + name + "': '" + on + "' has no area of its own; give one");
+    Place const place = sized_surface(assembly.surface(on), area, "flood_coolant '" + name + "'");
     auto const coolant = from.empty() ? assembly.boundary(follows, offset) : assembly.port(from);
     for (auto const& contact : place.site.contacts)
       assembly.network().add<thermal::SwitchedConductance>(

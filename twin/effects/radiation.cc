@@ -1,9 +1,9 @@
 #include "thermal/radiation.h"
 
-#include "thermal/error.h"
 #include "thermal/laws.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/effects/sized_surface.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -43,10 +43,8 @@ struct Radiation {
   }
 
   void add_to(Assembly& assembly) const {
-    Place place = area ? assembly.place(on) : assembly.surface(on);
-    if (area) place.site = thermal::with_area(place.site, *area);
-    if (!(place.area() > 0.0))
-      throw thermal::InputError("radiation '" + name + "': '" + on + "' has no area of its own; give one");
+    Place const place =
+        sized_surface(area ? assembly.place(on) : assembly.surface(on), area, "radiation '" + name + "'");
     double const both = thermal::exchange_emissivity<double>(emissivity, other_emissivity, view, view_back);
     for (auto const& contact : place.site.contacts)
       assembly.network().add<RadiationLaw>(

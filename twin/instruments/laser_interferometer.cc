@@ -116,7 +116,7 @@ class Recording {
     double const actual = nominal + error + (turns_here ? turning_error_ : lost_motion);
     double const y = beam_.shown(actual, t) - nominal + laser_.noise * noise_.normal();
     shown = quantised(y, laser_.resolution) / um;
-    truth = (error + lost_motion) / um;
+    truth = (error + (turns_here ? 0.0 : lost_motion)) / um;
   }
 
   LaserInterferometer const& laser_;

@@ -105,7 +105,7 @@ struct StepDiagonalDescription {
   template <class Fields>
   static void fields(Fields& f) {
     using S = StepDiagonalDescription;
-    f("steps", &S::steps, "of each axis along a diagonal", Range{2, 1000});
+    f("steps", &S::steps, "of each axis along a diagonal", Range{2, 200});
     f("passes", &S::passes, "whose mean is taken", Range{1, 100});
     f("mirror_misalignment", &S::mirror_misalignment, dimension::angle,
       "of the flat mirror's normal against the diagonal, in each of two directions, rms", Range{0, 0.01});

@@ -78,6 +78,21 @@ TEST(DiagnosisReport, SaysThatAFindingMayShowInAllTogetherOnly) {
   EXPECT_THAT(report_text(report), AllOf(HasSubstr(agrees), Not(HasSubstr(together))));
 }
 
+/// What no speed shows, an hour may.
+TEST(DiagnosisReport, SaysTheHoursWhereNoSpeedDisagrees) {
+  auto report = heat_in_the_bed();
+  Disagreement cell{"run", "T3", "K", "time", "2-4 h"};
+  cell.significant = true;
+  cell.power = 4.0;
+  report.diagnosis.disagreement = {cell};
+  EXPECT_THAT(report_text(report), AllOf(HasSubstr("disagrees most"), HasSubstr("2-4 h")));
+  cell.cut = "speed";
+  cell.part = "4000 rpm";
+  cell.power = 3.0;
+  report.diagnosis.disagreement.push_back(cell);
+  EXPECT_THAT(report_text(report), AllOf(HasSubstr("4000 rpm"), Not(HasSubstr("2-4 h"))));
+}
+
 /// 100 W for an hour, 20 W for three.
 TEST(DiagnosisReport, WeighsHeatByTheTimeOfAllRuns) {
   FreeHeat heat;

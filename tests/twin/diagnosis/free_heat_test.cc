@@ -194,6 +194,25 @@ TEST(FreeHeat, OfTwoEffectsIsWhatTheyBringTogether) {
   EXPECT_EQ(heat_of_effects(estimation, fit, "bed").heat[0].cwiseAbs().maxCoeff(), 0.0);
 }
 
+/// 30 W in the run that turns, none in the one that stands.
+TEST(FreeHeat, IsToldBySpeedOfRunsAtOneSpeed) {
+  std::vector<BinnedRun> data;
+  for (std::string const speed : {"4000 rpm", "0 rpm"})
+    data.push_back(bin(tests::measured(v450(), tests::experiment("duration = \"2 h\"\n[spindle]\nblocks = [{duration = "
+                                                                 "\"2 h\", speed = \"" +
+                                                                 speed + "\"}]")),
+                       60.0));
+  FreeHeat heat;
+  heat.knots = {Eigen::Vector2d(0.0, 7200.0), Eigen::Vector2d(0.0, 7200.0)};
+  heat.heat = {Eigen::Vector2d(30.0, 30.0), Eigen::Vector2d(0.0, 0.0)};
+  heat.spread = Eigen::Vector4d::Constant(1.0);
+  auto const [mean, swing] = heat_by_speed(heat, data);
+  std::map<std::string, Watts> const means(mean.begin(), mean.end());
+  EXPECT_EQ(means.size(), 2U);
+  EXPECT_NEAR(means.at("4000 rpm").mean, 30.0, 1e-9);
+  EXPECT_NEAR(means.at("idle").mean, 0.0, 1e-9);
+}
+
 /// A watt more every hour: its means in the hours of each speed, and D/√12 about each of these, D its hours.
 TEST(FreeHeat, IsToldBySpeed) {
   auto const run = tests::measured(v450(), tests::two_speeds());

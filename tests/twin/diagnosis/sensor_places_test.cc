@@ -127,6 +127,19 @@ TEST(SensorPlaces, AreWrittenAsPositionsAlongABar) {
   EXPECT_THAT(at.at("T5"), testing::ElementsAre("cartridge[130 mm]"));
 }
 
+/// What lies on a stretch may be seen elsewhere, but no file can say so.
+TEST(SensorPlaces, AStretchStaysWhereItIs) {
+  Value document = tests::v450();
+  set_parameter(document, "temperature_sensor.T3.at", "cartridge[40 mm .. 60 mm]");
+  auto const places = sensor_places(document, Machine::build(document));
+  std::vector<double> x;
+  for (auto const& p : places) {
+    x.push_back(p.name == "T3 along cartridge" ? 1.0 : 0.0);
+    EXPECT_EQ(p.can_be_written, p.name != "T3 along cartridge") << p.name;
+  }
+  EXPECT_TRUE(placed_sensors(document, places, x).empty());
+}
+
 /// T3 was glued at 35 mm, where its file says 50 mm: nothing is missing, and the file that is written says where it is,
 /// as far as its prior lets it.
 TEST(SensorPlaces, AreFoundAndWritten) {

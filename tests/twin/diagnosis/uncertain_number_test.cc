@@ -6,6 +6,8 @@
 #include <set>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/diagnosis/calibration.h"
+#include "twin/diagnosis/number_derivatives.h"
 #include "twin/machine.h"
 #include "twin/sensitivity.h"
 
@@ -136,6 +138,38 @@ TEST(UncertainNumbers, OfAStatedRangeStayWithinIt) {
   EXPECT_EQ(shaft->unit, "mm");
   EXPECT_NEAR(shaft->value(shaft->upper), 0.074, 1e-12);
   EXPECT_EQ(v450.numbers.size(), Uncertain(tests::v450()).numbers.size() + 1);
+}
+
+/// A sensor's stem is neither heat nor growth.
+TEST(UncertainNumbers, OfAStatedRangeMayActOnReadingsAlone) {
+  Value const document = tests::with_table(tests::v450(), R"(
+[[sensor_contact]]
+name = "stem"
+sensor = "T3"
+air_share = 0.03
+[[uncertain]]
+name = "sensor_contact.stem.air_share"
+from = "0.0"
+to = "0.2"
+)");
+  Uncertain const machine(document);
+  auto const* share = machine.find("sensor_contact.stem.air_share");
+  ASSERT_TRUE(share);
+  NumberDerivatives const derivatives(machine.document, machine.numbers);
+  for (std::size_t i = 0; i < machine.numbers.size(); ++i)
+    EXPECT_EQ(derivatives.is_read_directly(i), machine.numbers[i].path == share->path) << machine.numbers[i].path;
+  Value truth = document;
+  set_parameter(truth, "sensor_contact.stem.air_share", "0.1");
+  auto run = tests::measured(truth, tests::two_speeds());
+  tests::add_noise(run, 0.02, 0.05e-6, 7);
+  std::vector<BinnedRun> const data = {bin(run, 300.0)};
+  auto const calibration = calibrate(document, data);
+  auto const& numbers = calibration.numbers;
+  auto const found = std::find_if(numbers.begin(), numbers.end(),
+                                  [&](auto const& estimate) { return estimate.number.path == share->path; });
+  ASSERT_NE(found, numbers.end());
+  EXPECT_TRUE(found->identified);
+  EXPECT_NEAR(found->number.value(found->estimate), 0.1, 0.03);
 }
 
 class UncertainNumbersOf : public testing::TestWithParam<char const*> {};

@@ -106,6 +106,7 @@ TEST(LaserInterferometer, LostMotionShowsBackwardsExceptWhereTheAxisTurns) {
   output::Positioning const turned = measure(laser, room(0.0)).readings;
   for (int i = 0; i < 12; ++i) EXPECT_NEAR(turned.backward_um(1, i) - turned.forward_um(1, i), 3.0, 1e-9);
   EXPECT_NEAR(turned.backward_um(1, 12) - turned.forward_um(1, 12), 0.0, 1e-9);
+  EXPECT_NEAR((measure(laser, room(0.0)).truth.backward_um - turned.backward_um).cwiseAbs().maxCoeff(), 0.0, 1e-9);
   laser.overrun = true;
   LaserReadings const overrun = measure(laser, room(0.0));
   EXPECT_NEAR(overrun.readings.backward_um(1, 12) - overrun.readings.forward_um(1, 12), 3.0, 1e-9);

@@ -73,7 +73,7 @@ TEST_F(Live, FollowsARunFromItsFirstRowToItsEnd) {
   auto const later = news(page, revision);
   EXPECT_EQ(later["sections"][0]["sets"][0]["time"]["shape"][0], 3);
 
-  writer.set_measured({{"T1", "degC", "nose", Eigen::Vector3d(21.0, 22.1, 22.9)}}, {});
+  writer.set_measured({{"T1", "degC", "nose", Eigen::Vector3d(21.0, 22.1, 22.9)}}, {}, {});
   (void)writer.finish();
   auto const done = news(page, later["revision"].get<std::uint64_t>());
   EXPECT_TRUE(done["sections"][0]["sets"][0]["complete"]);
