@@ -7,6 +7,9 @@
 
 namespace thermotwin::twin {
 
+/// Whether any of it is not zero.
+[[nodiscard]] bool changes_heat(thermal::NetworkDerivative const& derivative);
+
 /// How a machine answers its uncertain numbers, found at the file's values once and for all fits. Most coefficients
 /// follow a number in proportion, so that the derivative by its value is the same everywhere; those of joints in series
 /// do not, and are differentiated where a fit is.

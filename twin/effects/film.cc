@@ -148,7 +148,8 @@ struct Film {
     for (auto const& text : on) drawn += places.emplace_back(assembly.surface(text)).area();
     for (auto const& place : places) {
       double const share = drawn > 0.0 ? place.area() / drawn : 1.0 / double(places.size());
-      auto const own = area ? std::optional(*area * share) : std::nullopt;
+      auto own = area;
+      if (own) *own *= share;
       add_to(assembly, sized_surface(place, own, "film '" + name + "'"));
     }
   }

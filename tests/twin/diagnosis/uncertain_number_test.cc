@@ -169,7 +169,7 @@ to = "0.2"
                                   [&](auto const& estimate) { return estimate.number.path == share->path; });
   ASSERT_NE(found, numbers.end());
   EXPECT_TRUE(found->identified);
-  EXPECT_NEAR(found->number.value(found->estimate), 0.1, 0.03);
+  EXPECT_NEAR(found->estimate(), 0.1, 0.03);
 }
 
 class UncertainNumbersOf : public testing::TestWithParam<char const*> {};
