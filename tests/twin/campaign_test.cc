@@ -403,11 +403,25 @@ TEST(Campaign, MistakesAreToldWithTheirPlace) {
             std::string::npos);
   EXPECT_NE(refusal(changed("golden_b_6000", "etve")).find("give 'every'"), std::string::npos);
   EXPECT_NE(refusal(changed("count = 2", "count = 1000000000")).find("at most"), std::string::npos);
-  EXPECT_NE(refusal(changed("golden_b_6000", "golden_b_6000\"]\nrepetitions = 1\n[latin_hypercube]\nvary = [{path = "
-                                             "\"bearing.rear.grease_factor\", from = 1, to = 2}]\nseed = 1\n#"))
-                .find("[latin_hypercube] needs 'count'"),
-            std::string::npos);
   EXPECT_NE(refusal(changed("part = 7", "prt = 7")).find("unknown key 'prt'; did you mean 'part'?"), std::string::npos);
+}
+
+/// It would have no runs, and its file none either.
+TEST(Campaign, ALatinHypercubeHasACount) {
+  std::string const text =
+      "experiments = [\"golden_b_2000\"]\nmachine = \"v450\"\n[latin_hypercube]\nvary = [{path = "
+      "\"bearing.rear.grease_factor\", from = 1, to = 2}]\n";
+  EXPECT_EQ(refusal(text), "campaign.toml:3:1: [latin_hypercube] needs 'count', how many samples, from 1 on");
+}
+
+/// The file of a campaign names them beside its numbers.
+TEST(Campaign, WordsFitIntoAnAttribute) {
+  std::string words;
+  for (int i = 0; i < 3000; ++i) words += fmt::format("{}\"a word of the number {}\"", i > 0 ? ", " : "", i);
+  EXPECT_THAT(refusal("experiments = [\"golden_b_2000\"]\nmachine = \"v450\"\n[[grid]]\npath = "
+                      "\"experiment.ambient.mean\"\nvalues = [" +
+                      words + "]\n"),
+              testing::HasSubstr("campaign.toml:5:11: values that are words may have 50000 letters, not"));
 }
 
 TEST(Campaign, CallsABlockAsASettingDoes) {

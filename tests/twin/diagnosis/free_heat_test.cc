@@ -198,10 +198,13 @@ TEST(FreeHeat, OfTwoEffectsIsWhatTheyBringTogether) {
 TEST(FreeHeat, IsToldBySpeedOfRunsAtOneSpeed) {
   std::vector<BinnedRun> data;
   for (std::string const speed : {"4000 rpm", "0 rpm"})
-    data.push_back(bin(tests::measured(v450(), tests::experiment("duration = \"2 h\"\n[spindle]\nblocks = [{duration = "
-                                                                 "\"2 h\", speed = \"" +
-                                                                 speed + "\"}]")),
-                       60.0));
+    data.push_back(bin(
+        tests::measured(
+            v450(), tests::experiment(
+                        "duration = \"2 h\"\nambient.daily_cycle.amplitude = \"3 K\"\n[spindle]\nblocks = [{duration = "
+                        "\"2 h\", speed = \"" +
+                        speed + "\"}]")),
+        60.0));
   FreeHeat heat;
   heat.knots = {Eigen::Vector2d(0.0, 7200.0), Eigen::Vector2d(0.0, 7200.0)};
   heat.heat = {Eigen::Vector2d(30.0, 30.0), Eigen::Vector2d(0.0, 0.0)};

@@ -57,7 +57,7 @@ TEST(Whitening, LikelihoodIsThatOfTheWholeGaussian) {
   Eigen::LLT<MatrixXd> const solver(S);
   double const logarithm = 2.0 * solver.matrixLLT().diagonal().array().log().sum();
   double const whole = -0.5 * (e.dot(solver.solve(e)) + logarithm + double(rows) * std::log(2.0 * std::numbers::pi));
-  EXPECT_NEAR(log_likelihood({noise(), time, samples}, e), whole, 1e-9);
+  EXPECT_NEAR(log_likelihood(whitening(noise(), time, samples), e), whole, 1e-9);
 }
 
 /// Rows without a sample are time only: the likelihood of the others, and nothing where they stand.

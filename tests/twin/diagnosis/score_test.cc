@@ -62,8 +62,8 @@ TEST(Score, IsWhatTheCostWouldFallByIfTheEffectWereFitted) {
     auto const [cost, amplitude] = toy.with(signatures.col(Index(k)));
     EXPECT_NEAR(scores[k].statistic, toy.fit.cost - cost, 1e-9 * toy.fit.cost);
     EXPECT_NEAR(scores[k].amplitude, amplitude, 1e-9);
-    EXPECT_GT(scores[k].kept, 0.0);
-    EXPECT_LT(scores[k].kept, 1.0);
+    EXPECT_GT(scores[k].information, 0.0);
+    EXPECT_LT(scores[k].information, signatures.col(Index(k)).squaredNorm());
   }
 }
 
@@ -86,7 +86,7 @@ TEST(Score, IsNothingWhereTheUnknownsExplainEverything) {
   std::vector<Hypothesis> const hypotheses(2, Hypothesis{nullptr, &toy.any, "", "", {}});
   for (auto const& s : Remainder(toy.fit, signatures).scores(hypotheses)) {
     EXPECT_EQ(s.statistic, 0.0);
-    EXPECT_LT(s.kept, 1e-6);
+    EXPECT_LT(s.information, 1e-9);
   }
 }
 
@@ -123,7 +123,7 @@ TEST(Score, EvidenceIsAnIntegralOverTheAmplitude) {
       prior += weight;
       sum += weight * std::exp(a * psi * amplitude - 0.5 * a * psi * psi);
     }
-    EXPECT_NEAR(evidence_of({a * amplitude * amplitude, amplitude, a, 1.0}, {nullptr, &trial, "", "", {}}),
+    EXPECT_NEAR(evidence_of({a * amplitude * amplitude, amplitude, a}, {nullptr, &trial, "", "", {}}),
                 2.0 * std::log(sum / prior), trial.either_sign ? 1e-6 : 0.1);
   };
   evidence(toy.any, -6.0);
@@ -136,7 +136,7 @@ TEST(Score, EvidenceOfAnImplausibleAmplitudeIsThatOfThePlausibleOne) {
   Toy const toy;
   double const a = 8.0, amplitude = 3.0, deviation = amplitude_deviation, most = most_of_largest;
   double const gain = 2.0 * a * amplitude * most - (a + 1.0 / (deviation * deviation)) * most * most;
-  EXPECT_NEAR(evidence_of({a * amplitude * amplitude, amplitude, a, 1.0}, {nullptr, &toy.any, "", "", {}}),
+  EXPECT_NEAR(evidence_of({a * amplitude * amplitude, amplitude, a}, {nullptr, &toy.any, "", "", {}}),
               gain - std::log1p(a * deviation * deviation), 1e-12);
 }
 
@@ -146,7 +146,7 @@ TEST(Score, AnOrdinaryAmplitudeIsNoEvidence) {
   Hypothesis const hypothesis{nullptr, &contact, "", "", {}, 4.0, 0.3};
   auto const evidence = [&](double share, double standard_error) {
     double const a = std::pow(0.3 / standard_error, 2.0), amplitude = share / 0.3;
-    return evidence_of({a * amplitude * amplitude, amplitude, a, 1.0}, hypothesis);
+    return evidence_of({a * amplitude * amplitude, amplitude, a}, hypothesis);
   };
   EXPECT_EQ(evidence(0.04, 0.006), -4.0);  // 0.04 less 1.96 of 0.006 is 0.028
   EXPECT_GT(evidence(0.04, 0.004), 80.0);  // T is 100
