@@ -58,9 +58,9 @@ struct Row {
 class DatasetWriter {
  public:
   /// `head` has everything but the rows: title, channels, node names, provenance so far; its time is empty.
-  /// Writes the empty partial file at once, so that a directory that cannot be written is told before the run; a partial
-  /// file of an interrupted run stays until the first row takes its place. OutputError when anything else has that
-  /// name. With no time between checkpoints every row is one.
+  /// Writes the empty partial file at once, so that a directory that cannot be written is told before the run; a
+  /// partial file of an interrupted run stays until the first row takes its place. OutputError when anything else has
+  /// that name. With no time between checkpoints every row is one.
   DatasetWriter(std::filesystem::path path, Dataset head,
                 std::chrono::duration<double> between_checkpoints = std::chrono::seconds(5));
   ~DatasetWriter();

@@ -399,7 +399,8 @@ void MachineBuilder::read_displacement_instruments() {
     located(*table, [&] { check_nest(*machine_.nest); });
     for (auto const& probe : probe_names)
       if (std::find(known.begin(), known.end(), probe) != known.end())
-        throw FileError(table->where, fmt::format("the nest has a probe '{}': no displacement may have its name", probe));
+        throw FileError(table->where,
+                        fmt::format("the nest has a probe '{}': no displacement may have its name", probe));
   }
   if (Value const* table = document_.find("laser")) read_fields(*table, machine_.laser);
 }

@@ -91,7 +91,8 @@ std::string differences(output::Dataset const& a, output::Dataset const& b) {
           difference("displacement", a.displacements, b.displacements) +
           difference("true reading", a.truth_readings, b.truth_readings) +
           difference("true displacement", a.truth_displacements, b.truth_displacements) +
-          difference("heat", a.heat, b.heat) + difference("positioning", channels_of(a.positioning), channels_of(b.positioning)) +
+          difference("heat", a.heat, b.heat) +
+          difference("positioning", channels_of(a.positioning), channels_of(b.positioning)) +
           difference("true positioning", channels_of(a.truth_positioning), channels_of(b.truth_positioning));
   if (a.node_temperatures != b.node_temperatures) text += "  node temperatures: not the same\n";
   return text.empty() ? "  only what stands around these numbers\n" : text;

@@ -130,7 +130,8 @@ TEST(ExperimentCourse, HasTheSpeedOfEachBlockToTheSample) {
 /// What the first sample shows holds from the start: a logger that begins after 90 s saw no start then.
 TEST(ExperimentCourse, CountsTimeFromTheStartWhereTheRecordBeginsLater) {
   Experiment e = spectrum();
-  e.driven.push_back({{"spindle.speed", "rad/s", "recorded"}, Signal({90.0, 600.0}, {200.0, 300.0}, Interpolation::step)});
+  e.driven.push_back(
+      {{"spindle.speed", "rad/s", "recorded"}, Signal({90.0, 600.0}, {200.0, 300.0}, Interpolation::step)});
   ExperimentCourse const course(e, machine());
   for (double const t : {0.0, 60.0, 90.0, 900.0}) EXPECT_DOUBLE_EQ(at(course, "spindle.time_running", t), t);
 }

@@ -46,7 +46,8 @@ Value with_nest() {
 }
 
 TEST(DriftTest, TheProbesOfANestHaveNamesOfTheirOwn) {
-  auto const text = tests::contents(machine_file("v450")) + "\n[[displacement]]\nname = \"X1\"\nsegment = [{of = "
+  auto const text = tests::contents(machine_file("v450")) +
+                    "\n[[displacement]]\nname = \"X1\"\nsegment = [{of = "
                     "\"column_front\", length = \"1 m\"}]\n[five_probe_nest]\nbar_points_to = \"-z\"\n";
   EXPECT_THAT([&] { static_cast<void>(Machine::build(parse_toml(text, "v450"))); },
               testing::ThrowsMessage<FileError>(testing::HasSubstr("no displacement may have its name")));

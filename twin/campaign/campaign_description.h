@@ -96,7 +96,8 @@ struct CampaignDescription {
       "what stays of each run: readings, displacements, inputs, truth (both without the instruments' errors), summary "
       "(first, last, lowest and highest of both)");
     f("tolerance", &CampaignDescription::tolerance, thermal::dimension::dimensionless,
-      "relative tolerance of the integration; a reduced model has its own", Range{finest_tolerance, coarsest_tolerance});
+      "relative tolerance of the integration; a reduced model has its own",
+      Range{finest_tolerance, coarsest_tolerance});
     f("part", &CampaignDescription::part, "runs per file; default: a 256th of all, at most 1000", Range{0.0, 1e6});
   }
 };

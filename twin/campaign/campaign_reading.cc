@@ -107,10 +107,11 @@ CampaignParameter grid_parameter(Value const& table, GridDescription const& grid
     std::size_t letters = 0;
     for (auto const& value : grid.values) letters += value.size();
     if (!parameter.numeric && letters > most_letters)
-      throw FileError(place_of_key(table, "values"),
-                      fmt::format("values that are words may have {} letters, not {}: the campaign's file names each of "
-                                  "them beside its numbers",
-                                  most_letters, letters));
+      throw FileError(
+          place_of_key(table, "values"),
+          fmt::format("values that are words may have {} letters, not {}: the campaign's file names each of "
+                      "them beside its numbers",
+                      most_letters, letters));
     return parameter;
   }
   if (grid.count < 1) throw FileError(table.where, "give either 'values', or 'from', 'to' and 'count' from 1 on");

@@ -33,8 +33,7 @@ AddedTable table_of(Diagnosis const& diagnosis, std::size_t u, RunFiles const& d
   AddedTable table{effect.effect->name, {}, origin_of(explanation, effect, data)};
   for (auto const& [key, text] : table_of(effect, fmt::format("diagnosed_{}", number + 1), amplitude))
     if (key == effect.trial->amplitude)
-      table.keys.push_back(
-          {key, written_value(amplitude, unit), explanation.alternatives[0].interval_text(unit)});
+      table.keys.push_back({key, written_value(amplitude, unit), explanation.alternatives[0].interval_text(unit)});
     else
       table.keys.push_back({key, text, ""});
   return table;

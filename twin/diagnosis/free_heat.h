@@ -10,8 +10,8 @@
 
 namespace thermotwin::twin {
 
-/// Where heat that nobody knows may enter: a body, or a third of one of many cells, evenly over its capacity. Or all that the
-/// room's air meets, which is not as warm as its record: no nodes, and the body that takes up most.
+/// Where heat that nobody knows may enter: a body, or a third of one of many cells, evenly over its capacity. Or all
+/// that the room's air meets, which is not as warm as its record: no nodes, and the body that takes up most.
 struct HeatSite {
   std::string body;
   int first_node = 0, nodes = 1;

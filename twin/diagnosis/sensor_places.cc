@@ -79,9 +79,9 @@ class Places {
     auto const& name = sensor.description.name;
     if (body_.nodes() > 1) {
       SensorPlace along{fmt::format("{} along {}", name, body_.name), name, body_.name, "", {}};
-      along.can_be_written = std::any_of(sensor.description.at.begin(), sensor.description.at.end(), [&](auto const& at) {
-        return body_of(at) == body_.name && position_in(at).has_value();
-      });
+      along.can_be_written =
+          std::any_of(sensor.description.at.begin(), sensor.description.at.end(),
+                      [&](auto const& at) { return body_of(at) == body_.name && position_in(at).has_value(); });
       for (auto const& [node, weight] : own)
         for (auto const& [at, slope] : slope_at(body_, node, first_))
           along.change.emplace_back(at, way_along * weight * slope);

@@ -20,8 +20,8 @@ struct SensorPlace {
   std::string name;  ///< "T3 along cartridge", "T15 near tank"
   std::string sensor;
   std::string body;
-  std::string toward;  ///< the joint's place on the other body; empty: along this one
-  NodeWeights change;  ///< of its weights where x is 1; Σ = 0
+  std::string toward;          ///< the joint's place on the other body; empty: along this one
+  NodeWeights change;          ///< of its weights where x is 1; Σ = 0
   bool can_be_written = true;  ///< along a bar, only a position can be another one, no stretch
 };
 
