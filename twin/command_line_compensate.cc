@@ -16,6 +16,7 @@
 #include "twin/error_model_file.h"
 #include "twin/file/output_path.h"
 #include "twin/progress.h"
+#include "twin/run.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -215,6 +216,7 @@ void PlayCommand::operator()(std::atomic<bool> const& stop) const {
   bar.reset();
   if (!output.empty()) output::write_atomically(output, played_csv(played));
   fmt::print("{}", played_text(played));
+  if (stop) throw Interrupted("stopped; what is told is of the rows so far");
 }
 
 }  // namespace

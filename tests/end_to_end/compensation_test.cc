@@ -152,6 +152,13 @@ TEST_F(LiveCompensation, IsNeverWorseThanNothingWithASilentSensor) {
   RecordProperty("T2 stale", play);
 }
 
+TEST_F(LiveCompensation, AMachineThatIsStoppedIsNotPlayedToTheEnd) {
+  Child machine({program, "play", at("duty.h5"), "-q", "--speed", "1500", "--broker", broker_.url()}, at("machine"));
+  broker_.wait_for_clients(1);
+  EXPECT_EQ(machine.end(SIGINT), 130);
+  EXPECT_THAT(tests::contents(at("machine")), HasSubstr("stopped; what is told is of the rows so far"));
+}
+
 TEST_F(LiveCompensation, SaysWhichInputsDoNotCome) {
   auto lacking = output::read(at("duty.h5"));
   std::erase_if(lacking.readings, [](auto const& channel) { return channel.name == "T10"; });
