@@ -33,12 +33,13 @@ struct Trial {
   ///   room surface, bare surface, base     with a film to the room; with one that does not radiate; carried by none
   ///   sensor, displacement, channel        an instrument; a channel of displacement; a line of fluid
   ///   screw, displacement or screw         a ball screw of which errors of position are read; either
-  ///   bearing, nut                shaft and outer ring of a spindle bearing; nut and screw (and `axis`) of a drive
+  ///   bearing, support            shaft and outer ring of a spindle bearing; of a screw's support (and its `speed`)
+  ///   nut                         nut and screw (and `axis`) of a drive
   ///   pair, wetted wall           two solids that no joint connects; what encloses a line of fluid
   struct Site {
     std::string key;
     std::string kind;
-    std::string other = {};  ///< key of the second place, of bearing, nut and pair; empty: it has none
+    std::string other = {};  ///< key of the second place, of bearing, support, nut and pair; empty: it has none
   };
   std::string amplitude = {};  ///< key of the number that grows from nothing; the flows are linear in it
   double largest = 0.0;        ///< plausible upper end of the amplitude [SI]

@@ -232,6 +232,25 @@ TEST(BallConductance, GrowsWithSpeed) {
   EXPECT_NEAR(fast, 2.0 * 5.0, 0.3);
 }
 
+/// 9 W/K at rest, 12 at full speed, and with the root of the speed between them; its friction knows no temperature.
+TEST(Bearing, ConductsMoreWhereItsBallsRoll) {
+  auto const& effect = snippet("bearing", "rolling");
+  double const full_speed = Machine::build(bench(effect)).limits.max_spindle_speed;
+  for (double const share : {0.0, 0.25, 1.0}) {
+    Inputs const turning = {{"spindle.speed", share * full_speed}};
+    double const conducted = into_a(effect, 300.0, 310.0, turning) - into_a(effect, 310.0, 310.0, turning);
+    EXPECT_NEAR(conducted / 10.0, 9.0 + 3.0 * std::sqrt(share), 1e-9);
+  }
+}
+
+TEST(Bearing, DoesNotConductBackwards) {
+  EXPECT_THAT(
+      [] {
+        static_cast<void>(Machine::build(bench(snippet("bearing", "rolling"), {{"conductance_speed", "-9.1 W/K"}})));
+      },
+      testing::ThrowsMessage<thermal::InputError>(testing::HasSubstr("at full speed its conductance is below 0")));
+}
+
 TEST(Jacket, TakesAllThatAThinStreamCanCarry) {
   auto const& jacket = snippet("jacket", "straight");
   Changes const thin = {{"flow", "0.001 L/min"}};

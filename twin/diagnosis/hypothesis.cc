@@ -126,6 +126,12 @@ void Sites::add_bearings() {
         add("bearing", {inner, body_of(outer), outer});
       }
   });
+  for_tables("support_bearing", [&](Value const& table) {
+    auto const axis = texts_of(table, "axis");
+    for (auto const& shaft : texts_of(table, "shaft"))
+      for (auto const& ring : texts_of(table, "ring"))
+        add("support", {shaft, body_of(ring), ring, axis.empty() ? "z" : axis[0]});
+  });
 }
 
 void Sites::add_motors() {
@@ -192,9 +198,13 @@ std::vector<Spot> Sites::at(Trial::Site const& site) const {
     Spot spot{{{site.key, candidate.text}}, candidate.text, candidate.body};
     if (!site.other.empty()) {
       spot.keys.emplace_back(site.other, candidate.other);
-      spot.site = site.kind == "bearing" ? candidate.other : candidate.text + " to " + candidate.other;
+      bool const of_bearing = site.kind == "bearing" || site.kind == "support";
+      spot.site = of_bearing ? candidate.other : candidate.text + " to " + candidate.other;
     }
-    if (!candidate.axis.empty()) spot.keys.emplace_back("axis", candidate.axis);
+    if (site.kind == "support")
+      spot.keys.emplace_back("speed", candidate.axis + ".speed");
+    else if (!candidate.axis.empty())
+      spot.keys.emplace_back("axis", candidate.axis);
     result.push_back(std::move(spot));
   }
   return result;

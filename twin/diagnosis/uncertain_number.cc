@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <optional>
 
+#include "thermal/lubricant.h"
 #include "twin/effect.h"
 #include "twin/file/document.h"
 #include "twin/sensitivity.h"
@@ -24,6 +25,7 @@ std::optional<double> deviation_of(std::string const& table, std::string const& 
   if (table == "film" && (key == "area" || key == "coefficient" || key == "factor")) return 0.20;
   if (of == dimension::conductance || of == dimension::film_coefficient) return 0.30;
   if (of == dimension::power) return 0.25;
+  if (key == "viscosity_temperature") return 0.04;
   if (key == "mass" || key == "heat_capacity" || key == "capacity_factor" || key == "growth_factor") return 0.10;
   return std::nullopt;
 }
@@ -74,6 +76,27 @@ bool is_nothing(Value const& value) {
 
 void add_factor(Value& table, char const* key) {
   if (!table.find(key)) std::get<Value::Table>(table.content).push_back({key, table.where, {table.where, 1.0}});
+}
+
+/// A grease has a slope of viscosity of its own, and balls that roll conduct otherwise than balls at rest.
+void add_of_bearing(Value const& document, Value& table, std::vector<UncertainNumber>& numbers) {
+  Value const* oil = table.find("oil");
+  auto const* grade = oil ? std::get_if<std::int64_t>(&oil->content) : nullptr;
+  if (!table.find("viscosity_temperature"))
+    set_key(table, "viscosity_temperature",
+            thermal::format_quantity(thermal::mineral_oil_viscosity(grade ? int(*grade) : 22).temperature,
+                                     dimension::temperature_difference));
+  std::string const path = "bearing." + name_in(table) + ".conductance";
+  double const conductance = find_number(document, path).value;
+  if (conductance <= 0.0 || table.find("conductance_speed")) return;
+  set_key(table, "conductance_speed", "0 W/K");
+  numbers.push_back({.path = path + "_speed",
+                     .nominal = 0.0,
+                     .dimension = dimension::conductance,
+                     .deviation = 0.1 * conductance,
+                     .unit = "W/K",
+                     .of_either_sign = true,
+                     .lower = -0.8 * conductance});
 }
 
 /// What is left to its default, of conductances.
@@ -141,6 +164,7 @@ std::vector<UncertainNumber> uncertain_numbers(Value& document) {
   with_tables("film", [](Value& film) {  // as uncertain as its correlation
     if (!film.find("area") && !film.find("coefficient")) add_factor(film, "factor");
   });
+  with_tables("bearing", [&](Value& table) { add_of_bearing(document, table, numbers); });
   for (auto const& entry : effect_catalogue()) {
     with_tables(entry.name, [&](Value& table) { add_defaults(entry, table); });
     with_tables(entry.name, [&](Value& table) { add_numbers(document, entry.name, table, numbers); });

@@ -30,6 +30,20 @@ struct PalmgrenHeat {
   }
 };
 
+/// q = G (T₁ − T₀), G = G₀ + G₁ √(ω/ω_max): balls that roll carry grease from ring to ring. c = {G₀, G₁, ω_max},
+/// u = {ω}.
+struct BallConduction {
+  static constexpr std::string_view name = "conduction through the balls of a bearing";
+  static constexpr int ports = 2, coefficients = 3, inputs = 1;
+  static constexpr bool conservative = true;
+  template <class S>
+  static void flows(S const* T, S const* c, double const* u, S* q) {
+    using std::sqrt;
+    S const conductance = u[0] != 0.0 ? c[0] + c[1] * sqrt(S(std::abs(u[0]) / c[2])) : c[0];
+    thermal::exchange<S>(conductance * (T[1] - T[0]), q);
+  }
+};
+
 struct Bearing {
   std::string name, inner, outer;
   double count = 1.0;
@@ -42,6 +56,7 @@ struct Bearing {
   double torque_load = required;
   double inner_share = 0.5;
   double conductance = required;
+  std::optional<double> conductance_speed;  ///< [W/K]
 
   template <class Fields>
   static void fields(Fields& f) {
@@ -67,6 +82,8 @@ struct Bearing {
     f("conductance", &Bearing::conductance, dimension::conductance,
       "from inner to outer rings of the whole set, through balls and grease; 0 beside a ball_conductance",
       Range{0.0, 50.0});
+    f("conductance_speed", &Bearing::conductance_speed, dimension::conductance,
+      "added at full speed, with the root of the speed; below 0: less than at rest", Range{-50.0, 50.0});
   }
 
   void add_to(Assembly& assembly) const {
@@ -76,13 +93,25 @@ struct Bearing {
                                          {count, grease_factor, viscosity.scale, viscosity.temperature, pitch_diameter,
                                           load_factor, load_exponent, load_ratio, torque_load, inner_share},
                                          {assembly.channel("spindle.speed")});
-    for (auto const& a : shaft.site.contacts)
-      for (auto const& b : housing.site.contacts)
-        assembly.network().connect(assembly.part(), assembly.node(shaft, a.node), assembly.node(housing, b.node),
-                                   conductance * a.share * b.share);
+    conduct(assembly, shaft, housing);
   }
 
  private:
+  void conduct(Assembly& assembly, Place const& shaft, Place const& housing) const {
+    if (conductance_speed && conductance + *conductance_speed < 0.0)
+      throw thermal::InputError("bearing '" + name + "': at full speed its conductance is below 0");
+    for (auto const& a : shaft.site.contacts)
+      for (auto const& b : housing.site.contacts) {
+        auto const from = assembly.node(shaft, a.node), to = assembly.node(housing, b.node);
+        double const share = a.share * b.share;
+        if (conductance_speed)
+          assembly.network().add<BallConduction>(
+              assembly.part(), {from, to}, {conductance * share, *conductance_speed * share, assembly.rated_speed({})},
+              {assembly.channel("spindle.speed")});
+        else
+          assembly.network().connect(assembly.part(), from, to, conductance * share);
+      }
+  }
   [[nodiscard]] thermal::Vogel base_oil() const {
     thermal::Vogel law = thermal::mineral_oil_viscosity(oil);
     double const at_40 = viscosity_factor * thermal::viscosity(law, 313.15);
@@ -95,32 +124,32 @@ struct Bearing {
 }  // namespace
 
 Effect const& bearing_effect() {
-  static Effect const effect =
-      make_effect<Bearing>({"bearing",
-                            "friction of a set of spindle bearings, and conduction through its balls",
-                            "Q = n (M0 + M1) |ω|;  M0 = 4500.9 f0 (νω)^(2/3) d_m³ (νω ≥ 2.0944e-4 m²/s², else 16 f0 "
-                            "d_m³);  M1 = z (P0/C0)^y P1 "
-                            "d_m;  ν = A exp(B/(T[°C] + 95)) at the mean of both rings;  q = G (T_outer − T_inner)",
-                            "source, link",
-                            "shaft and outer ring",
-                            "power of speed 1.67, falling to 1.0…1.2 in the steady state by the "
-                            "viscosity's feedback; first seen at the rings; ends at stop",
-                            "physics.md 1.1, 1.3, 2.4; Palmgren 1957; Harris & Kotzalas 2006",
-                            {4},
-                            {"fan_cooling", "rotor_windage", "preload", "grease_run_in"},
-                            "the same speed from a warm bearing: a wrong viscosity shows at once, a draught or windage "
-                            "does not; spindle current"},
-                           {{.amplitude = "grease_factor",
-                             .largest = 1.0,
-                             .sites = {{"inner", "bearing", "outer"}},
-                             .shapes = {{{"pitch_diameter", "90 mm"},
-                                         {"torque_load", "0 N"},
-                                         {"conductance", "0 W/K"},
-                                         {"viscosity_temperature", "0 K"}},
-                                        {{"pitch_diameter", "90 mm"},
-                                         {"torque_load", "0 N"},
-                                         {"conductance", "0 W/K"},
-                                         {"viscosity_temperature", "1000 K"}}}}});
+  static Effect const effect = make_effect<Bearing>(
+      {"bearing",
+       "friction of a set of spindle bearings, and conduction through its balls",
+       "Q = n (M0 + M1) |ω|;  M0 = 4500.9 f0 (νω)^(2/3) d_m³ (νω ≥ 2.0944e-4 m²/s², else 16 f0 "
+       "d_m³);  M1 = z (P0/C0)^y P1 "
+       "d_m;  ν = A exp(B/(T[°C] + 95)) at the mean of both rings;  q = (G0 + G1 √(n/n_max)) (T_outer − T_inner)",
+       "source, link",
+       "shaft and outer ring",
+       "power of speed 1.67, falling to 1.0…1.2 in the steady state by the "
+       "viscosity's feedback; first seen at the rings; ends at stop",
+       "physics.md 1.1, 1.3, 2.4; Palmgren 1957; Harris & Kotzalas 2006",
+       {4},
+       {"fan_cooling", "rotor_windage", "preload", "grease_run_in"},
+       "the same speed from a warm bearing: a wrong viscosity shows at once, a draught or windage "
+       "does not; spindle current"},
+      {{.amplitude = "grease_factor",
+        .largest = 1.0,
+        .sites = {{"inner", "bearing", "outer"}},
+        .shapes = {{{"pitch_diameter", "90 mm"},
+                    {"torque_load", "0 N"},
+                    {"conductance", "0 W/K"},
+                    {"viscosity_temperature", "0 K"}},
+                   {{"pitch_diameter", "90 mm"},
+                    {"torque_load", "0 N"},
+                    {"conductance", "0 W/K"},
+                    {"viscosity_temperature", "1000 K"}}}}});
   return effect;
 }
 

@@ -72,14 +72,15 @@ Effect const& seal_effect() {
        "friction of a seal that touches the shaft",
        "Q = M ω;  lip: M = ½π μ p d²;  contact seals of a bearing: M[N mm] = K₁ d^β + K₂, d in mm",
        "source",
-       "nose, shaft and housing at the front bearing",
+       "nose, shaft and housing at a bearing of the spindle or of a screw",
        "power of speed 1 exactly, whatever the temperature; shaft and housing together; seen at 200…1000 rpm, where "
        "bearing friction has vanished; ends at stop",
        "physics.md 1.6, §7 no. 8; SKF 2006",
        {8},
        {"belt", "bearing"},
        "200…1000 rpm, where bearing friction has vanished; torque at speed 0 by extrapolation"},
-      {{.amplitude = "torque", .largest = 0.5, .sites = {{"shaft", "bearing", "housing"}}}});
+      {{.amplitude = "torque", .largest = 0.5, .sites = {{"shaft", "bearing", "housing"}}},
+       {.amplitude = "torque", .largest = 0.5, .sites = {{"shaft", "support", "housing"}}}});
   return effect;
 }
 

@@ -196,15 +196,13 @@ TEST(FreeHeat, OfTwoEffectsIsWhatTheyBringTogether) {
 
 /// 30 W in the run that turns, none in the one that stands.
 TEST(FreeHeat, IsToldBySpeedOfRunsAtOneSpeed) {
-  std::vector<BinnedRun> data;
-  for (std::string const speed : {"4000 rpm", "0 rpm"})
-    data.push_back(bin(
-        tests::measured(
-            v450(), tests::experiment(
-                        "duration = \"2 h\"\nambient.daily_cycle.amplitude = \"3 K\"\n[spindle]\nblocks = [{duration = "
-                        "\"2 h\", speed = \"" +
-                        speed + "\"}]")),
-        60.0));
+  auto const run_at = [](std::string const& speed) {
+    return tests::measured(v450(), tests::experiment("duration = \"2 h\"\nambient.daily_cycle.amplitude = \"3 K\"\n"
+                                                     "[spindle]\nblocks = [{duration = \"2 h\", speed = \"" +
+                                                     speed + "\"}]"));
+  };
+  auto const turning = run_at("4000 rpm"), standing = run_at("0 rpm");
+  std::vector<BinnedRun> const data = {bin(turning, 60.0), bin(standing, 60.0)};
   FreeHeat heat;
   heat.knots = {Eigen::Vector2d(0.0, 7200.0), Eigen::Vector2d(0.0, 7200.0)};
   heat.heat = {Eigen::Vector2d(30.0, 30.0), Eigen::Vector2d(0.0, 0.0)};
