@@ -86,7 +86,7 @@ Signal Signal::running() const {
 
 double Signal::piece_start(double t) const {
   auto const k = piece(t);
-  return k == 0 ? 0.0 : std::max(0.0, times_[k]);  // what was before the first breakpoint is as it
+  return k == 0 ? 0.0 : std::max(0.0, times_[k]);  // the first value holds before its breakpoint, too
 }
 
 double Signal::largest_magnitude() const {

@@ -104,6 +104,15 @@ using RollingElements = RollingElementsOf<double>;
   return {nut.balls(), 0.5 * nut.ball_diameter, 0.5 * nut.nominal_diameter};
 }
 
+/// G = G₀ + G₁ √(ω/ω_ref), as measured at rest and at a reference speed: balls that roll carry grease from ring to
+/// ring.
+template <class S>
+S rolling_conductance(S const& at_rest, S const& gain, S const& reference_speed, double angular_speed) {
+  using std::abs;
+  using std::sqrt;
+  return angular_speed != 0.0 ? S(at_rest + gain * sqrt(S(abs(angular_speed) / reference_speed))) : at_rest;
+}
+
 /// G = N [n g_c g_f/(2 g_c + g_f) + 0.05 k r_b], n = 1 or 2 (four-point), per element
 ///   g_c = 1.8 k r_b W^{1/3} [1 + W^{1/6} (ω r_b r_m/a)^{1/2}]   contact, static and renewed by rotation,
 ///   g_f = 0.22 k_oil r_b W^0.83 U^{−0.67}, U = η ω r_m/(2 E' r_b)   oil film,

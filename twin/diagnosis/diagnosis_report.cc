@@ -395,12 +395,7 @@ std::string report_json(DiagnosisReport const& report) {
     json["experiment_hours"] = proposal->hours;
   }
   json["proposals"] = Json::array();
-  for (auto const& proposal : diagnosis.proposals)
-    json["proposals"].push_back({{"experiment", proposal.schedule},
-                                 {"file", proposal.file.string()},
-                                 {"hours", proposal.hours},
-                                 {"added_sensor", proposal.sensor},
-                                 {"distance", proposal.distance}});
+  for (auto const& proposal : diagnosis.proposals) json["proposals"].push_back(json_of(proposal));
   json["estimates"] = Json::array();
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
     auto const i = Eigen::Index(u);

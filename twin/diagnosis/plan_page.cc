@@ -18,14 +18,6 @@ std::string words_of(Remedy const& remedy) {
   return fmt::format("{}: {:.1f} σ", text, remedy.distance);
 }
 
-Json json_of(Remedy const& remedy) {
-  return {{"experiment", remedy.schedule},
-          {"file", remedy.file.string()},
-          {"hours", remedy.hours},
-          {"added_sensor", remedy.sensor},
-          {"distance", remedy.distance}};
-}
-
 /// The best without a sensor more, and the best with one.
 std::vector<Remedy> best_of(std::vector<Remedy> const& remedies) {
   std::vector<Remedy> best;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/run_files.h"
@@ -81,6 +82,14 @@ std::vector<std::vector<Remedy>> remedies(Value const& document, std::vector<Bin
   for (auto& list : found)
     std::stable_sort(list.begin(), list.end(), [](auto const& a, auto const& b) { return a.distance > b.distance; });
   return found;
+}
+
+nlohmann::ordered_json json_of(Remedy const& remedy) {
+  return {{"experiment", remedy.schedule},
+          {"file", remedy.file.string()},
+          {"hours", remedy.hours},
+          {"added_sensor", remedy.sensor},
+          {"distance", remedy.distance}};
 }
 
 }  // namespace thermotwin::twin

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct Remedy {
   std::string sensor;          ///< where it would sit; empty: none
   double distance = 0.0;       ///< least d_ij among the rivals, of one alone its d_i, in units of the noise
 };
+
+/// For programs.
+[[nodiscard]] nlohmann::ordered_json json_of(Remedy const& remedy);
 
 /// Effects as somebody may look for them: an amplitude each [units of the hypothesis' largest].
 struct Rivals {

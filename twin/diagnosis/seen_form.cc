@@ -64,9 +64,9 @@ std::vector<ChangedValue> SeenForm::changes() const {
 std::vector<std::size_t> seen_of_form(Estimation const& estimation, Fit const& fit) {
   std::vector<std::size_t> seen;
   for (std::size_t u = 0; u < estimation.unknowns().size(); ++u) {
-    auto const& [kind, index] = std::pair(estimation.unknowns()[u].kind, estimation.unknowns()[u].index);
+    auto const kind = estimation.unknowns()[u].kind;
     auto const i = Eigen::Index(u);
-    if (kind == Unknown::Kind::place && !estimation.places()[index].can_be_written) continue;
+    if (kind == Unknown::Kind::place && !estimation.places()[estimation.unknowns()[u].index].can_be_written) continue;
     bool const of_form = kind == Unknown::Kind::place || kind == Unknown::Kind::loop;
     bool const open = kind == Unknown::Kind::loop && estimation.has_open_loops();
     if (of_form && (open || std::abs(fit.x[i]) > std::sqrt(fit.covariance(i, i)))) seen.push_back(u);

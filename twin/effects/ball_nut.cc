@@ -1,6 +1,8 @@
+#include "thermal/ball_conductance.h"
 #include "thermal/bearing_friction.h"
 #include "thermal/error.h"
 #include "thermal/feed_drive.h"
+#include "thermal/laws.h"
 #include "thermal/lubricant.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
@@ -31,10 +33,7 @@ struct NutConductance {
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    using std::sqrt;
-    S const conductance = u[0] > 0.0 ? c[0] + c[1] * sqrt(S(u[0] / c[2])) : c[0];
-    q[0] = u[1] * conductance * (T[1] - T[0]);
-    q[1] = -q[0];
+    thermal::exchange<S>(u[1] * thermal::rolling_conductance<S>(c[0], c[1], c[2], u[0]) * (T[1] - T[0]), q);
   }
 };
 

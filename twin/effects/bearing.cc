@@ -30,17 +30,14 @@ struct PalmgrenHeat {
   }
 };
 
-/// q = G (T₁ − T₀), G = G₀ + G₁ √(ω/ω_max): balls that roll carry grease from ring to ring. c = {G₀, G₁, ω_max},
-/// u = {ω}.
+/// q = G (T₁ − T₀), G = G₀ + G₁ √(ω/ω_max). c = {G₀, G₁, ω_max}, u = {ω}.
 struct BallConduction {
   static constexpr std::string_view name = "conduction through the balls of a bearing";
   static constexpr int ports = 2, coefficients = 3, inputs = 1;
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    using std::sqrt;
-    S const conductance = u[0] != 0.0 ? c[0] + c[1] * sqrt(S(std::abs(u[0]) / c[2])) : c[0];
-    thermal::exchange<S>(conductance * (T[1] - T[0]), q);
+    thermal::exchange<S>(thermal::rolling_conductance<S>(c[0], c[1], c[2], u[0]) * (T[1] - T[0]), q);
   }
 };
 
