@@ -457,6 +457,30 @@ TEST(ExtraMass, IsForgottenInTheSteadyStateAndDelaysOnTheWay) {
   EXPECT_GT((after(with_little) - after(with_mass)) / gap, 0.02);
 }
 
+TEST(Film, RefusesACoefficientThatItsCorrelationDoesNotTake) {
+  auto const refused =
+      [](std::string const& correlation) {
+        return refusal([&] {
+          return Machine::build(parse_toml(R"toml(
+        name = "lump"
+        [[lump]]
+        name = "body"
+        heat_capacity = "5000 J/K"
+        corner = ["0 mm", "0 mm", "0 mm"]
+        size = ["100 mm", "100 mm", "100 mm"]
+        [[film]]
+        name = "air"
+        on = "body"
+        area = "0.1 m2"
+        coefficient = "20 W/(m2 K)"
+        correlation = ")toml" + correlation + "\"",
+                                           "lump.toml"));
+        });
+      };
+  EXPECT_THAT(refused("room"), HasSubstr("needs correlation = \"constant\""));
+  EXPECT_EQ(refused("constant"), "accepted");
+}
+
 TEST(Film, OfARotatingCylinderAgreesAmongItsSources) {
   for (auto const& variant : {"rotating_cylinder_jungnickel", "rotating_cylinder_anderson"}) {
     double const becker = total_at(snippet("film", "rotating_cylinder"), 313.15, still_air);

@@ -176,10 +176,14 @@ struct Film {
     throw thermal::InputError("film '" + name + "': " + correlation + " needs a " + (round ? "diameter" : "height"));
   }
   [[nodiscard]] double needed() const {
-    if (coefficient) return *coefficient;
-    if (correlation == "constant" || correlation == "fan")
+    bool const is_given = correlation == "constant" || correlation == "fan";
+    if (is_given && !coefficient)
       throw thermal::InputError("film '" + name + "': correlation " + correlation + " needs a coefficient");
-    return 0.0;
+    if (coefficient && !is_given)
+      throw thermal::InputError(
+          "film '" + name + "': correlation " + correlation +
+          " has its own coefficient; one that is given needs correlation = \"constant\" or \"fan\"");
+    return coefficient.value_or(0.0);
   }
 };
 

@@ -37,8 +37,9 @@ Value cube() {
     [[film]]
     name = "none"
     on = "oil"
-    coefficient = "1e-4 W/(m2 K)"
-    area = "0.01 m2"
+    correlation = "constant"
+    coefficient = "1 W/(m2 K)"
+    area = "1e-6 m2"
     [[heat]]
     name = "heater"
     at = "cube"
