@@ -20,8 +20,9 @@ namespace {
 // named.
 constexpr int to_the_end = 50;
 constexpr int most_effects = 8;
-constexpr double open_loop = 0.2;  // share of free growth
-constexpr std::size_t most_refits = 24, most_growths = 3, whitened_at_once = 32;
+constexpr double open_loop = 0.2;    // share of free growth
+constexpr double closed_law = 0.25;  // of the prior that laws have where they are open
+constexpr std::size_t most_refits = 24, most_rivals = 3, whitened_at_once = 32;
 // What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
 constexpr double hopeful_score = 0.3, hopeful_refit = 0.5;
 
@@ -45,6 +46,12 @@ std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector
 /// Of an amplitude as it was fitted: no fault of a sensor, for instance, which good ones have as well.
 bool is_ordinary(Hypothesis const& hypothesis, Fit const& fit, Eigen::Index unknown) {
   return hypothesis.is_ordinary(fit.x[unknown], std::sqrt(fit.covariance(unknown, unknown)));
+}
+
+/// Some step of its structural loop may be anything.
+bool is_without_drawings(std::vector<UncertainNumber> const& numbers) {
+  return std::any_of(numbers.begin(), numbers.end(),
+                     [](auto const& number) { return number.path.ends_with(".weight") && number.nominal == 0.0; });
 }
 
 Eigen::VectorXd shorter(Eigen::VectorXd const& x, Eigen::Index gone) {
@@ -74,9 +81,11 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
     : options_(options), geometry_(Machine::build(document).geometry), hypotheses_(std::move(hypotheses)) {
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs));
+  if (!is_without_drawings(estimation_->numbers())) estimation_ = estimation_->with_laws(closed_law);
   expected_ = estimation_->noise();
   fit_ = estimation_->fit(options.start ? estimation_->drawn(*options.start) : estimation_->prior_mean(), to_the_end);
   open_loops();
+  open_laws();
   listen_to_noise();
   plain_ = estimation_;
   calibrated_ = fit_;
@@ -115,22 +124,33 @@ double EffectSearch::evident_beside() const {
 /// Lets displacements leave their structural loops where that is evident, and more so than any one effect on a
 /// displacement: the structure is another then than the file says.
 void EffectSearch::open_loops() {
-  Estimation const open = estimation_->with_loops(open_loop);
-  Fit fit = open.fit(fit_.x, to_the_end);
+  open(estimation_->with_loops(open_loop), 0.0, [](Hypothesis const& h) { return h.is_about("deformation"); });
+}
+
+/// Lets greases and rolling balls follow other laws than those of the file where data agree with that better, unless
+/// one effect on heat is evident beyond it: few greases are quite what the file says.
+void EffectSearch::open_laws() {
+  auto const& numbers = estimation_->numbers();
+  if (std::none_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.of_law; })) return;
+  open(estimation_->with_laws(1.0), options_.threshold, [](Hypothesis const& h) { return !h.is_read_directly(); });
+}
+
+void EffectSearch::open(Estimation const& other, double lead, std::function<bool(Hypothesis const&)> const& rivals) {
+  Fit fit = other.fit(fit_.x, to_the_end);
   double const gain = fit_.evidence - fit.evidence;
-  if (gain < 0.0 || gain_of_one_growth() > gain) return;
-  estimation_ = open;
+  if (gain < 0.0 || gain_of_one(rivals) > gain + lead) return;
+  estimation_ = other;
   fit_ = std::move(fit);
 }
 
-/// 2 ln of the evidence for the strongest effect on a displacement, about the present fit.
-double EffectSearch::gain_of_one_growth() {
+/// 2 ln of the evidence for the strongest of these effects, about the present fit.
+double EffectSearch::gain_of_one(std::function<bool(Hypothesis const&)> const& rivals) {
   linearise();
   auto const all = candidates();
   auto const scores = Remainder(fit_, all.columns).scores(all.hypotheses);
   std::vector<std::size_t> chosen;
   for (std::size_t const k : promising(scores, all.hypotheses, 0.0))
-    if (all.hypotheses[k].is_about("deformation") && chosen.size() < most_growths) chosen.push_back(k);
+    if (rivals(all.hypotheses[k]) && chosen.size() < most_rivals) chosen.push_back(k);
   auto const found = refits(fit_, chosen, all, scores);
   return found.empty() ? 0.0 : found[0].strength;
 }

@@ -86,7 +86,9 @@ class EffectSearch {
   void linearise();
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
   void open_loops();
-  [[nodiscard]] double gain_of_one_growth();
+  void open_laws();
+  void open(Estimation const& other, double lead, std::function<bool(Hypothesis const&)> const& rivals);
+  [[nodiscard]] double gain_of_one(std::function<bool(Hypothesis const&)> const& rivals);
   void listen_to_noise();
   [[nodiscard]] std::vector<double> strengths_beside_others() const;
   [[nodiscard]] Estimation with_effects(std::vector<Hypothesis> const& effects) const;

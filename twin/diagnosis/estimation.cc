@@ -163,6 +163,14 @@ Estimation Estimation::with_loops(double deviation) const {
   return other;
 }
 
+Estimation Estimation::with_laws(double share) const {
+  Estimation other = *this;
+  for (auto& unknown : other.unknowns_)
+    if (unknown.kind == Unknown::Kind::number && numbers_[unknown.index].of_law)
+      unknown.deviation = share * numbers_[unknown.index].deviation;
+  return other;
+}
+
 Estimation Estimation::about(Eigen::VectorXd const& x) const {
   Estimation other = *this;
   auto linear = std::make_shared<LinearUnknowns const>(document_at(x), *data_, channels_);

@@ -44,6 +44,8 @@ class Estimation {
   /// The same question where displacements may leave their structural loops by so much of free growth (loop_gaps.h).
   [[nodiscard]] Estimation with_loops(double deviation) const;
   [[nodiscard]] bool has_open_loops() const;
+  /// The same question where the forms of laws are as uncertain as that share of their priors.
+  [[nodiscard]] Estimation with_laws(double share) const;
   /// The same question where what is linear answers as about these estimates; where effects brought more of it, as it
   /// was.
   [[nodiscard]] Estimation about(Eigen::VectorXd const& x) const;

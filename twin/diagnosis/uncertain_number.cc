@@ -64,7 +64,12 @@ void add_numbers(Value const& document, std::string const& kind, Value const& ta
                          .of_either_sign = true});
     auto const deviation = deviation_of(kind, entry.key, parameter.dimension);
     if (deviation && parameter.value > 0.0 && !parameter.absolute_temperature)
-      numbers.push_back({parameter.path, parameter.value, parameter.dimension, *deviation, unit_of(entry.value)});
+      numbers.push_back({.path = parameter.path,
+                         .nominal = parameter.value,
+                         .dimension = parameter.dimension,
+                         .deviation = *deviation,
+                         .unit = unit_of(entry.value),
+                         .of_law = entry.key == "viscosity_temperature"});
   }
 }
 
@@ -96,7 +101,8 @@ void add_of_bearing(Value const& document, Value& table, std::vector<UncertainNu
                      .deviation = 0.1 * conductance,
                      .unit = "W/K",
                      .of_either_sign = true,
-                     .lower = -0.8 * conductance});
+                     .lower = -0.8 * conductance,
+                     .of_law = true});
 }
 
 /// What is left to its default, of conductances.
@@ -141,6 +147,7 @@ void set_range(Value& document, RangedNumber const& range, std::vector<Uncertain
   auto const end = [&](double at) { return it->of_either_sign ? at - it->nominal : std::log(at / it->nominal); };
   it->lower = end(range.low);
   it->upper = end(range.high);
+  it->of_law = false;
   it->deviation = (it->upper - it->lower) / std::sqrt(12.0);
 }
 

@@ -22,6 +22,7 @@ struct UncertainNumber {
   std::string unit = {};  ///< that its author chose; empty: a bare number
   bool of_either_sign = false;
   double lower = -INFINITY, upper = INFINITY;  ///< of x
+  bool of_law = false;                         ///< of the form of a law, which mostly is as the file has it
   bool of_any_kind = false;                    ///< an `[[uncertain]]` makes it so, whatever it acts on
 
   [[nodiscard]] double value(double x) const;

@@ -114,6 +114,17 @@ TEST(Estimation, LeavesTheOtherNumbersWhereTheyAre) {
   }
 }
 
+/// Of a law that is as good as known the data say nothing; with its whole prior the question is the same.
+TEST(Estimation, LawsAreAsUncertainAsTheirShare) {
+  auto const& q = question();
+  auto const slope = q.index("bearing.front.viscosity_temperature");
+  auto const fit = [&](double share) { return q.estimation->with_laws(share).fit(q.fit.x); };
+  EXPECT_LT(std::abs(fit(1e-4).x[slope]), 1e-5);
+  EXPECT_NEAR(fit(1.0).evidence, q.fit.evidence, 1e-3);
+  double const deviation = q.estimation->unknowns()[std::size_t(slope)].deviation;
+  EXPECT_DOUBLE_EQ(q.estimation->with_laws(0.25).unknowns()[std::size_t(slope)].deviation, 0.25 * deviation);
+}
+
 /// What is left is less than the noise, of which a part is the model's error that this twin does not have.
 TEST(Estimation, LeavesNoMoreThanTheNoise) {
   auto const& q = question();
