@@ -12,12 +12,10 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double offset_deviation = 0.3;  // of a temperature sensor [K]
-constexpr double zero_deviation = 1e-6;   // of a displacement's zero [m]
-constexpr double unread_zero = 200e-6;    // where the run begins before the channel was read
-constexpr double start_deviation = 0.3;   // [K]
-constexpr double air_deviation = 0.2;     // [K]
-constexpr double mean_moment = 0.25;      // between a programme that runs with the samples, 0, and one that does not
+constexpr double zero_deviation = 1e-6;  // of a displacement's zero [m]
+constexpr double unread_zero = 200e-6;   // where the run begins before the channel was read
+constexpr double air_deviation = 0.2;    // [K]
+constexpr double mean_moment = 0.25;     // between a programme that runs with the samples, 0, and one that does not
 constexpr double mean_moment_deviation = 0.25;
 constexpr double moment_deviation = 0.289;  // about that mean, of any moment between two samples: 1/√12
 constexpr double interior_deviation = 0.5;  // of a lump: half of a slab
@@ -37,14 +35,19 @@ Unknown zero_unknown(MeasuredChannel const& channel, std::size_t index, std::siz
           .run = int(run)};
 }
 
-/// Of the whole machine warmer by a kelvin at the start, and of warmer air.
-Eigen::MatrixXd response_to_start_and_air(LinearisedRun const& twin) {
+/// Of warmer air, of the whole machine warmer by a kelvin at the start, and of the fields of one that is not at rest.
+Eigen::MatrixXd response_to_air_and_start(LinearisedRun const& twin) {
   auto const& network = twin.machine().network();
   auto const air = warmer_air(network);
   auto const none = thermal::lengthened({}, network);
-  Eigen::MatrixXd initial = Eigen::MatrixXd::Zero(network.nodes(), 2);
-  initial.col(0).setOnes();
-  return twin.response(thermal::ParameterColumns(network, {&none, &air}), initial);
+  auto const& warm = twin.data().run->warm_start;
+  Eigen::MatrixXd const fields = warm ? warm->fields_in(network) : Eigen::MatrixXd(network.nodes(), 0);
+  Eigen::MatrixXd initial = Eigen::MatrixXd::Zero(network.nodes(), 2 + fields.cols());
+  initial.col(1).setOnes();
+  initial.rightCols(fields.cols()) = fields;
+  std::vector<thermal::NetworkDerivative const*> parameters(std::size_t(initial.cols()), &none);
+  parameters[0] = &air;
+  return twin.response(thermal::ParameterColumns(network, parameters), initial);
 }
 
 /// What the channels show more where this course is the machine's.
@@ -119,6 +122,13 @@ void LinearUnknowns::add_of_run(BinnedRun const& data, int run) {
                        .name = fmt::format("warm start of run {}", number),
                        .deviation = start_deviation,
                        .run = run});
+  if (auto const& warm = data.run->warm_start)
+    for (Eigen::Index k = 0; k < warm->likely.size(); ++k)
+      unknowns_.push_back({.kind = Kind::warmth,
+                           .name = fmt::format("warmth {} at the start of run {}", k + 1, number),
+                           .mean = -warm->likely[k],
+                           .index = std::size_t(k),
+                           .run = run});
   unknowns_.push_back(
       {.kind = Kind::air, .name = fmt::format("air in run {}", number), .deviation = air_deviation, .run = run});
   auto const& alternatives = data.run->alternatives;
@@ -157,7 +167,7 @@ Eigen::MatrixXd LinearUnknowns::columns_of(BinnedRun const& data, int run,
                                            std::vector<std::string> const& channels) const {
   LinearisedRun const twin(machine_, data);
   Eigen::VectorXd const prediction = twin.prediction().reshaped();
-  Eigen::MatrixXd const start_and_air = response_to_start_and_air(twin);
+  Eigen::MatrixXd const air_and_start = response_to_air_and_start(twin);
   Eigen::MatrixXd const earlier = response_to_earlier_changes(twin), within = interiors_.responses(data);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(data.values.size(), Eigen::Index(unknowns_.size()));
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
@@ -165,8 +175,9 @@ Eigen::MatrixXd LinearUnknowns::columns_of(BinnedRun const& data, int run,
     if (unknown.run >= 0 && unknown.run != run) continue;
     auto const own = Eigen::Index(unknown.index);
     auto column = columns.col(Eigen::Index(u));
-    if (unknown.kind == Unknown::Kind::start) column = start_and_air.col(0);
-    if (unknown.kind == Unknown::Kind::air) column = start_and_air.col(1);
+    if (unknown.kind == Unknown::Kind::air) column = air_and_start.col(0);
+    if (unknown.kind == Unknown::Kind::start) column = air_and_start.col(1);
+    if (unknown.kind == Unknown::Kind::warmth) column = air_and_start.col(2 + own);
     if (unknown.kind == Unknown::Kind::moments)
       for (std::size_t i = 0; i < data.run->changes.size(); ++i)
         column += data.run->changes[i].earlier * earlier.col(Eigen::Index(i));

@@ -9,7 +9,6 @@
 #include "thermal/newton_system.h"
 #include "thermal/reduced_network.h"
 #include "twin/diagnosis/channel_reading.h"
-#include "twin/run.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -42,8 +41,6 @@ void LinearisedRun::trace() {
   auto const& steps = data_->steps;
   std::vector<double> times = {steps.front().begin};
   for (auto const& step : steps) times.push_back(step.end);
-  scenarios::Experiment start;
-  start.initial_temperature = data_->run->initial_temperature;
   thermal::IntegrationOptions options;
   options.relative_tolerance = 1e-5;  // 3 mK
   options.absolute_tolerance = 1e-4;
@@ -54,7 +51,7 @@ void LinearisedRun::trace() {
     inputs.emplace_back(sample.input.begin(), sample.input.end());
   };
   auto const& network = machine_->network();
-  auto const from = initial_temperatures(*machine_, start, course);
+  auto const from = start_of(*machine_, *data_->run);
   auto const in_modes = [&] {
     if (network.nodes() > most_modes || !thermal::why_irreducible(network).empty()) return false;
     try {

@@ -18,6 +18,7 @@ namespace {
 using thermal::InputError;
 
 constexpr Eigen::Index fewest_rows = 10;
+constexpr double begin_of_run = 120.0;  // [s]
 
 scenarios::SampledInput sampled(output::Channel const& channel, Eigen::VectorXd const& time) {
   scenarios::SampledInput input;
@@ -70,6 +71,12 @@ Eigen::VectorXd MeasuredRun::input(std::string_view name, Eigen::VectorXd const&
   });
 }
 
+double MeasuredRun::first_reading(Eigen::Index channel) const {
+  for (Eigen::Index i = 0; i < time.size() && time[i] <= begin_of_run; ++i)
+    if (double const value = channels[std::size_t(channel)].values[i]; !std::isnan(value)) return value;
+  return NAN;
+}
+
 double usual_interval(std::span<double const> times) {
   if (times.size() < 2) return INFINITY;
   std::vector<double> intervals;
@@ -91,6 +98,10 @@ MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string 
     run.remarks.push_back(fmt::format("it is a run of '{}', the machine file is '{}'", data.machine, machine.name));
   run.channels = channels_of(data, machine, run.remarks);
   add_courses(run, std::move(data), machine);
+  run.warm_start = warm_start(machine, run);
+  if (run.warm_start) run.remarks.push_back(fmt::format(
+        "it does not begin at rest with the room (first readings: {}); how warm each part was is estimated",
+        run.warm_start->farthest));
   return run;
 }
 

@@ -12,6 +12,7 @@
 #include "output/dataset.h"
 #include "thermal/operating_point.h"
 #include "twin/diagnosis/input_change.h"
+#include "twin/diagnosis/warm_start.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -40,10 +41,13 @@ struct MeasuredRun {
   Eigen::VectorXd time;                       ///< [s], strictly increasing
   std::vector<MeasuredChannel> channels;      ///< those of the machine that the data have, in the machine's order
   std::optional<double> initial_temperature;  ///< of the whole machine [K]; default: that of the air around each part
+  std::optional<WarmStart> warm_start;        ///< how far its parts were from that
   std::vector<std::string> remarks;  ///< for people: another machine, dead sensors, gaps, channels that the data lack
 
   /// One of the inputs at these times [SI]; empty where the course does not have it.
   [[nodiscard]] Eigen::VectorXd input(std::string_view name, Eigen::VectorXd const& times) const;
+  /// What a channel, by its number, read where the run began [SI]; NaN where that has a past before any reading.
+  [[nodiscard]] double first_reading(Eigen::Index channel) const;
 };
 
 /// The median time between neighbours [s]; infinite for fewer than two.

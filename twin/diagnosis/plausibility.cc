@@ -33,7 +33,6 @@ constexpr double mirror_gain = 0.4;      // misfit of the mirror image over that
 constexpr double least_factor = 1000.0 / 3.0, largest_factor = 3000.0;  // about a thousand
 constexpr double swap_gain = 0.25;   // misfit to the other's prediction over that to its own
 constexpr double swap_misfit = 0.5;  // at least, to its own [K RMS]
-constexpr double begin_of_run = 2.0 * minute;
 constexpr double start_error = 3.0;                                 // K
 constexpr double fahrenheit_error = 5.0, fahrenheit_excess = 20.0;  // K
 constexpr double least_shift = 5.0 * minute, same_shift = 3.0 * minute;
@@ -67,7 +66,6 @@ class Examination {
   [[nodiscard]] double movement(Index c) const { return spread(seen_.col(c)); }
   [[nodiscard]] double expected(Index c) const { return spread(due_.col(c) + 0.0 * seen_.col(c)); }
   [[nodiscard]] double misfit(Index seen, Index due) const { return spread(seen_.col(seen) - due_.col(due)); }
-  [[nodiscard]] double first_reading(Index c) const;
   [[nodiscard]] bool reads_fahrenheit(Index c, double shown, double begin);
   void examine_displacement(Index c);
   void examine_swaps();
@@ -147,21 +145,11 @@ bool Examination::reads_fahrenheit(Index c, double shown, double begin) {
   return true;
 }
 
-/// What it read at the start; NaN where the run has a past.
-double Examination::first_reading(Index c) const {
-  auto const& run = *data_.run;
-  for (Index i = 0; i < run.time.size() && run.time[i] <= begin_of_run; ++i)
-    if (double const value = run.channels[std::size_t(c)].values[i]; !std::isnan(value)) return value;
-  return NAN;
-}
-
 void Examination::examine_start() {
-  scenarios::Experiment start;
-  start.initial_temperature = data_.run->initial_temperature;
-  auto const temperatures = initial_temperatures(machine_, start, *data_.run->course);
+  auto const temperatures = start_of(machine_, *data_.run);
   std::vector<std::string> away;
   for (auto const& [c, sensor] : sensors_) {
-    double const shown = first_reading(c);
+    double const shown = data_.run->first_reading(c);
     double begin = 0.0;
     for (auto const& [node, weight] : sensor->weights) begin += weight * temperatures[std::size_t(node)];
     if (!reads_fahrenheit(c, shown, begin) && std::abs(shown - begin) > start_error)

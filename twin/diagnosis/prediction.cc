@@ -64,10 +64,8 @@ void Predictor::look(thermal::Sample const& sample, Eigen::Index row) {
 Eigen::MatrixXd Predictor::operator()() {
   auto const rows = Eigen::Index(times_.size());
   seen_.resize(rows, Eigen::Index(readings_.size()));
-  scenarios::Experiment start;
-  start.initial_temperature = run_.initial_temperature;
   Eigen::Index row = 0;
-  thermal::integrate(machine_.network(), *run_.course, initial_temperatures(machine_, start, *run_.course), times_, {},
+  thermal::integrate(machine_.network(), *run_.course, start_of(machine_, run_), times_, {},
                      [&](thermal::Sample const& sample) { look(sample, row++); });
   Eigen::MatrixXd shown(run_.time.size(), seen_.cols());
   Eigen::VectorXd const time = Eigen::Map<Eigen::VectorXd const>(times_.data(), rows);

@@ -8,7 +8,7 @@
 namespace thermotwin::twin {
 
 /// What the channels of a measured run would show if the machine were as its file says (channel_reading.h): row ×
-/// channel [SI]. The machine starts at the run's 0, at `initial_temperature` or at that of the air.
+/// channel [SI]. The machine starts at the run's 0, at start_of.
 [[nodiscard]] Eigen::MatrixXd predict(Machine const& machine, MeasuredRun const& run);
 
 }  // namespace thermotwin::twin

@@ -6,6 +6,9 @@
 
 namespace thermotwin::twin {
 
+/// Of priors [K]: how far an offset of a temperature sensor is from none, and a machine's start from that of its record.
+inline constexpr double offset_deviation = 0.3, start_deviation = 0.3;
+
 /// What is estimated from the data, with its prior N(mean, deviation²).
 struct Unknown {
   enum class Kind {
@@ -14,6 +17,7 @@ struct Unknown {
     offset,     ///< of a channel [K, m]: of a sensor in all runs, of a displacement in one
     lag,        ///< of a sensor [s]
     start,      ///< deviation of the whole machine's temperature at the start of a run [K]
+    warmth,     ///< of one of the fields of a run that does not begin at rest (warm_start.h), in its deviations
     air,        ///< deviation of the room air from its record, in one run [K]
     input,      ///< share of what a run may have been given instead in a gap of its record
     moments,   ///< how much earlier than the samples that show them a run's inputs changed, of the time between samples
@@ -26,7 +30,7 @@ struct Unknown {
   std::string name;
   double mean = 0.0, deviation = 1.0;
   double lower = -INFINITY, upper = INFINITY;
-  std::size_t index = 0;  ///< of the number, the effect, the channel, the run's alternative or change, the interior
+  std::size_t index = 0;  ///< of the number, the effect, the channel, the run's field, alternative or change, the interior
   int run = -1;           ///< −1: all
 };
 

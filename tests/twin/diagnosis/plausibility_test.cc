@@ -115,8 +115,11 @@ TEST_F(PlausibilityTest, TwoSensorsSwapped) {
   EXPECT_THAT(said(), ElementsAre(StartsWith("T6 follows what T8 should show")));
 }
 
+/// With more sensors its start is estimated.
 TEST_F(PlausibilityTest, AMachineThatWasNotAtRest) {
   cut_before(Eigen::Index(data.time_s.size() / 8));
+  EXPECT_THAT(said(), IsEmpty());
+  data.readings.resize(3);
   EXPECT_THAT(said(), ElementsAre(StartsWith("the run does not start at rest with the room: T1 +")));
 }
 

@@ -1,0 +1,224 @@
+#include "twin/diagnosis/warm_start.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unordered_map>
+
+#include "thermal/evaluation.h"
+#include "twin/diagnosis/channel_reading.h"
+#include "twin/diagnosis/measured_run.h"
+#include "twin/diagnosis/unknown.h"
+#include "twin/run.h"
+
+namespace thermotwin::twin {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double evident_gain = 11.0;  // of 2 ln likelihood
+constexpr Index fewest_sensors = 4;    // one of them left out
+constexpr Index most_nodes = 500;      // K is decomposed whole
+constexpr double least_field = 0.05;   // [K]
+constexpr std::size_t most_named = 3;
+constexpr double loosest = 1e-6;  // λ of K, of its largest: nothing is tied less to the rest
+// What first readings are tried to differ by in the mean, from and to, in steps of [K]
+constexpr double least_rise = 0.3, largest_rise = 40.0, rise_step = 1.4142;
+
+std::vector<double> at_rest(Machine const& machine, MeasuredRun const& run) {
+  scenarios::Experiment start;
+  start.initial_temperature = run.initial_temperature;
+  return initial_temperatures(machine, start, *run.course);
+}
+
+/// What first readings differ by from those at rest, and what they show of a field.
+struct FirstReadings {
+  std::vector<std::string> sensors;
+  MatrixXd weights;  ///< H, sensor × node
+  VectorXd rise;     ///< d [K]
+};
+
+FirstReadings first_readings(Machine const& machine, MeasuredRun const& run, std::vector<double> const& rest) {
+  auto const readings = readings_of(machine, run);
+  std::vector<double> inputs(run.course->channels().size());
+  run.course->evaluate(0.0, inputs);
+  FirstReadings first;
+  first.weights.setZero(Index(readings.size()), machine.network().nodes());
+  first.rise.resize(Index(readings.size()));
+  Index count = 0;
+  for (std::size_t c = 0; c < readings.size(); ++c) {
+    auto const& reading = readings[c];
+    double const shown = run.first_reading(Index(c));
+    if (!reading.sensor || reading.sensor->weights.empty() || std::isnan(shown)) continue;
+    double body = 0.0;
+    for (auto const& [node, weight] : reading.sensor->weights) {
+      first.weights(count, node) += (1.0 - reading.air_share) * weight;
+      body += weight * rest[std::size_t(node)];
+    }
+    first.sensors.push_back(reading.sensor->description.name);
+    first.rise[count++] = shown - reading.offset - reading.before_lag(body, inputs, inputs);
+  }
+  first.weights.conservativeResize(count, Eigen::NoChange);
+  first.rise.conservativeResize(count);
+  return first;
+}
+
+std::string farthest(FirstReadings first) {
+  std::vector<std::string> texts;
+  Index place = 0;
+  while (texts.size() < most_named && first.rise.cwiseAbs().maxCoeff(&place) > 0.0) {
+    texts.push_back(fmt::format("{} {:+.1f} K", first.sensors[std::size_t(place)], first.rise[place]));
+    first.rise[place] = 0.0;
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// K, at rest with what the run is given where it begins.
+MatrixXd conductances(Machine const& machine, MeasuredRun const& run, std::vector<double> const& rest) {
+  auto const& network = machine.network();
+  std::vector<double> values(run.course->channels().size()), input(std::size_t(network.given_channels()), 0.0);
+  run.course->evaluate(0.0, values);
+  for (int i = 0; i < network.external_channels(); ++i)
+    if (int const channel = run.course->index_of(network.channel_names()[std::size_t(i)]); channel >= 0)
+      input[std::size_t(i)] = values[std::size_t(channel)];
+  std::vector<double> state;
+  for (std::size_t i = 0; i < rest.size(); ++i) state.push_back(network.state_of_temperature(int(i), rest[i]));
+  auto const capacity = VectorXd::Map(network.capacity().data(), network.nodes());
+  MatrixXd const jacobian = thermal::Evaluation(network).jacobian(state.data(), input.data());
+  MatrixXd const K = -(capacity.asDiagonal() * jacobian);
+  return 0.5 * (K + K.transpose());
+}
+
+/// F of K⁻¹ = F Fᵀ; a controller's state has no warmth.
+MatrixXd root_of_inverse(MatrixXd K, std::vector<char> const& signals) {
+  for (Index i = 0; i < K.rows(); ++i) {
+    if (!signals[std::size_t(i)]) continue;
+    K.row(i).setZero();
+    K.col(i).setZero();
+  }
+  Eigen::SelfAdjointEigenSolver<MatrixXd> const modes(K);
+  double const least = loosest * modes.eigenvalues().maxCoeff();
+  VectorXd const scale = modes.eigenvalues().cwiseMax(least).cwiseSqrt().cwiseInverse();
+  MatrixXd F = modes.eigenvectors() * scale.asDiagonal();
+  for (Index i = 0; i < K.rows(); ++i)
+    if (signals[std::size_t(i)]) F.row(i).setZero();
+  return F;
+}
+
+/// cov(d), shown = √κ H F.
+Eigen::LLT<MatrixXd> covariance(MatrixXd const& shown) {
+  MatrixXd cov = shown * shown.transpose();
+  cov.diagonal().array() += offset_deviation * offset_deviation;
+  cov.array() += start_deviation * start_deviation;
+  return Eigen::LLT<MatrixXd>(cov);
+}
+
+/// 2 ln of N(d; 0, cov(d)), without what does not depend on it.
+double likelihood(MatrixXd const& shown, VectorXd const& rise) {
+  auto const factor = covariance(shown);
+  return -rise.dot(factor.solve(rise)) - 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+}
+
+struct Likeliest {
+  double root = 0.0;  ///< √κ
+  double gain = 0.0;  ///< of 2 ln likelihood, over none
+};
+
+Likeliest likeliest(MatrixXd const& shown, VectorXd const& rise) {
+  double const none = likelihood(MatrixXd::Zero(shown.rows(), 1), rise);
+  double const per_root = std::sqrt(shown.squaredNorm() / double(shown.rows()));
+  Likeliest best;
+  for (double rms = least_rise; rms < largest_rise; rms *= rise_step) {
+    double const root = rms / per_root, gain = likelihood(root * shown, rise) - none;
+    if (gain > best.gain) best = {root, gain};
+  }
+  return best;
+}
+
+/// One sensor that is wrong by kelvins is no warm machine.
+bool is_evident(MatrixXd const& shown, VectorXd const& rise) {
+  auto const n = rise.size();
+  if (n < fewest_sensors) return false;
+  for (Index left_out = 0; left_out < n; ++left_out) {
+    std::vector<Index> others;
+    for (Index i = 0; i < n; ++i)
+      if (i != left_out) others.push_back(i);
+    if (likeliest(shown(others, Eigen::all), rise(others)).gain < evident_gain) return false;
+  }
+  return true;
+}
+
+/// Of what a node is coupled to and whose rows are known.
+Eigen::RowVectorXd mean_beside(thermal::Network const& network, int node, std::vector<char> const& is_known,
+                               MatrixXd const& rows) {
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(rows.cols());
+  double weight = 0.0;
+  auto const add = [&](Index other, double share) {
+    if (!is_known[std::size_t(other)]) return;
+    sum += share * rows.row(other);
+    weight += share;
+  };
+  Index const averages = network.nodes() + Index(network.boundaries().size());
+  for (Eigen::SparseMatrix<double>::InnerIterator it(network.port_pattern(), node); it; ++it) {
+    if (it.row() < network.nodes()) add(it.row(), 1.0);
+    if (it.row() < averages) continue;
+    auto const& average = network.averages()[std::size_t(it.row() - averages)];
+    for (std::size_t i = 0; i < average.nodes.size(); ++i) add(average.nodes[i], average.weights[i]);
+  }
+  return weight > 0.0 ? Eigen::RowVectorXd(sum / weight) : sum;
+}
+
+}  // namespace
+
+MatrixXd WarmStart::fields_in(thermal::Network const& network) const {
+  std::unordered_map<std::string, Index> known;
+  for (std::size_t i = 0; i < nodes.size(); ++i) known.emplace(nodes[i], Index(i));
+  std::vector<char> is_known;
+  MatrixXd result = MatrixXd::Zero(network.nodes(), fields.cols());
+  for (int i = 0; i < network.nodes(); ++i) {
+    auto const it = known.find(network.node_name(i));
+    is_known.push_back(it != known.end());
+    if (is_known.back()) result.row(i) = fields.row(it->second);
+  }
+  for (int i = 0; i < network.nodes(); ++i)
+    if (!is_known[std::size_t(i)] && !network.signals()[std::size_t(i)])
+      result.row(i) = mean_beside(network, i, is_known, result);
+  return result;
+}
+
+std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run) {
+  auto const& network = machine.network();
+  if (network.nodes() > most_nodes) return {};
+  auto const rest = at_rest(machine, run);
+  auto const first = first_readings(machine, run, rest);
+  if (first.rise.size() < fewest_sensors) return {};
+  MatrixXd const F = root_of_inverse(conductances(machine, run, rest), network.signals());
+  MatrixXd const shown = first.weights * F;
+  if (!is_evident(shown, first.rise)) return {};
+  double const root = likeliest(shown, first.rise).root;
+  VectorXd const likely = root * shown.transpose() * covariance(root * shown).solve(first.rise);
+  std::vector<Index> kept;
+  for (Index k = 0; k < F.cols(); ++k)
+    if (root * F.col(k).cwiseAbs().maxCoeff() > least_field) kept.push_back(k);
+  WarmStart result;
+  for (int i = 0; i < network.nodes(); ++i) result.nodes.push_back(network.node_name(i));
+  result.fields = root * F(Eigen::all, kept);
+  result.likely = likely(kept);
+  result.farthest = farthest(first);
+  return result;
+}
+
+std::vector<double> start_of(Machine const& machine, MeasuredRun const& run) {
+  auto temperatures = at_rest(machine, run);
+  if (run.warm_start)
+    VectorXd::Map(temperatures.data(), Index(temperatures.size())) +=
+        run.warm_start->fields_in(machine.network()) * run.warm_start->likely;
+  return temperatures;
+}
+
+}  // namespace thermotwin::twin

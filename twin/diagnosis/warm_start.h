@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "thermal/network.h"
+
+namespace thermotwin::twin {
+
+class Machine;
+struct MeasuredRun;
+
+/// How far each part of a machine was from rest with its room when a run began: a second run on one day, a logger that
+/// was switched on over lunch, a bed that is colder than the hall in the morning. What heat has left in a network is
+/// smooth along what conducts:
+///
+///   θ ~ N(0, κ K⁻¹),   K = −C ∂(dT/dt)/∂T,
+///
+/// K the conductances between nodes and to the room [W/K], made symmetric. The sensors' first readings differ from what
+/// they would be at rest by d = H θ, their offsets and a start that is warmer throughout,
+///
+///   d ~ N(0, σ_o² I + σ_s² 1 1ᵀ + κ H K⁻¹ Hᵀ),
+///
+/// and κ is the likeliest. With K⁻¹ = F Fᵀ, θ = √κ F b, b ~ N(0, I), of which E[b | d] = √κ (H F)ᵀ cov(d)⁻¹ d
+/// (Rasmussen & Williams, Gaussian Processes for Machine Learning, 2006, 2.1).
+struct WarmStart {
+  std::vector<std::string> nodes;
+  Eigen::MatrixXd fields;  ///< node × field, the columns of √κ F that are more than next to nothing [K]
+  Eigen::VectorXd likely;  ///< E[b | d]
+  std::string farthest;    ///< of d, for people: "T1 +6.4 K, T2 +6.3 K, T5 +6.0 K"
+
+  /// The fields in a machine that has these nodes and perhaps more, as a mass that was left out: what else it has is as
+  /// warm as what it conducts to.
+  [[nodiscard]] Eigen::MatrixXd fields_in(thermal::Network const& network) const;
+};
+
+/// Nothing where a run has a past before its readings, or where its machine may have been at rest: where 2 ln of the
+/// likelihood without one of the sensors, whichever it is, is 11 better at no κ. `run` has its course and channels.
+[[nodiscard]] std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run);
+
+/// Of every node where the run begins, most likely [K].
+[[nodiscard]] std::vector<double> start_of(Machine const& machine, MeasuredRun const& run);
+
+}  // namespace thermotwin::twin
