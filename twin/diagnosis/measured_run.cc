@@ -99,9 +99,10 @@ MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string 
   run.channels = channels_of(data, machine, run.remarks);
   add_courses(run, std::move(data), machine);
   run.warm_start = warm_start(machine, run);
-  if (run.warm_start) run.remarks.push_back(fmt::format(
-        "it does not begin at rest with the room (first readings: {}); how warm each part was is estimated",
-        run.warm_start->farthest));
+  if (run.warm_start)
+    run.remarks.push_back(
+        fmt::format("it does not begin at rest with the room (first readings: {}); how warm each part was is estimated",
+                    run.warm_start->farthest));
   return run;
 }
 

@@ -33,7 +33,7 @@ constexpr double mirror_gain = 0.4;      // misfit of the mirror image over that
 constexpr double least_factor = 1000.0 / 3.0, largest_factor = 3000.0;  // about a thousand
 constexpr double swap_gain = 0.25;   // misfit to the other's prediction over that to its own
 constexpr double swap_misfit = 0.5;  // at least, to its own [K RMS]
-constexpr double start_error = 3.0;                                 // K
+constexpr double start_error = 3.0;  // K
 constexpr double fahrenheit_error = 5.0, fahrenheit_excess = 20.0;  // K
 constexpr double least_shift = 5.0 * minute, same_shift = 3.0 * minute;
 constexpr double shift_gain = 0.5;       // of what is not explained

@@ -6,7 +6,8 @@
 
 namespace thermotwin::twin {
 
-/// Of priors [K]: how far an offset of a temperature sensor is from none, and a machine's start from that of its record.
+/// Of priors [K]: how far an offset of a temperature sensor is from none, and a machine's start from that of its
+/// record.
 inline constexpr double offset_deviation = 0.3, start_deviation = 0.3;
 
 /// What is estimated from the data, with its prior N(mean, deviation²).
@@ -30,7 +31,7 @@ struct Unknown {
   std::string name;
   double mean = 0.0, deviation = 1.0;
   double lower = -INFINITY, upper = INFINITY;
-  std::size_t index = 0;  ///< of the number, the effect, the channel, the run's field, alternative or change, the interior
+  std::size_t index = 0;  ///< of the number, effect, channel, field, alternative, change or interior
   int run = -1;           ///< −1: all
 };
 
