@@ -458,25 +458,9 @@ TEST(ExtraMass, IsForgottenInTheSteadyStateAndDelaysOnTheWay) {
 }
 
 TEST(Film, RefusesACoefficientThatItsCorrelationDoesNotTake) {
-  auto const refused =
-      [](std::string const& correlation) {
-        return refusal([&] {
-          return Machine::build(parse_toml(R"toml(
-        name = "lump"
-        [[lump]]
-        name = "body"
-        heat_capacity = "5000 J/K"
-        corner = ["0 mm", "0 mm", "0 mm"]
-        size = ["100 mm", "100 mm", "100 mm"]
-        [[film]]
-        name = "air"
-        on = "body"
-        area = "0.1 m2"
-        coefficient = "20 W/(m2 K)"
-        correlation = ")toml" + correlation + "\"",
-                                           "lump.toml"));
-        });
-      };
+  auto const refused = [](std::string const& correlation) {
+    return refusal([&] { return Machine::build(bench(snippet("film", "constant"), {{"correlation", correlation}})); });
+  };
   EXPECT_THAT(refused("room"), HasSubstr("needs correlation = \"constant\""));
   EXPECT_EQ(refused("constant"), "accepted");
 }

@@ -48,10 +48,12 @@ bool is_ordinary(Hypothesis const& hypothesis, Fit const& fit, Eigen::Index unkn
   return hypothesis.is_ordinary(fit.x[unknown], std::sqrt(fit.covariance(unknown, unknown)));
 }
 
-/// Some step of its structural loop may be anything.
-bool is_without_drawings(std::vector<UncertainNumber> const& numbers) {
-  return std::any_of(numbers.begin(), numbers.end(),
-                     [](auto const& number) { return number.path.ends_with(".weight") && number.nominal == 0.0; });
+/// Whether laws are first taken as the file has them: where there are any, and drawings, so that no step of a loop may
+/// be anything.
+bool has_closed_laws(std::vector<UncertainNumber> const& numbers) {
+  auto const is_any_step = [](auto const& number) { return number.path.ends_with(".weight") && number.nominal == 0.0; };
+  return std::any_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.of_law; }) &&
+         std::none_of(numbers.begin(), numbers.end(), is_any_step);
 }
 
 Eigen::VectorXd shorter(Eigen::VectorXd const& x, Eigen::Index gone) {
@@ -81,11 +83,12 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
     : options_(options), geometry_(Machine::build(document).geometry), hypotheses_(std::move(hypotheses)) {
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs));
-  if (!is_without_drawings(estimation_->numbers())) estimation_ = estimation_->with_laws(closed_law);
+  bool const closed = has_closed_laws(estimation_->numbers());
+  if (closed) estimation_ = estimation_->with_laws(closed_law);
   expected_ = estimation_->noise();
   fit_ = estimation_->fit(options.start ? estimation_->drawn(*options.start) : estimation_->prior_mean(), to_the_end);
   open_loops();
-  open_laws();
+  if (closed) open_laws();
   listen_to_noise();
   plain_ = estimation_;
   calibrated_ = fit_;
@@ -130,11 +133,10 @@ void EffectSearch::open_loops() {
 /// Lets greases and rolling balls follow other laws than those of the file where data agree with that better, unless
 /// one effect on heat is evident beyond it: few greases are quite what the file says.
 void EffectSearch::open_laws() {
-  auto const& numbers = estimation_->numbers();
-  if (std::none_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.of_law; })) return;
   open(estimation_->with_laws(1.0), options_.threshold, [](Hypothesis const& h) { return !h.is_read_directly(); });
 }
 
+/// Asks that question instead where it has more evidence, and the strongest of the rivals does not lead it by more.
 void EffectSearch::open(Estimation const& other, double lead, std::function<bool(Hypothesis const&)> const& rivals) {
   Fit fit = other.fit(fit_.x, to_the_end);
   double const gain = fit_.evidence - fit.evidence;

@@ -13,7 +13,6 @@
 #include "twin/diagnosis/gap.h"
 #include "twin/diagnosis/lateness.h"
 #include "twin/diagnosis/linearised_run.h"
-#include "twin/run.h"
 
 namespace thermotwin::twin {
 namespace {

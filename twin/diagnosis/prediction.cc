@@ -7,7 +7,6 @@
 #include "twin/diagnosis/channel_reading.h"
 #include "twin/instruments/first_order_lag.h"
 #include "twin/instruments/sampling.h"
-#include "twin/run.h"
 
 namespace thermotwin::twin {
 namespace {

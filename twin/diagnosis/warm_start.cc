@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "thermal/evaluation.h"
+#include "thermal/integrate.h"
 #include "twin/diagnosis/channel_reading.h"
 #include "twin/diagnosis/measured_run.h"
 #include "twin/diagnosis/unknown.h"
@@ -86,8 +87,7 @@ MatrixXd conductances(Machine const& machine, MeasuredRun const& run, std::vecto
   for (int i = 0; i < network.external_channels(); ++i)
     if (int const channel = run.course->index_of(network.channel_names()[std::size_t(i)]); channel >= 0)
       input[std::size_t(i)] = values[std::size_t(channel)];
-  std::vector<double> state;
-  for (std::size_t i = 0; i < rest.size(); ++i) state.push_back(network.state_of_temperature(int(i), rest[i]));
+  auto const state = thermal::start_of_run(network, rest, 0.0).state;
   auto const capacity = VectorXd::Map(network.capacity().data(), network.nodes());
   MatrixXd const jacobian = thermal::Evaluation(network).jacobian(state.data(), input.data());
   MatrixXd const K = -(capacity.asDiagonal() * jacobian);
@@ -95,18 +95,15 @@ MatrixXd conductances(Machine const& machine, MeasuredRun const& run, std::vecto
 }
 
 /// F of K⁻¹ = F Fᵀ; a controller's state has no warmth.
-MatrixXd root_of_inverse(MatrixXd K, std::vector<char> const& signals) {
-  for (Index i = 0; i < K.rows(); ++i) {
-    if (!signals[std::size_t(i)]) continue;
-    K.row(i).setZero();
-    K.col(i).setZero();
-  }
-  Eigen::SelfAdjointEigenSolver<MatrixXd> const modes(K);
+MatrixXd root_of_inverse(MatrixXd const& K, std::vector<char> const& signals) {
+  std::vector<Index> bodies;
+  for (Index i = 0; i < K.rows(); ++i)
+    if (!signals[std::size_t(i)]) bodies.push_back(i);
+  Eigen::SelfAdjointEigenSolver<MatrixXd> const modes(K(bodies, bodies));
   double const least = loosest * modes.eigenvalues().maxCoeff();
   VectorXd const scale = modes.eigenvalues().cwiseMax(least).cwiseSqrt().cwiseInverse();
-  MatrixXd F = modes.eigenvectors() * scale.asDiagonal();
-  for (Index i = 0; i < K.rows(); ++i)
-    if (signals[std::size_t(i)]) F.row(i).setZero();
+  MatrixXd F = MatrixXd::Zero(K.rows(), Index(bodies.size()));
+  F(bodies, Eigen::all) = modes.eigenvectors() * scale.asDiagonal();
   return F;
 }
 
@@ -123,6 +120,9 @@ double likelihood(MatrixXd const& shown, VectorXd const& rise) {
   auto const factor = covariance(shown);
   return -rise.dot(factor.solve(rise)) - 2.0 * factor.matrixLLT().diagonal().array().log().sum();
 }
+
+/// What no field gains more than, for each widens cov(d): dᵀ cov(d)⁻¹ d without any.
+double most_gain(VectorXd const& rise) { return rise.dot(covariance(MatrixXd::Zero(rise.size(), 1)).solve(rise)); }
 
 struct Likeliest {
   double root = 0.0;  ///< √κ
@@ -142,11 +142,9 @@ Likeliest likeliest(MatrixXd const& shown, VectorXd const& rise) {
 
 /// One sensor that is wrong by kelvins is no warm machine.
 bool is_evident(MatrixXd const& shown, VectorXd const& rise) {
-  auto const n = rise.size();
-  if (n < fewest_sensors) return false;
-  for (Index left_out = 0; left_out < n; ++left_out) {
+  for (Index left_out = 0; left_out < rise.size(); ++left_out) {
     std::vector<Index> others;
-    for (Index i = 0; i < n; ++i)
+    for (Index i = 0; i < rise.size(); ++i)
       if (i != left_out) others.push_back(i);
     if (likeliest(shown(others, Eigen::all), rise(others)).gain < evident_gain) return false;
   }
@@ -196,7 +194,7 @@ std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& r
   if (network.nodes() > most_nodes) return {};
   auto const rest = at_rest(machine, run);
   auto const first = first_readings(machine, run, rest);
-  if (first.rise.size() < fewest_sensors) return {};
+  if (first.rise.size() < fewest_sensors || most_gain(first.rise) < evident_gain) return {};
   MatrixXd const F = root_of_inverse(conductances(machine, run, rest), network.signals());
   MatrixXd const shown = first.weights * F;
   if (!is_evident(shown, first.rise)) return {};

@@ -36,8 +36,8 @@ struct WarmStart {
   [[nodiscard]] Eigen::MatrixXd fields_in(thermal::Network const& network) const;
 };
 
-/// Nothing where a run has a past before its readings, or where its machine may have been at rest: where 2 ln of the
-/// likelihood without one of the sensors, whichever it is, is 11 better at no κ. `run` has its course and channels.
+/// Nothing where a run has a past before its readings, or where its machine may have been at rest: unless some κ gains
+/// 11 of 2 ln of the likelihood over none, whichever sensor is left out. `run` has its course and channels.
 [[nodiscard]] std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run);
 
 /// Of every node where the run begins, most likely [K].

@@ -123,14 +123,12 @@ class AfterWork : public testing::Test {
                        {})
                        .dataset;
     measured = measured_run(tests::without_rows(dataset, -1.0, on - 1.0), machine, "after work");
-    thermal::integrate(
-        machine.network(), *whole_course(dataset), initial_temperatures(machine, {}, *whole_course(dataset)),
-        std::vector<double>{0.0, on}, {}, [&](thermal::Sample const& sample) {
-          truth.assign(sample.temperatures.begin(), sample.temperatures.begin() + machine.network().nodes());
-        });
-  }
-  std::shared_ptr<thermal::Course const> whole_course(output::Dataset const& dataset) const {
-    return measured_run(dataset, machine, "whole").course;
+    auto const whole = measured_run(dataset, machine, "whole");
+    thermal::integrate(machine.network(), *whole.course, start_of(machine, whole), std::vector<double>{0.0, on}, {},
+                       [&](thermal::Sample const& sample) {
+                         auto const begin = sample.temperatures.begin();
+                         truth.assign(begin, begin + machine.network().nodes());
+                       });
   }
 
   Machine const machine = Machine::build(tests::v450());
