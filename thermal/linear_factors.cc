@@ -4,6 +4,7 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <klu.h>
 #include <vector>
@@ -142,7 +143,7 @@ struct SparseFactors final : LinearFactors {
       solve_together(rest_.data(), together);
       x.rightCols(rest) = rest_.leftCols(rest);
     }
-    return x.allFinite();
+    return std::isfinite(x.sum());  // asks every entry, by fours; allFinite goes from row to row
   }
 
  private:

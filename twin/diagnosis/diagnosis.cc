@@ -169,8 +169,7 @@ double Diagnostician::vote() const {
     noise.push_back(expected_noise(machine_, channel, held_out_));
   }
   auto const cost = [&](Value const& document) {
-    Estimation const unseen(document, held_out_, channels, noise);
-    return unseen.fit(unseen.prior_mean(), 0).cost;
+    return Estimation(document, held_out_, channels, noise).cost_of_document();
   };
   double costs[2];
   in_parallel(2,

@@ -95,7 +95,7 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
 }
 
 void EffectSearch::operator()() {
-  linearise();
+  if (signatures_.size() == 0) linearise();
   for (int round = 1; round <= most_effects && add_effect(round); ++round) continue;
   if (estimation_->effects().size() < 2) return;  // what was found alone was held against all others then
   if (drop_superfluous()) linearise();
@@ -111,6 +111,7 @@ void EffectSearch::reject(std::size_t effect) {
   explanations_.erase(explanations_.begin() + std::ptrdiff_t(effect));
   estimation_ = with_effects(effects);
   fit_ = estimation_->fit(start, to_the_end);
+  signatures_.resize(0, 0);
   listen_to_noise();
 }
 
@@ -136,25 +137,26 @@ void EffectSearch::open_laws() {
   open(estimation_->with_laws(1.0), options_.threshold, [](Hypothesis const& h) { return !h.is_read_directly(); });
 }
 
-/// Asks that question instead where it has more evidence, and the strongest of the rivals does not lead it by more.
+/// Asks that question instead where it has more evidence, and none of the rivals leads it by more.
 void EffectSearch::open(Estimation const& other, double lead, std::function<bool(Hypothesis const&)> const& rivals) {
   Fit fit = other.fit(fit_.x, to_the_end);
   double const gain = fit_.evidence - fit.evidence;
-  if (gain < 0.0 || gain_of_one(rivals) > gain + lead) return;
+  if (gain < 0.0 || any_exceeds(gain + lead, rivals)) return;
   estimation_ = other;
   fit_ = std::move(fit);
+  signatures_.resize(0, 0);
 }
 
-/// 2 ln of the evidence for the strongest of these effects, about the present fit.
-double EffectSearch::gain_of_one(std::function<bool(Hypothesis const&)> const& rivals) {
-  linearise();
+/// Whether one of these effects has more evidence than that, about the present fit [2 ln].
+bool EffectSearch::any_exceeds(double evidence, std::function<bool(Hypothesis const&)> const& rivals) {
+  if (signatures_.size() == 0) linearise();
   auto const all = candidates();
   auto const scores = Remainder(fit_, all.columns).scores(all.hypotheses);
-  std::vector<std::size_t> chosen;
-  for (std::size_t const k : promising(scores, all.hypotheses, 0.0))
-    if (rivals(all.hypotheses[k]) && chosen.size() < most_rivals) chosen.push_back(k);
-  auto const found = refits(fit_, chosen, all, scores);
-  return found.empty() ? 0.0 : found[0].strength;
+  std::size_t tried = 0;
+  for (std::size_t const k : promising(scores, all.hypotheses, hopeful_score * evidence))
+    if (rivals(all.hypotheses[k]) && tried++ < most_rivals && refits(fit_, {k}, all, scores)[0].strength > evidence)
+      return true;
+  return false;
 }
 
 /// The noise that the present fit leaves, and the fit with it.

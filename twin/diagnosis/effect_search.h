@@ -88,7 +88,7 @@ class EffectSearch {
   void open_loops();
   void open_laws();
   void open(Estimation const& other, double lead, std::function<bool(Hypothesis const&)> const& rivals);
-  [[nodiscard]] double gain_of_one(std::function<bool(Hypothesis const&)> const& rivals);
+  [[nodiscard]] bool any_exceeds(double evidence, std::function<bool(Hypothesis const&)> const& rivals);
   void listen_to_noise();
   [[nodiscard]] std::vector<double> strengths_beside_others() const;
   [[nodiscard]] Estimation with_effects(std::vector<Hypothesis> const& effects) const;
@@ -99,7 +99,8 @@ class EffectSearch {
   thermal::Geometry geometry_;
   std::vector<ChannelNoise> expected_;
   std::vector<Hypothesis> hypotheses_;
-  Eigen::MatrixXd signatures_;  ///< of the hypotheses about the fit, or before noise was listened to for the last time
+  /// Of the hypotheses about the fit, or before noise was listened to for the last time; empty: not asked yet.
+  Eigen::MatrixXd signatures_;
   std::optional<Estimation> plain_;
   std::optional<Estimation> estimation_;
   std::size_t visible_ = 0;

@@ -24,6 +24,7 @@ constexpr double most_lag = 900.0;      // that a sensor may have [s]
 constexpr double relative_step = 1e-4;
 constexpr int start_halvings = 4;
 constexpr std::size_t numbers_at_once = 64;  // whose responses are found together
+constexpr std::string_view cannot_be_run = "the machine cannot be run with its nominal values on these data";
 
 /// Every sensor one second slower.
 Machine later(Machine machine) {
@@ -395,6 +396,14 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const
   return true;
 }
 
+double Estimation::cost_of_document() const {
+  std::unique_ptr<Traced const> traced;
+  Linearisation at;
+  if (!evaluate(prior_mean(), traced, false, at)) throw thermal::InputError(std::string(cannot_be_run));
+  Eigen::VectorXd const linear = elimination_->best(at.residual);
+  return (at.residual - elimination_->effect_of(linear)).squaredNorm() + elimination_->prior_cost(linear);
+}
+
 Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   auto const unknowns = searched();
   auto const count = Eigen::Index(unknowns.size());
@@ -437,7 +446,7 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   auto const solved = solve(problem);
   Eigen::VectorXd const x = whole(solved.x);
   if (!last.is_at(x) && !evaluate(x, traced, true, last))
-    throw thermal::InputError("the machine cannot be run with its nominal values on these data");
+    throw thermal::InputError(std::string(cannot_be_run));
   Fit fit = fit_at(x, std::move(last));
   fit.converged = solved.converged;
   return fit;

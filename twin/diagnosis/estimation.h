@@ -64,6 +64,8 @@ class Estimation {
 
   /// From there on; what is linear needs no start.
   [[nodiscard]] Fit fit(Eigen::VectorXd const& start, int iterations = 10) const;
+  /// Of the machine as the document has it: squares of residuals and of what is linear, at its best, by their errors.
+  [[nodiscard]] double cost_of_document() const;
   [[nodiscard]] Eigen::VectorXd prior_mean() const;
   /// Drawn from the priors, within bounds.
   [[nodiscard]] Eigen::VectorXd drawn(std::uint64_t seed) const;
