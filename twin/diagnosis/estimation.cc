@@ -445,8 +445,7 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
     problem.start.tail(Eigen::Index(effects_.size())) *= 0.5;
   auto const solved = solve(problem);
   Eigen::VectorXd const x = whole(solved.x);
-  if (!last.is_at(x) && !evaluate(x, traced, true, last))
-    throw thermal::InputError(std::string(cannot_be_run));
+  if (!last.is_at(x) && !evaluate(x, traced, true, last)) throw thermal::InputError(std::string(cannot_be_run));
   Fit fit = fit_at(x, std::move(last));
   fit.converged = solved.converged;
   return fit;
