@@ -1,6 +1,7 @@
 #include "twin/diagnosis/birge_ratio.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace thermotwin::twin {
 
@@ -19,9 +20,17 @@ double squared_birge_ratio(Estimation const& estimation, Fit const& fit) {
 }
 
 double strictness(Estimation const& estimation, Fit const& fit) {
-  constexpr double most = 4.0;
   double const ratio = squared_birge_ratio(estimation, fit);
-  return std::min(ratio * ratio, most);
+  return std::min(ratio * ratio, strictest);
+}
+
+bool has_left_file(Estimation const& estimation, Fit const& fit) {
+  auto const& unknowns = estimation.unknowns();
+  for (std::size_t u = 0; u < unknowns.size(); ++u)
+    if (unknowns[u].kind == Unknown::Kind::number &&
+        std::abs(fit.x[Eigen::Index(u)] - unknowns[u].mean) > far_from_file * unknowns[u].deviation)
+      return true;
+  return false;
 }
 
 }  // namespace thermotwin::twin

@@ -16,5 +16,10 @@ namespace thermotwin::twin {
 /// How many times more 2 ln must say than where R is 1, since they are too large and chance makes large ones more
 /// often: R⁴, and no more than 4, for a rough file is no reason to name nothing.
 [[nodiscard]] double strictness(Estimation const& estimation, Fit const& fit);
+inline constexpr double strictest = 4.0;
+
+/// Whether a number is farther from the file than `far_from_file` of its prior deviations. That alone says that the
+/// form of the machine is not quite right: many numbers that are do not make up for it, as they do in R.
+[[nodiscard]] bool has_left_file(Estimation const& estimation, Fit const& fit);
 
 }  // namespace thermotwin::twin

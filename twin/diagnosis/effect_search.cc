@@ -20,8 +20,9 @@ namespace {
 // named.
 constexpr int to_the_end = 50;
 constexpr int most_effects = 8;
-constexpr double open_loop = 0.2;    // share of free growth
-constexpr double closed_law = 0.25;  // of the prior that laws have where they are open
+constexpr double open_loop = 0.2;          // share of free growth
+constexpr double closed_law = 0.25;        // of the prior that laws have where they are open
+constexpr double number_comes_back = 2.0;  // strictness with an effect, where one had left the file without
 constexpr std::size_t most_refits = 24, most_rivals = 3, whitened_at_once = 32;
 // What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
 constexpr double hopeful_score = 0.3, hopeful_refit = 0.5;
@@ -122,7 +123,17 @@ double EffectSearch::share_of_strongest() const {
 }
 
 double EffectSearch::evident_beside() const {
+  if (explanations_.empty()) return asked_of_name();
   return std::max(strictness(*estimation_, fit_) * options_.threshold, share_of_strongest());
+}
+
+/// What an effect found must have beside the others to be named [2 ln]: the most where a number had to leave the file.
+/// What the form of the machine lacks there, an effect may stand in for; so may one that brings a number back.
+double EffectSearch::asked_of_name() const {
+  double times = strictness(*estimation_, fit_);
+  if (has_left_file(*plain_, calibrated_)) times = std::max(times, number_comes_back);
+  if (has_left_file(*estimation_, fit_)) times = strictest;
+  return std::max(times * options_.threshold, share_of_strongest());
 }
 
 /// Lets displacements leave their structural loops where that is evident, and more so than any one effect on a
@@ -329,7 +340,7 @@ bool EffectSearch::add_effect(int round) {
     former_fit = std::move(fit_);
     best = Refit(*strongest);
   }
-  if (double const asked = evident_beside(); best.strength < asked) {
+  if (double const asked = asked_of_name(); best.strength < asked) {
     if (explanations_.empty() && best.strength >= hopeful_refit * asked) suspicion_ = {explanation_of(all), asked};
     estimation_ = before;
     fit_ = std::move(base);
@@ -374,7 +385,7 @@ bool EffectSearch::drop_superfluous() {
         if (std::isfinite(change)) alternative.strength += change;
       alternatives[0].strength = strengths[e];
     }
-    if (strengths[std::size_t(weakest)] >= evident_beside()) break;
+    if (strengths[std::size_t(weakest)] >= asked_of_name()) break;
     dropped = true;
     auto effects = estimation_->effects();
     effects.erase(effects.begin() + weakest);

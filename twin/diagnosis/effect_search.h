@@ -59,7 +59,7 @@ class EffectSearch {
   [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
   /// Where none was found: what has half of the evidence that it would need, or more.
   [[nodiscard]] std::optional<Suspicion> const& suspicion() const { return suspicion_; }
-  /// What is evident, beside the effects found if there are any [2 ln].
+  /// What heat of free course must have to be evident, beside the effects found if there are any [2 ln].
   [[nodiscard]] double evident_beside() const;
   /// How much more model error than expected was heard in each channel; 1: no more.
   [[nodiscard]] std::vector<std::pair<std::string, double>> noise_heard() const;
@@ -74,6 +74,7 @@ class EffectSearch {
   }
   /// What a further effect needs of the strongest one's evidence.
   [[nodiscard]] double share_of_strongest() const;
+  [[nodiscard]] double asked_of_name() const;
   [[nodiscard]] bool add_effect(int round);
   [[nodiscard]] Eigen::Index place_of(std::size_t effect) const;
   struct Candidates;

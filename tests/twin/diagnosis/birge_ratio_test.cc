@@ -54,6 +54,18 @@ TEST(BirgeRatio, IsOfTheFileAlone) {
   EXPECT_NEAR(squared_birge_ratio(*question.estimation, fit), from_mean * from_mean, 1e-12);
 }
 
+TEST(BirgeRatio, OneNumberThatHasLeftTheFileIsSeenAmongManyThatHaveNot) {
+  Question const question;
+  auto const& unknowns = question.estimation->unknowns();
+  Fit fit = question.half_known();
+  EXPECT_FALSE(has_left_file(*question.estimation, fit)) << "each by 2 prior deviations";
+  for (std::size_t u = 0; u < unknowns.size(); ++u) {
+    fit.x = question.estimation->prior_mean();
+    fit.x[Eigen::Index(u)] -= 3.1 * unknowns[u].deviation;
+    EXPECT_EQ(has_left_file(*question.estimation, fit), unknowns[u].kind == Unknown::Kind::number) << unknowns[u].name;
+  }
+}
+
 TEST(BirgeRatio, IsOneWhereTheFileIsRight) {
   Question const question;
   auto const& estimation = *question.estimation;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/diagnosis/birge_ratio.h"
 #include "twin/diagnosis/diagnosis_report.h"
 #include "twin/diagnosis/separation.h"
 
@@ -298,6 +299,22 @@ TEST(Diagnosis, TellsNumbersThatAreFarFromTheFile) {
   tests::add_noise(same, 0.02, 0.05e-6, 7);
   report.diagnosis = diagnose(tests::v450(), {bin(same, 300.0)}, {});
   EXPECT_THAT(report_text(report), testing::Not(testing::HasSubstr("prior deviations")));
+}
+
+/// Without effects, what any would need; four times as much where a number of the file cannot be right.
+TEST(EffectSearch, AsksMoreWhereANumberHasLeftTheFile) {
+  Value const document = tests::v450();
+  DiagnosisOptions const options;
+  auto const asked = [&](std::string const& grease_factor) {
+    Value truth = document;
+    set_parameter(truth, "bearing.front.grease_factor", grease_factor);
+    auto run = tests::measured(truth, tests::two_speeds());
+    tests::add_noise(run, 0.02, 0.05e-6, 7);
+    std::vector<BinnedRun> const runs = {bin(run, 300.0)};
+    return EffectSearch(document, runs, {}, options).evident_beside();
+  };
+  EXPECT_EQ(asked("0.55"), options.threshold) << "as the file says";
+  EXPECT_EQ(asked("2.2"), strictest * options.threshold);
 }
 
 /// Something else moves that way, and is found in its place; but not what was taken back.
