@@ -29,6 +29,7 @@ using Shapes = std::vector<std::vector<std::pair<std::string, std::string>>>;
 struct Spot {
   std::vector<std::pair<std::string, std::string>> keys;
   std::string site, body;
+  std::string axis = {};  ///< whose feed drive it is part of; empty: of none
 };
 
 /// Something that a machine has: one place, or two that belong together.
@@ -50,17 +51,21 @@ class Sites {
   void add_bearings();
   void add_motors();
   void add_nuts();
+  void find_feed_drives();
   void add_films();
   void add_channels();
   void add_pairs();
   void for_tables(std::string_view kind, std::function<void(Value const&)> const& action) const;
+  [[nodiscard]] std::string feed_drive(std::string const& body) const;
 
   Value const& document_;
   std::map<std::string, std::vector<Candidate>> candidates_;  ///< per kind
   std::vector<std::string> solids_;
+  std::map<std::string, std::string> feed_drives_;  ///< axis of each body that is part of one
 };
 
 Sites::Sites(Value const& document, Machine const& machine) : document_(document) {
+  find_feed_drives();
   add_bodies();
   add_bearings();
   add_motors();
@@ -142,6 +147,23 @@ void Sites::add_motors() {
     });
 }
 
+/// What turns or rubs with the feed of an axis, and not with the spindle.
+void Sites::find_feed_drives() {
+  for (auto const& [kind, keys] : {std::pair<std::string, std::vector<std::string>>("feed_motor", {"at"}),
+                                   {"ball_nut", {"nut", "screw"}},
+                                   {"support_bearing", {"shaft", "ring"}}})
+    for_tables(kind, [&](Value const& table) {
+      auto const axis = texts_of(table, "axis");
+      for (auto const& key : keys)
+        for (auto const& place : texts_of(table, key)) feed_drives_[body_of(place)] = axis.empty() ? "z" : axis[0];
+    });
+}
+
+std::string Sites::feed_drive(std::string const& body) const {
+  auto const drive = feed_drives_.find(body);
+  return drive == feed_drives_.end() ? "" : drive->second;
+}
+
 void Sites::add_nuts() {
   for_tables("ball_nut", [&](Value const& table) {
     auto const axis = texts_of(table, "axis");
@@ -195,7 +217,7 @@ std::vector<Spot> Sites::at(Trial::Site const& site) const {
   auto const it = candidates_.find(site.kind);
   if (it == candidates_.end()) return result;
   for (auto const& candidate : it->second) {
-    Spot spot{{{site.key, candidate.text}}, candidate.text, candidate.body};
+    Spot spot{{{site.key, candidate.text}}, candidate.text, candidate.body, feed_drive(candidate.body)};
     if (!site.other.empty()) {
       spot.keys.emplace_back(site.other, candidate.other);
       bool const of_bearing = site.kind == "bearing" || site.kind == "support";
@@ -221,6 +243,7 @@ std::vector<Spot> spots_of(Trial const& trial, Sites const& sites) {
         both.keys.insert(both.keys.end(), spot.keys.begin(), spot.keys.end());
         both.site += (both.site.empty() ? "" : " by ") + spot.site;
         if (both.body.empty()) both.body = spot.body;
+        if (both.axis.empty()) both.axis = spot.axis;
         next.push_back(std::move(both));
       }
     combined = std::move(next);
@@ -243,10 +266,12 @@ double outer_surface(thermal::BodyGeometry const& body) {
   return 2.0 * (a[0] * a[1] + a[1] * a[2] + a[2] * a[0]);
 }
 
-/// Of a trial in this machine. Where no spindle turns, each axis does: what follows the spindle follows one of them.
-Shapes shapes_of(Effect const& effect, Trial const& trial, scenarios::MachineLimits const& limits) {
+/// Of a trial at a spot of this machine. What follows the spindle follows the axis of which the spot is a feed drive;
+/// where no spindle turns, each axis.
+Shapes shapes_of(Effect const& effect, Trial const& trial, Spot const& spot, scenarios::MachineLimits const& limits) {
   Shapes const shapes = trial.shapes.empty() ? Shapes{{}} : trial.shapes;
-  if (limits.max_spindle_speed > 0.0) return shapes;
+  bool const turns = limits.max_spindle_speed > 0.0;
+  if (turns && spot.axis.empty()) return shapes;
   if (trial.needs_spindle) return {};
   auto const has = [&](std::string_view key) {
     return std::any_of(effect.parameters.begin(), effect.parameters.end(),
@@ -260,6 +285,7 @@ Shapes shapes_of(Effect const& effect, Trial const& trial, scenarios::MachineLim
     if (!follows) result.push_back(shape);
     if (!follows) continue;
     for (auto const& axis : limits.axes) {
+      if (turns && axis.name != spot.axis) continue;
       auto& own = result.emplace_back(shape);
       for (auto& [key, text] : own)
         if (text.starts_with(of_spindle)) text = axis.name + "." + text.substr(of_spindle.size());
@@ -318,7 +344,7 @@ std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine
     if (std::find(without.begin(), without.end(), entry.name) != without.end()) continue;
     for (auto const& trial : entry.trials)
       for (auto const& spot : spots_of(trial, sites)) {
-        for (auto const& shape : shapes_of(entry, trial, machine.limits)) {
+        for (auto const& shape : shapes_of(entry, trial, spot, machine.limits)) {
           Hypothesis hypothesis{&entry, &trial, spot.site, spot.body, spot.keys};
           hypothesis.keys.insert(hypothesis.keys.end(), shape.begin(), shape.end());
           hypothesis.largest = trial.largest;

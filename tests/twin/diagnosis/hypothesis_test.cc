@@ -175,6 +175,25 @@ TEST(HypothesesOfAnAxis, FollowItWhereNoSpindleTurns) {
   EXPECT_TRUE(fan);
 }
 
+/// mill200 has a spindle and the screw of an axis x: what is part of that drive follows x, all else the spindle.
+TEST(HypothesesOfAFeedDrive, FollowItsAxisBesideASpindle) {
+  Subject const mill("mill200");
+  std::map<std::string, std::set<std::string>> heat_while_on;
+  std::set<std::string> of_spindle;
+  for (auto const& hypothesis : mill.all) {
+    bool const of_drive = hypothesis.body == "x_nut" || hypothesis.body == "x_screw";
+    EXPECT_FALSE(of_drive && hypothesis.trial->needs_spindle) << text_of(hypothesis);
+    if (hypothesis.trial->needs_spindle) of_spindle.insert(hypothesis.effect->name);
+    for (auto const& [key, value] : hypothesis.keys) {
+      EXPECT_FALSE(of_drive && value.starts_with("spindle.")) << text_of(hypothesis);
+      if (hypothesis.effect->name == "heat" && key == "while_on") heat_while_on[hypothesis.body].insert(value);
+    }
+  }
+  EXPECT_EQ(heat_while_on.at("x_nut"), (std::set<std::string>{"machine.on", "x.running", "coolant.on"}));
+  EXPECT_EQ(heat_while_on.at("table"), (std::set<std::string>{"machine.on", "spindle.running", "coolant.on"}));
+  EXPECT_TRUE(of_spindle.contains("rotor_windage"));
+}
+
 TEST_F(Hypotheses, OfALagAreAlsoOfSomeSize) {
   auto const all = with_those_of_some_size(v450.all);
   EXPECT_EQ(all.size(), v450.all.size() + v450.machine.sensors.size());
