@@ -180,6 +180,8 @@ void ExperimentCourse::add_axis(Experiment const& experiment, AxisLimits const& 
   add({axis.name + ".feed", "m/s", "feed while moving"}, motion.feed);
   add({axis.name + ".duty", "1", "share of the time in motion"}, motion.duty);
   add({axis.name + ".speed", "rad/s", "mean speed of the screw"}, motion.screw_speed);
+  add({axis.name + ".moving_speed", "rad/s", "speed of the screw while moving"},
+      motion.feed.scaled(2.0 * std::numbers::pi / axis.lead));
   add({axis.name + ".running", "1", "1 while the screw turns"}, motion.screw_speed.running());
   add({axis.name + ".stroke_from", "m", "near end of the nut's stroke"}, motion.stroke_from);
   add({axis.name + ".stroke_to", "m", "far end of the nut's stroke"}, motion.stroke_to);

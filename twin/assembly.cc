@@ -219,6 +219,11 @@ void Assembly::add_air_terms() {
     }
 }
 
+std::vector<int> Assembly::friction_channels(std::string const& axis) {
+  return {channel(axis + ".speed"),
+          channel(axis + (friction_at_mean_speed_.contains(axis) ? ".speed" : ".moving_speed"))};
+}
+
 double Assembly::rated_speed(std::optional<double> own, std::string const& channel) const {
   if (own && !(*own > 0.0)) throw InputError("'rated_speed' must be above 0");
   if (!own && !(maximum_spindle_speed_ > 0.0) && !channel.starts_with("spindle."))

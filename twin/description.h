@@ -39,6 +39,7 @@ struct AxisDescription {
   double lead = required;        ///< travel per revolution of the screw [m]
   double stroke_from = 0.0;      ///< ends of the nut's stroke, from the start of the screw [m]
   double stroke_to = required;
+  std::string friction_at = "moving speed";
 
   template <class Fields>
   static void fields(Fields& f) {
@@ -48,6 +49,9 @@ struct AxisDescription {
     f("stroke_from", &AxisDescription::stroke_from, dimension::length, "first end of the nut's stroke on the screw",
       positive);
     f("stroke_to", &AxisDescription::stroke_to, dimension::length, "other end of the nut's stroke", positive);
+    f.choice("friction_at", &AxisDescription::friction_at, {"moving speed", "mean speed"},
+             "speed at which nut, bearings and motor have their torques: that while the axis moves, or, as in the "
+             "reference machines of physics.md, the mean over its dwells");
   }
 };
 

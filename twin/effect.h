@@ -29,6 +29,7 @@ struct Trial {
   /// A key of the table and what may stand there, by kind:
   ///
   ///   solid, shaft, ring, motor   a stretch of a body; of one that turns; a bearing's outer ring or seat; with a loss
+  ///   solid but no motor          a stretch of a body without a motor's loss
   ///   resting solid, casting      a stretch of a body that does not turn; of one with a material: no ring, no fluid
   ///   room surface, bare surface, base     with a film to the room; with one that does not radiate; carried by none
   ///   sensor, displacement, channel        an instrument; a channel of displacement; a line of fluid
@@ -44,8 +45,10 @@ struct Trial {
   std::string amplitude = {};  ///< key of the number that grows from nothing; the flows are linear in it
   double largest = 0.0;        ///< plausible upper end of the amplitude [SI]
   bool either_sign = false;    ///< it may be negative
-  bool needs_spindle = false;  ///< it has no place in a machine without one
-  double ordinary = 0.0;       ///< what the best of machines has: no less is an effect [SI]
+  bool needs_spindle = false;  ///< it has no place in a machine without one, nor in a feed drive
+  /// Sought only where this input channel changes, and never hidden: HIDE-1000 was drawn without it. Empty: always.
+  std::string if_changes = {};
+  double ordinary = 0.0;  ///< what the best of machines has: no less is an effect [SI]
   /// Where its response is far from proportional, an amplitude about which it is looked for as well [of the largest].
   double also_about = 0.0;
   double against = 0.0;  ///< 2 ln of the odds against it beforehand: a network that is too coarse looks like it

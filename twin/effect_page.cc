@@ -101,6 +101,21 @@ std::string field_rows(std::vector<FieldRecord> const& fields, std::string const
   return text;
 }
 
+/// ", with while_on machine.on or while_on coolant.on": the variants of a trial.
+std::string variants(Trial const& trial) {
+  std::vector<std::string> all;
+  for (auto const& shape : trial.shapes) {
+    std::vector<std::string> keys;
+    for (auto const& [key, text] : shape) keys.push_back(key + " " + text);
+    all.push_back(keys.empty() ? "its defaults" : fmt::format("{}", fmt::join(keys, " and ")));
+  }
+  return all.empty() ? "" : fmt::format(", with {}", fmt::join(all, " or "));
+}
+
+std::string when(Trial const& trial) {
+  return trial.if_changes.empty() ? "" : fmt::format(", where {} changes", trial.if_changes);
+}
+
 /// "conductance up to 5 W/K at shaft; conductance up to 5 W/K at ring"
 std::string tried(Effect const& effect) {
   std::vector<std::string> lines;
@@ -115,8 +130,8 @@ std::string tried(Effect const& effect) {
       along += fmt::format(" with {} {}", key, text(key, factor * trial.largest));
     for (auto const& site : trial.sites) sites += (sites.empty() ? " at every " : " by ") + site.kind;
     std::string const from = trial.ordinary > 0.0 ? "beyond " + text(trial.amplitude, trial.ordinary) + " " : "";
-    lines.push_back(fmt::format("{} {}up to {}{}{}{}", trial.amplitude, from, trial.either_sign ? "± " : "",
-                                text(trial.amplitude, trial.largest), along, sites));
+    lines.push_back(fmt::format("{} {}up to {}{}{}{}{}", trial.amplitude, from, trial.either_sign ? "± " : "",
+                                text(trial.amplitude, trial.largest), along, sites, variants(trial) + when(trial)));
   }
   return fmt::format("{}", fmt::join(lines, "; "));
 }

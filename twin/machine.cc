@@ -201,8 +201,10 @@ void MachineBuilder::read_head() {
   machine_.title = head_.title;
   machine_.up = head_.upwards();
   machine_.limits.max_spindle_speed = assembly_.maximum_spindle_speed();
-  for (auto const& [axis, table] : tables_.read<AxisDescription>("axis"))
+  for (auto const& [axis, table] : tables_.read<AxisDescription>("axis")) {
     machine_.limits.axes.push_back({axis.name, axis.rapid_feed, axis.lead, axis.stroke_from, axis.stroke_to});
+    if (axis.friction_at == "mean speed") assembly_.take_friction_at_mean_speed(axis.name);
+  }
 }
 
 /// What carries heat between two places needs two.

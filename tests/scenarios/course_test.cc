@@ -236,6 +236,8 @@ TEST(ExperimentCourse, MovesItsAxes) {
   feed.duty = 0.88;
   ExperimentCourse const course(e, machine());
   EXPECT_NEAR(thermal::to_unit(at(course, "z.speed", 0.0), "rpm"), 704.0, 1e-9);
+  EXPECT_NEAR(thermal::to_unit(at(course, "z.moving_speed", 0.0), "rpm"), 800.0, 1e-9);
+  EXPECT_EQ(at(course, "z.moving_speed", 1800.0), 0.0);
   EXPECT_EQ(at(course, "z.running", 0.0), 1.0);
   EXPECT_EQ(at(course, "z.duty", 0.0), 0.88);
   EXPECT_EQ(at(course, "z.speed", 1800.0), 0.0);

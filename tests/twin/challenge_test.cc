@@ -120,6 +120,15 @@ TEST(RefinedForm, KnowsWhatASlabResists) {
   EXPECT_NEAR(resistance_to_mean(body, site_of(body, "slab.x_max")) / exact, 1.0, 0.02);
 }
 
+/// Boxes are for the picture until a hidden world makes blocks of them: a motor inside the bed would have no film.
+TEST(RefinedForm, TellsWhichBoxLiesInsideAnother) {
+  std::string text = text_of(machine_file("v450"));
+  std::string const corner = R"(corner = ["-110 mm", "180 mm", "770 mm"])";
+  text.replace(text.find(corner), corner.size(), R"(corner = ["-110 mm", "0 mm", "-480 mm"])");
+  EXPECT_THAT(refusal([&] { RefinedForm(parse_toml(text, "mine.toml")); }),
+              testing::AllOf(StartsWith("mine.toml:"), HasSubstr("no face of its box is free"), HasSubstr("'motor'")));
+}
+
 TEST(RefinedForm, JoinsTwoBlocksWithTheStatedConductanceOrNearlyIt) {
   auto const document = nominal("v450");
   RefinedForm const form(document);

@@ -67,6 +67,7 @@ double bench_input(std::string const& channel) {
                                                        {"z.feed", 0.2},
                                                        {"z.duty", 0.8},
                                                        {"z.speed", 100.0},
+                                                       {"z.moving_speed", 100.0},
                                                        {"z.running", 1.0},
                                                        {"z.stroke_from", 0.08},
                                                        {"z.stroke_to", 0.22},

@@ -230,6 +230,22 @@ TEST(RollingContact, GrowsWithSpeedToTheOnePointFiveAndFallsAsTheOilWarms) {
   }
 }
 
+/// What moves half of the time has its own torque for half of the time; with the mean speed alone the oil would drag
+/// less.
+TEST(FeedDrive, HasTheTorqueOfTheSpeedAtWhichItMoves) {
+  for (std::string const name : {"ball_nut", "support_bearing", "feed_motor"}) {
+    auto const& effect = snippet(name);
+    auto const heat = [&](double mean, double moving) {
+      return total_heat(effect, {{"z.speed", mean}, {"z.moving_speed", moving}});
+    };
+    EXPECT_GT(heat(100.0, 100.0), 0.0) << name;
+    EXPECT_NEAR(heat(50.0, 100.0), 0.5 * heat(100.0, 100.0), 1e-9 * heat(100.0, 100.0)) << name;
+    EXPECT_GT(heat(50.0, 100.0), (name == "feed_motor" ? 0.5 : 1.05) * heat(50.0, 50.0)) << name;
+    EXPECT_EQ(heat(50.0, 0.0), heat(50.0, 50.0)) << name;
+    EXPECT_EQ(heat(0.0, 100.0), 0.0) << name;
+  }
+}
+
 TEST(Gear, ChurnsWithAPowerOfSpeedAndLosesUnderLoad) {
   auto const& effect = snippet("gear");
   Inputs const idle = {{"spindle.running", 0.0}};

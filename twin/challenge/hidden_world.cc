@@ -193,7 +193,9 @@ class EffectDraw {
         machine_(Machine::build(nominal)),
         hardest_(challenge_runs(machine_.limits, seed).front()),
         held_out_(challenge_runs(machine_.limits, seed).back()),
-        all_(hypotheses(nominal, machine_)) {}
+        all_(hypotheses(nominal, machine_)) {
+    std::erase_if(all_, [](auto const& hypothesis) { return !hypothesis.trial->if_changes.empty(); });
+  }
 
   /// Adds the effect to the document of the hidden world.
   HiddenEffect draw(Value& document, std::vector<HiddenEffect> const& others);

@@ -341,7 +341,10 @@ void RefinedForm::append(Value& document, std::string const& kind, Value table) 
   for (auto const& place : texts_of(table, "on")) {
     bool const lump_before = is_block(place);
     auto const faces = lump_before ? free_faces(place) : std::vector{place};
-    if (faces.empty()) throw thermal::InputError(fmt::format("the block '{}' has no free face", place));
+    if (faces.empty())
+      throw FileError(table.where, fmt::format("a hidden world makes '{}' a block, but no face of its box is free for "
+                                               "this {}: it lies inside others; move 'corner' and 'size' apart",
+                                               place, kind));
     on.insert(on.end(), faces.begin(), kind == "film" ? faces.end() : faces.begin() + 1);
   }
   if (kind == "film")

@@ -65,6 +65,7 @@ class Diagnostician {
 std::vector<Hypothesis> Diagnostician::excited_hypotheses() const {
   auto all = hypotheses(document_, machine_, options_.without);
   std::erase_if(all, [&](auto const& h) { return !is_excited(h, document_, machine_, runs_); });
+  share_probability(all, machine_);
   return with_those_of_some_size(std::move(all));
 }
 

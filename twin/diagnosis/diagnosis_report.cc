@@ -339,7 +339,7 @@ std::string headline(Diagnosis const& diagnosis) {
                  ? "No effect is evident, though the machine leaves more than noise in parts of the data."
                  : "Nothing is missing: the machine explains these data to within their noise.";
     case Diagnosis::Verdict::none_known:
-      return std::string(no_name) + (things == 0 ? "" : " What stands in for it:");
+      return std::string(no_name) + (things == 0 ? "" : " What stands in for it is named below.");
     case Diagnosis::Verdict::sensor:
       return "An instrument is at fault, not the machine.";
     case Diagnosis::Verdict::effect:

@@ -1,5 +1,6 @@
 #include "twin/diagnosis/excitation.h"
 
+#include <algorithm>
 #include <set>
 
 namespace thermotwin::twin {
@@ -25,6 +26,11 @@ double change(MeasuredRun const& run, std::string const& name) {
 
 bool is_excited(Hypothesis const& hypothesis, Value const& document, Machine const& machine,
                 std::vector<BinnedRun> const& runs) {
+  auto const changes = [&](std::string const& name) {
+    return std::any_of(runs.begin(), runs.end(),
+                       [&](BinnedRun const& run) { return change(*run.run, name) >= least_change; });
+  };
+  if (auto const& channel = hypothesis.trial->if_changes; !channel.empty()) return changes(channel);
   if (hypothesis.site != "machine") return true;
   auto const before = followed(machine);
   auto const after = followed(Machine::build(with_hypothesis(document, hypothesis, "trial", hypothesis.largest)));
@@ -32,8 +38,7 @@ bool is_excited(Hypothesis const& hypothesis, Value const& document, Machine con
   for (auto const& name : after) {
     if (before.contains(name)) continue;
     follows = true;
-    for (auto const& run : runs)
-      if (change(*run.run, name) >= least_change) return true;
+    if (changes(name)) return true;
   }
   return !follows;
 }

@@ -66,9 +66,9 @@ class Sites {
 
 Sites::Sites(Value const& document, Machine const& machine) : document_(document) {
   find_feed_drives();
+  add_motors();
   add_bodies();
   add_bearings();
-  add_motors();
   add_nuts();
   add_films();
   add_channels();
@@ -102,6 +102,9 @@ void Sites::add_bodies() {
   auto const turning = turning_bodies(document_);
   auto const add_solid = [&](Value const& table, std::string const& place, std::string const& body) {
     add("solid", {place, body});
+    auto const& motors = candidates_["motor"];
+    if (std::none_of(motors.begin(), motors.end(), [&](auto const& motor) { return motor.body == body; }))
+      add("solid but no motor", {place, body});
     if (std::find(turning.begin(), turning.end(), body) != turning.end()) return;
     add("resting solid", {place, body});
     if (table.find("material")) add("casting", {place, body});
@@ -356,13 +359,17 @@ std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine
         }
       }
   }
+  share_probability(result, machine);
+  return result;
+}
+
+void share_probability(std::vector<Hypothesis>& hypotheses, Machine const& machine) {
   std::map<Effect const*, int> count;
-  for (auto const& hypothesis : result) ++count[hypothesis.effect];
-  for (auto& hypothesis : result) {
+  for (auto const& hypothesis : hypotheses) ++count[hypothesis.effect];
+  for (auto& hypothesis : hypotheses) {
     hypothesis.choice = 2.0 * std::log(count[hypothesis.effect]) + hypothesis.trial->against;
     if (contradicts(machine, hypothesis)) hypothesis.choice += against_statement;
   }
-  return result;
 }
 
 std::vector<Hypothesis> with_those_of_some_size(std::vector<Hypothesis> hypotheses) {

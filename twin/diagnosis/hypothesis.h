@@ -55,6 +55,9 @@ struct Hypothesis {
 [[nodiscard]] std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine,
                                                  std::vector<std::string> const& without = {});
 
+/// Sets `choice`: the hypotheses of an effect share its probability; anew where some were left out.
+void share_probability(std::vector<Hypothesis>& hypotheses, Machine const& machine);
+
 /// These, and after them once more those that are also looked for at an amplitude of some size.
 [[nodiscard]] std::vector<Hypothesis> with_those_of_some_size(std::vector<Hypothesis> hypotheses);
 

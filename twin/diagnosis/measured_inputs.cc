@@ -227,6 +227,9 @@ void remark_suppositions(MeasuredData const& data, Machine const& machine, std::
     bool const due =
         std::any_of(needed.begin(), needed.end(), [&](auto const& name) { return name.starts_with(axis.name + "."); });
     if (due && !find(data.inputs, axis.name + ".feed")) said.push_back("axis " + axis.name + " stands still");
+    if (due && find(data.inputs, axis.name + ".feed") && !find(data.inputs, axis.name + ".speed") &&
+        !find(data.inputs, axis.name + ".duty"))
+      said.push_back("axis " + axis.name + " moves whenever it has a feed");
   }
   if (!said.empty()) remarks.push_back(fmt::format("not in the data, and supposed: {}", fmt::join(said, "; ")));
 }

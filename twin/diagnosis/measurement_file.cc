@@ -222,7 +222,10 @@ MeasuredData read_measurement_file(std::filesystem::path const& path) {
     }
 
   data.machine_file = file_of_machine(file.machine, directory);
-  data.machine = name_of_machine(file.machine, data.machine_file);
+  if (data.machine_file.empty() && file.machine.ends_with(".toml"))
+    data.remarks.push_back(fmt::format("it is a run of '{}', but there is no such file beside it", file.machine));
+  else
+    data.machine = name_of_machine(file.machine, data.machine_file);
   data.initial_temperature = file.initial_temperature;
   located(document, [&] {
     Window const window = window_of(file, tables);

@@ -11,15 +11,16 @@
 namespace thermotwin::twin {
 namespace {
 
-/// Port 0 nut, port 1 screw under the stroke. c = torque coefficients (feed_torque.h), nut share; u = {ω}.
+/// Port 0 nut, port 1 screw under the stroke. c = torque coefficients (feed_torque.h), nut share; u as
+/// of torque_speed.
 struct NutHeat {
   static constexpr std::string_view name = "friction of a ball nut";
-  static constexpr int ports = 2, coefficients = NutTorque::coefficients + 1, inputs = 1;
+  static constexpr int ports = 2, coefficients = NutTorque::coefficients + 1, inputs = 2;
   static constexpr bool conservative = false;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     if (u[0] == 0.0) return;
-    S const heat = thermal::friction_heat<S>(NutTorque::at<S>(T[0], T[1], c, u[0]), S(u[0]));
+    S const heat = thermal::friction_heat<S>(NutTorque::at<S>(T[0], T[1], c, torque_speed(u)), S(u[0]));
     q[0] = c[NutTorque::coefficients] * heat;
     q[1] = (1.0 - c[NutTorque::coefficients]) * heat;
   }
@@ -88,7 +89,7 @@ struct BallNut {
                                              thermal::mineral_oil_viscosity(oil), reference_speed);
     assembly.announce(name, {{nut_port, screw_port}, torque});
     torque.push_back(nut_share);
-    assembly.network().add<NutHeat>(assembly.part(), {nut_port, screw_port}, torque, {speed});
+    assembly.network().add<NutHeat>(assembly.part(), {nut_port, screw_port}, torque, assembly.friction_channels(axis));
     for (int i = 0; i < track.nodes(); ++i)
       assembly.network().add<NutConductance>(assembly.part(),
                                              {nut_port, {thermal::Port::Kind::node, assembly.first_node(screw) + i}},
@@ -103,7 +104,8 @@ Effect const& ball_nut_effect() {
   static Effect const effect = make_effect<BallNut>(
       {"ball_nut",
        "friction of a ball nut that travels along its screw, and conduction between them",
-       "Q = T_nut |ω|;  T_nut = T_pre (1 − φ + φ √(νn/(ν40 n_r))) + |F_ax| l/2π (1/η − 1);  T_pre = 0.05 (tan "
+       "Q = T_nut |ω|, n that while moving;  T_nut = T_pre (1 − φ + φ √(νn/(ν40 n_r))) + |F_ax| l/2π (1/η − 1);  T_pre "
+       "= 0.05 (tan "
        "β)^(−1/2) F_a0 "
        "l/2π;  G = G0 + G1 √(n/n_r);  spread over the screw by the exact overlap with the nut along its stroke",
        "source, link",

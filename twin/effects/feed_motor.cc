@@ -7,23 +7,24 @@
 namespace thermotwin::twin {
 namespace {
 
-/// Ports: motor, nut, screw, rings of two support bearings. u = {ω}.
+/// Ports: motor, nut, screw, rings of two support bearings. u as of torque_speed.
 /// c = nut torque, two support torques, {resistance, peak factor, k_T, constant torque, P_h, P_e, ω_r}.
 struct FeedMotorLoss {
   static constexpr std::string_view name = "loss of a feed motor";
   static constexpr int nut = 0, upper = NutTorque::coefficients, lower = upper + SupportTorque::coefficients,
                        own = lower + SupportTorque::coefficients;
-  static constexpr int ports = 5, coefficients = own + 7, inputs = 1;
+  static constexpr int ports = 5, coefficients = own + 7, inputs = 2;
   static constexpr bool conservative = false;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     if (u[0] == 0.0) return;
-    S const torque = NutTorque::at<S>(T[1], T[2], c + nut, u[0]) + SupportTorque::at<S>(T[3], c + upper, u[0]) +
-                     SupportTorque::at<S>(T[4], c + lower, u[0]) + c[own + 3];
+    double const speed = torque_speed(u), share_of_time = u[0] / speed;
+    S const torque = NutTorque::at<S>(T[1], T[2], c + nut, speed) + SupportTorque::at<S>(T[3], c + upper, speed) +
+                     SupportTorque::at<S>(T[4], c + lower, speed) + c[own + 3];
     S const current = thermal::permanent_magnet_current<S>(torque, c[own + 2]);
-    S const ratio = u[0] / c[own + 6];
-    q[0] = c[own + 1] * thermal::copper_loss<S>(S(3.0), c[own], T[0], current) +
-           thermal::iron_loss<S>(c[own + 4], c[own + 5], ratio);
+    S const ratio = speed / c[own + 6];
+    q[0] = share_of_time * (c[own + 1] * thermal::copper_loss<S>(S(3.0), c[own], T[0], current) +
+                            thermal::iron_loss<S>(c[own + 4], c[own + 5], ratio));
   }
 };
 
@@ -70,7 +71,7 @@ struct FeedMotor {
     }
     numbers.insert(numbers.end(),
                    {resistance, peak_factor, torque_constant, constant_torque, hysteresis, eddy, reference_speed});
-    assembly.network().add<FeedMotorLoss>(assembly.part(), ports, numbers, {assembly.channel(axis + ".speed")});
+    assembly.network().add<FeedMotorLoss>(assembly.part(), ports, numbers, assembly.friction_channels(axis));
   }
 };
 
@@ -79,7 +80,8 @@ struct FeedMotor {
 Effect const& feed_motor_effect() {
   static Effect const effect = make_effect<FeedMotor>(
       {"feed_motor", "copper and iron loss of a feed motor that overcomes the friction of its axis",
-       "P = k_p 3R(1 + 0.0039 (T − 20 °C)) (M/k_T)² + Ph r + Pe r²;  M = M_nut + Σ M_bearing + M_0,  r = n/n_r",
+       "P = d [k_p 3R(1 + 0.0039 (T − 20 °C)) (M/k_T)² + Ph r + Pe r²];  M = M_nut + Σ M_bearing + M_0,  r = n/n_r, n "
+       "while moving, for the share d of the time",
        "source", "feed motor", "power of feed 1 to 2; first seen at the motor, 36…39 min; ends at stop",
        "physics.md 1.7, 2.11"});
   return effect;

@@ -44,7 +44,13 @@ Effect const& heat_effect() {
         .largest = 300.0,
         .either_sign = true,
         .sites = {{"at", "solid"}},
-        .shapes = {{{"while_on", "machine.on"}}, {{"while_on", "spindle.running"}}, {{"while_on", "coolant.on"}}}}});
+        .shapes = {{{"while_on", "machine.on"}}, {{"while_on", "spindle.running"}}, {{"while_on", "coolant.on"}}}},
+       {.amplitude = "power",
+        .largest = 300.0,
+        .either_sign = true,
+        .if_changes = "servo.on",
+        .sites = {{"at", "solid but no motor"}},
+        .shapes = {{{"while_on", "servo.on"}}}}});
   return effect;
 }
 

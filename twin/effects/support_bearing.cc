@@ -7,15 +7,15 @@
 namespace thermotwin::twin {
 namespace {
 
-/// Port 0 shaft, port 1 outer ring. c = torque coefficients, inner share; u = {ω}.
+/// Port 0 shaft, port 1 outer ring. c = torque coefficients, inner share; u as of torque_speed.
 struct SupportHeat {
   static constexpr std::string_view name = "friction of screw support bearings";
-  static constexpr int ports = 2, coefficients = SupportTorque::coefficients + 1, inputs = 1;
+  static constexpr int ports = 2, coefficients = SupportTorque::coefficients + 1, inputs = 2;
   static constexpr bool conservative = false;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     if (u[0] == 0.0) return;
-    S const torque = SupportTorque::at<S>(0.5 * (T[0] + T[1]), c, u[0]);
+    S const torque = SupportTorque::at<S>(0.5 * (T[0] + T[1]), c, torque_speed(u));
     S const heat = thermal::friction_heat<S>(torque, S(u[0]));
     q[0] = c[SupportTorque::coefficients] * heat;
     q[1] = (1.0 - c[SupportTorque::coefficients]) * heat;
@@ -51,7 +51,7 @@ struct SupportBearing {
     std::vector<double> torque = {drag_torque, viscosity.scale, viscosity.temperature, reference_speed};
     assembly.announce(name, {{inner, outer}, torque});
     torque.push_back(inner_share);
-    assembly.network().add<SupportHeat>(assembly.part(), {inner, outer}, torque, {assembly.channel(axis + ".speed")});
+    assembly.network().add<SupportHeat>(assembly.part(), {inner, outer}, torque, assembly.friction_channels(axis));
     assembly.network().connect(assembly.part(), inner, outer, conductance);
   }
 };

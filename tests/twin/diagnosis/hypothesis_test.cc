@@ -189,8 +189,9 @@ TEST(HypothesesOfAFeedDrive, FollowItsAxisBesideASpindle) {
       if (hypothesis.effect->name == "heat" && key == "while_on") heat_while_on[hypothesis.body].insert(value);
     }
   }
-  EXPECT_EQ(heat_while_on.at("x_nut"), (std::set<std::string>{"machine.on", "x.running", "coolant.on"}));
-  EXPECT_EQ(heat_while_on.at("table"), (std::set<std::string>{"machine.on", "spindle.running", "coolant.on"}));
+  EXPECT_EQ(heat_while_on.at("x_nut"), (std::set<std::string>{"machine.on", "servo.on", "x.running", "coolant.on"}));
+  EXPECT_EQ(heat_while_on.at("table"),
+            (std::set<std::string>{"machine.on", "servo.on", "spindle.running", "coolant.on"}));
   EXPECT_TRUE(of_spindle.contains("rotor_windage"));
 }
 

@@ -290,6 +290,18 @@ TEST(MeasuredRun, ReadingsInAGapOfTheSpeedAndSoonAfterItAreLeftOut) {
   for (auto const& one : run.channels) EXPECT_EQ(one.values.size(), run.time.size()) << one.name;
 }
 
+TEST(MeasuredRun, AFeedWithoutItsDutyIsSaidToBeMotionAllTheTime) {
+  Machine const vmc850 = Machine::read(machine_file("vmc850"));
+  MeasuredData data;
+  data.time = Eigen::VectorXd::LinSpaced(181, 0.0, 3 * 3600.0);
+  data.readings = {{"S1", "degC", "", data.time / 3600.0}};
+  data.inputs = {{"z.feed", "m/s", {0.0}, {0.2}}, {"ambient.temperature", "K", {0.0}, {293.0}}};
+  EXPECT_THAT(measured_run(data, vmc850, "feed").remarks, Contains(HasSubstr("axis z moves whenever it has a feed")));
+  data.inputs.push_back({"z.duty", "1", {0.0}, {0.8}});
+  EXPECT_THAT(measured_run(data, vmc850, "duty").remarks,
+              testing::Not(Contains(HasSubstr("axis z moves whenever it has a feed"))));
+}
+
 /// A programme that is written down where it changes has no gap, nor has what never changes.
 TEST(MeasuredRun, WhatIsRecordedWhereItChangesHasNoGap) {
   MeasuredData data;

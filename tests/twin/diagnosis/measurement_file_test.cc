@@ -278,6 +278,8 @@ TEST_F(MeasurementFileTest, TheMachineIsNamedAsItCallsItself) {
         << named;
   EXPECT_THAT(read(with(whole, "machine = \"tclab\"", "machine = \"g200\"")).remarks,
               Contains(HasSubstr("it is a run of 'g200'")));
+  EXPECT_THAT(read(with(whole, "machine = \"tclab\"", "machine = \"lathe.toml\"")).remarks,
+              Contains("it is a run of 'lathe.toml', but there is no such file beside it"));
 }
 
 TEST_F(MeasurementFileTest, TimeMayNotRunBackwards) {
