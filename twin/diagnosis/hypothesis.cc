@@ -155,7 +155,7 @@ void Sites::find_feed_drives() {
   for (auto const& [kind, keys] : {std::pair<std::string, std::vector<std::string>>("feed_motor", {"at"}),
                                    {"ball_nut", {"nut", "screw"}},
                                    {"support_bearing", {"shaft", "ring"}}})
-    for_tables(kind, [&](Value const& table) {
+    for_tables(kind, [&, &keys = keys](Value const& table) {
       auto const axis = texts_of(table, "axis");
       for (auto const& key : keys)
         for (auto const& place : texts_of(table, key)) feed_drives_[body_of(place)] = axis.empty() ? "z" : axis[0];
