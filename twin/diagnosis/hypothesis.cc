@@ -39,6 +39,12 @@ struct Candidate {
   std::string axis = {};   ///< that moves it
 };
 
+/// That moves a part of a feed drive.
+std::string axis_of(Value const& table) {
+  auto const axis = texts_of(table, "axis");
+  return axis.empty() ? "z" : axis[0];
+}
+
 /// The names of a machine that a hypothesis may point to, by kind of site.
 class Sites {
  public:
@@ -135,10 +141,8 @@ void Sites::add_bearings() {
       }
   });
   for_tables("support_bearing", [&](Value const& table) {
-    auto const axis = texts_of(table, "axis");
     for (auto const& shaft : texts_of(table, "shaft"))
-      for (auto const& ring : texts_of(table, "ring"))
-        add("support", {shaft, body_of(ring), ring, axis.empty() ? "z" : axis[0]});
+      for (auto const& ring : texts_of(table, "ring")) add("support", {shaft, body_of(ring), ring, axis_of(table)});
   });
 }
 
@@ -156,9 +160,8 @@ void Sites::find_feed_drives() {
                                    {"ball_nut", {"nut", "screw"}},
                                    {"support_bearing", {"shaft", "ring"}}})
     for_tables(kind, [&, &keys = keys](Value const& table) {
-      auto const axis = texts_of(table, "axis");
       for (auto const& key : keys)
-        for (auto const& place : texts_of(table, key)) feed_drives_[body_of(place)] = axis.empty() ? "z" : axis[0];
+        for (auto const& place : texts_of(table, key)) feed_drives_[body_of(place)] = axis_of(table);
     });
 }
 
@@ -169,10 +172,8 @@ std::string Sites::feed_drive(std::string const& body) const {
 
 void Sites::add_nuts() {
   for_tables("ball_nut", [&](Value const& table) {
-    auto const axis = texts_of(table, "axis");
     for (auto const& nut : texts_of(table, "nut"))
-      for (auto const& screw : texts_of(table, "screw"))
-        add("nut", {nut, body_of(nut), screw, axis.empty() ? "z" : axis[0]});
+      for (auto const& screw : texts_of(table, "screw")) add("nut", {nut, body_of(nut), screw, axis_of(table)});
   });
 }
 
