@@ -26,6 +26,8 @@ constexpr double number_comes_back = 2.0;  // strictness with an effect, where o
 constexpr std::size_t most_refits = 24, most_rivals = 3, whitened_at_once = 32;
 // What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
 constexpr double hopeful_score = 0.3, hopeful_refit = 0.5;
+// What a few steps may lack of a strength, and what is left of a threshold where an effect explains another away.
+constexpr double as_likely = 12.0, explained = 0.5;
 
 /// The most promising hypotheses, one per effect and site, strongest first.
 std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector<Hypothesis> const& hypotheses,
@@ -77,6 +79,14 @@ struct EffectSearch::Refit {
   double amplitude = 0.0, standard_error = 0.0;  ///< in units of its largest
   Eigen::VectorXd x;
   double strength = -INFINITY;
+
+  /// As it was fitted; strength over a fit of this evidence.
+  void take(Fit const& fit, Eigen::Index place, double evidence) {
+    x = fit.x;
+    amplitude = fit.x[place];
+    standard_error = std::sqrt(fit.covariance(place, place));
+    strength = is_ordinary(hypothesis, fit, place) ? -INFINITY : evidence - fit.evidence;
+  }
 };
 
 EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& runs,
@@ -236,13 +246,8 @@ std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vec
     bool const both = refit.hypothesis.trial->either_sign;
     start[last] = std::clamp(start[last], both ? -most_of_largest : 1e-3, most_of_largest);
     try {
-      Fit const fit = estimation_->with(std::vector<Hypothesis>{refit.hypothesis}).fit(start, 4);
-      refit.x = fit.x;
-      refit.amplitude = fit.x[last];
-      refit.standard_error = std::sqrt(fit.covariance(last, last));
-      refit.strength = is_ordinary(refit.hypothesis, fit, last) ? -INFINITY : fit_.evidence - fit.evidence;
-    } catch (std::exception const&) {
-      refit.strength = -INFINITY;
+      refit.take(estimation_->with(std::vector<Hypothesis>{refit.hypothesis}).fit(start, 4), last, fit_.evidence);
+    } catch (std::exception const&) {  // what cannot be fitted has no evidence
     }
   });
   std::stable_sort(result.begin(), result.end(), [](auto const& a, auto const& b) { return a.strength > b.strength; });
@@ -250,8 +255,10 @@ std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vec
 }
 
 /// An effect that was added, and what could stand in its place, about the fit that has it: near enough for what looks
-/// alike that the linearisation decides.
-std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, double strength) const {
+/// alike that the linearisation decides. A rival that it explains away may look otherwise, and stands there for numbers
+/// that are others then: that is fitted.
+std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, double strength,
+                                                          std::vector<Hypothesis> const& rivals) const {
   auto const own_place = place_of(effect);
   Hypothesis const& own = estimation_->effects()[effect];
   Fit const about = without(fit_, own_place);
@@ -262,13 +269,44 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   double const own_evidence = evidence_of(scores.back(), own);
   std::vector<Refit> result = {
       {own, fit_.x[own_place], std::sqrt(fit_.covariance(own_place, own_place)), fit_.x, strength}};
+  auto const beside = Remainder(fit_, columns).scores(tried);
+  std::vector<std::size_t> fitted;
   for (std::size_t const k : promising(scores, tried, 0.0)) {
-    if (tried[k].label() == own.label() || std::abs(alike[Eigen::Index(k)]) < confusable_cosine) continue;
+    if (tried[k].label() == own.label()) continue;
+    if (std::abs(alike[Eigen::Index(k)]) < confusable_cosine) {
+      bool const is_rival = std::any_of(rivals.begin(), rivals.end(),
+                                        [&](auto const& rival) { return rival.label() == tried[k].label(); });
+      if (is_rival && evidence_of(beside[k], tried[k]) < explained * options_.threshold) fitted.push_back(k);
+      continue;
+    }
     Refit refit{tried[k], probable_amplitude(scores[k]), probable_error(scores[k]), fit_.x,
                 strength + evidence_of(scores[k], tried[k]) - own_evidence};
     refit.x[own_place] = refit.amplitude;
     result.push_back(std::move(refit));
   }
+  for (auto& refit : refits_in_place_of(effect, strength, fitted, tried, scores)) result.push_back(std::move(refit));
+  return result;
+}
+
+/// Each of those chosen in the place of an effect, fitted.
+std::vector<EffectSearch::Refit> EffectSearch::refits_in_place_of(std::size_t effect, double strength,
+                                                                  std::vector<std::size_t> const& chosen,
+                                                                  std::vector<Hypothesis> const& tried,
+                                                                  std::vector<Score> const& scores) const {
+  auto const place = place_of(effect);
+  std::vector<Refit> result(chosen.size());
+  in_parallel(chosen.size(), [&](std::size_t i) {
+    auto& refit = result[i];
+    refit.hypothesis = tried[chosen[i]];
+    Eigen::VectorXd start = fit_.x;
+    start[place] = probable_amplitude(scores[chosen[i]]);
+    auto effects = estimation_->effects();
+    effects[effect] = refit.hypothesis;
+    try {
+      refit.take(with_effects(effects).fit(start, 10), place, strength + fit_.evidence);
+    } catch (std::exception const&) {  // what cannot be fitted has no evidence
+    }
+  });
   return result;
 }
 
@@ -315,6 +353,9 @@ bool EffectSearch::add_effect(int round) {
     }));
   auto const first = refits(fit_, most_promising(all_others, scores, threshold), all_others, scores);
   if (first.empty() || first[0].strength < hopeful_refit * threshold) return false;
+  std::vector<Hypothesis> rivals;
+  for (auto const& refit : first)
+    if (refit.strength > first[0].strength - as_likely) rivals.push_back(refit.hypothesis);
   Estimation const before = *estimation_;
   Fit base = std::move(fit_);
   Eigen::MatrixXd base_signatures = std::move(signatures_);
@@ -332,7 +373,7 @@ bool EffectSearch::add_effect(int round) {
       estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
     }
     linearise();
-    all = instead_of(estimation_->effects().size() - 1, best.strength);
+    all = instead_of(estimation_->effects().size() - 1, best.strength, rivals);
     auto const strongest = std::max_element(all.begin(), all.end(),
                                             [](Refit const& a, Refit const& b) { return a.strength < b.strength; });
     if (strongest->strength < best.strength + 2.0 || attempt == 1) break;
@@ -403,7 +444,9 @@ bool EffectSearch::exchange() {
   for (std::size_t e = 0; e < estimation_->effects().size(); ++e) {
     auto const& explanation = explanations_[e];
     double strength = explanation.alternatives[0].strength;
-    auto all = instead_of(e, strength);
+    std::vector<Hypothesis> rivals;
+    for (auto const& alternative : explanation.alternatives) rivals.push_back(alternative.hypothesis);
+    auto all = instead_of(e, strength, rivals);
     auto const best = *std::max_element(all.begin(), all.end(),
                                         [](Refit const& a, Refit const& b) { return a.strength < b.strength; });
     if (best.strength > strength + 2.0) {
@@ -418,7 +461,7 @@ bool EffectSearch::exchange() {
         fit_ = fit;
         linearise();
         exchanged = true;
-        all = instead_of(e, strength);
+        all = instead_of(e, strength, rivals);
       }
     }
     explanations_[e] = explanation_of(all);

@@ -83,7 +83,12 @@ class EffectSearch {
                                           Candidates const& candidates, std::vector<Score> const& scores) const;
   [[nodiscard]] std::vector<std::size_t> most_promising(Candidates const& candidates, std::vector<Score> const& scores,
                                                         double threshold) const;
-  [[nodiscard]] std::vector<Refit> instead_of(std::size_t effect, double strength) const;
+  [[nodiscard]] std::vector<Refit> instead_of(std::size_t effect, double strength,
+                                              std::vector<Hypothesis> const& rivals) const;
+  [[nodiscard]] std::vector<Refit> refits_in_place_of(std::size_t effect, double strength,
+                                                      std::vector<std::size_t> const& chosen,
+                                                      std::vector<Hypothesis> const& tried,
+                                                      std::vector<Score> const& scores) const;
   void linearise();
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
   void open_loops();
