@@ -69,6 +69,9 @@ class EffectSearch {
  private:
   struct Refit;
 
+  void search();
+  bool acquit_sensor();
+  [[nodiscard]] double misfit() const;
   void say(std::string const& what) const {
     if (options_.progress) options_.progress(what);
   }

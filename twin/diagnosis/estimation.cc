@@ -138,6 +138,13 @@ Estimation Estimation::with(std::vector<ChannelNoise> const& noise) const {
   return other;
 }
 
+double Estimation::noise_scale() const {
+  double sum = 0.0;
+  for (auto const& run : whitenings_)
+    for (auto const& channel : run) sum += 2.0 * channel.log_scale();
+  return sum;
+}
+
 Estimation Estimation::with(std::vector<Hypothesis> const& effects) const {
   Estimation other = *this;
   for (auto const& effect : effects) {

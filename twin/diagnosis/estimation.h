@@ -80,6 +80,8 @@ class Estimation {
   void whiten(Eigen::Ref<Eigen::MatrixXd> signals) const;
   /// Whitens signals of one run.
   void whiten(std::size_t run, Eigen::Ref<Eigen::MatrixXd> signals) const;
+  /// Σ ln |2π S| of the innovations of all channels: what the evidence of a fit lacks beside one with other noise.
+  [[nodiscard]] double noise_scale() const;
   /// Rows of all runs and channels.
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
   /// Where a run's rows begin.

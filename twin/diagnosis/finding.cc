@@ -22,6 +22,8 @@ double strongest_film(std::string const& body, thermal::Geometry const& geometry
 
 }  // namespace
 
+bool is_at_end(double of_largest) { return std::abs(of_largest) > 0.999 * most_of_largest; }
+
 double whole_error(double of_fit, double estimate) {
   constexpr double fit_share = 1.2, form_share = 0.1;
   return std::hypot(fit_share * of_fit, form_share * estimate);
@@ -41,7 +43,7 @@ double Finding::high() const {
   return at_least ? most_of_largest * hypothesis.largest : amplitude + two_sided_95 * standard_error;
 }
 
-bool Finding::is_at_end() const { return std::abs(amplitude) > 0.999 * most_of_largest * hypothesis.largest; }
+bool Finding::is_at_end() const { return twin::is_at_end(amplitude / hypothesis.largest); }
 
 bool Finding::is_negligible() const {
   double const unit = hypothesis.largest, errors = hypothesis.is_about("sensor") ? two_sided_95 : 1.0;

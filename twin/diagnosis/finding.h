@@ -12,6 +12,9 @@ namespace thermotwin::twin {
 /// what a machine of some ten nodes gets wrong by its form, however clear the data are (docs/diagnosis.md).
 [[nodiscard]] double whole_error(double of_fit, double estimate);
 
+/// Whether an amplitude, in units of its largest, is as much as is plausible: the fit would have more.
+[[nodiscard]] bool is_at_end(double of_largest);
+
 /// An effect at a site as fitted.
 struct Finding {
   Hypothesis hypothesis;
@@ -31,7 +34,6 @@ struct Finding {
   /// Ends of the 95 % interval [SI].
   [[nodiscard]] double low() const;
   [[nodiscard]] double high() const;
-  /// As much as is plausible: the fit would have more.
   [[nodiscard]] bool is_at_end() const;
   /// Less than its standard error, of a fault of an instrument than its 95 % interval, or no more than the best of
   /// machines may have.
