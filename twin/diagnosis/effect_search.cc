@@ -300,10 +300,11 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   auto const beside = Remainder(fit_, columns).scores(tried);
   std::vector<std::size_t> fitted;
   for (std::size_t const k : promising(scores, tried, 0.0)) {
-    if (tried[k].label() == own.label()) continue;
+    auto const label = tried[k].label();
+    if (label == own.label()) continue;
     if (std::abs(alike[Eigen::Index(k)]) < confusable_cosine) {
-      bool const is_rival = std::any_of(rivals.begin(), rivals.end(),
-                                        [&](auto const& rival) { return rival.label() == tried[k].label(); });
+      bool const is_rival =
+          std::any_of(rivals.begin(), rivals.end(), [&](auto const& rival) { return rival.label() == label; });
       if (is_rival && evidence_of(beside[k], tried[k]) < explained * options_.threshold) fitted.push_back(k);
       continue;
     }
