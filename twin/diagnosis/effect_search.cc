@@ -124,6 +124,7 @@ void EffectSearch::search() {
 bool EffectSearch::acquit_sensor() {
   for (std::size_t e = 0; e < estimation_->effects().size(); ++e) {
     if (!estimation_->effects()[e].is_about("sensor") || !is_at_end(fit_.x[place_of(e)])) continue;
+    say("once more without " + estimation_->effects()[e].label());
     EffectSearch other = *this;
     other.reject(e);
     other.search();
