@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
-#include <set>
 
 #include "twin/diagnosis/birge_ratio.h"
 #include "twin/diagnosis/expected_noise.h"
@@ -287,7 +286,7 @@ std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vec
 /// alike that the linearisation decides. A rival that it explains away may look otherwise, and stands there for numbers
 /// that are others then: that is fitted.
 std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, double strength,
-                                                          std::vector<Hypothesis> const& rivals) const {
+                                                          std::set<std::string> const& rivals) const {
   auto const own_place = place_of(effect);
   Hypothesis const& own = estimation_->effects()[effect];
   Fit const about = without(fit_, own_place);
@@ -298,15 +297,12 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   double const own_evidence = evidence_of(scores.back(), own);
   std::vector<Refit> result = {
       {own, fit_.x[own_place], std::sqrt(fit_.covariance(own_place, own_place)), fit_.x, strength}};
-  auto const beside = Remainder(fit_, columns).scores(tried);
   std::vector<std::size_t> fitted;
   for (std::size_t const k : promising(scores, tried, 0.0)) {
     auto const label = tried[k].label();
     if (label == own.label()) continue;
     if (std::abs(alike[Eigen::Index(k)]) < confusable_cosine) {
-      bool const is_rival =
-          std::any_of(rivals.begin(), rivals.end(), [&](auto const& rival) { return rival.label() == label; });
-      if (is_rival && evidence_of(beside[k], tried[k]) < explained * options_.threshold) fitted.push_back(k);
+      if (rivals.contains(label) && explains_away(tried[k], columns.col(Eigen::Index(k)))) fitted.push_back(k);
       continue;
     }
     Refit refit{tried[k], probable_amplitude(scores[k]), probable_error(scores[k]), fit_.x,
@@ -316,6 +312,11 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   }
   for (auto& refit : refits_in_place_of(effect, strength, fitted, tried, scores)) result.push_back(std::move(refit));
   return result;
+}
+
+/// Whether the fit leaves next to nothing for an effect that it does not have. `signature`: whitened.
+bool EffectSearch::explains_away(Hypothesis const& effect, Eigen::MatrixXd const& signature) const {
+  return evidence_of(Remainder(fit_, signature).scores({effect})[0], effect) < explained * options_.threshold;
 }
 
 /// Each of those chosen in the place of an effect, fitted.
@@ -383,9 +384,9 @@ bool EffectSearch::add_effect(int round) {
     }));
   auto const first = refits(fit_, most_promising(all_others, scores, threshold), all_others, scores);
   if (first.empty() || first[0].strength < hopeful_refit * threshold) return false;
-  std::vector<Hypothesis> rivals;
+  std::set<std::string> rivals;
   for (auto const& refit : first)
-    if (refit.strength > first[0].strength - as_likely) rivals.push_back(refit.hypothesis);
+    if (refit.strength > first[0].strength - as_likely) rivals.insert(refit.hypothesis.label());
   Estimation const before = *estimation_;
   Fit base = std::move(fit_);
   Eigen::MatrixXd base_signatures = std::move(signatures_);
@@ -474,8 +475,8 @@ bool EffectSearch::exchange() {
   for (std::size_t e = 0; e < estimation_->effects().size(); ++e) {
     auto const& explanation = explanations_[e];
     double strength = explanation.alternatives[0].strength;
-    std::vector<Hypothesis> rivals;
-    for (auto const& alternative : explanation.alternatives) rivals.push_back(alternative.hypothesis);
+    std::set<std::string> rivals;
+    for (auto const& alternative : explanation.alternatives) rivals.insert(alternative.hypothesis.label());
     auto all = instead_of(e, strength, rivals);
     auto const best = *std::max_element(all.begin(), all.end(),
                                         [](Refit const& a, Refit const& b) { return a.strength < b.strength; });

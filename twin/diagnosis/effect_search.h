@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,7 +88,8 @@ class EffectSearch {
   [[nodiscard]] std::vector<std::size_t> most_promising(Candidates const& candidates, std::vector<Score> const& scores,
                                                         double threshold) const;
   [[nodiscard]] std::vector<Refit> instead_of(std::size_t effect, double strength,
-                                              std::vector<Hypothesis> const& rivals) const;
+                                              std::set<std::string> const& rivals) const;
+  [[nodiscard]] bool explains_away(Hypothesis const& effect, Eigen::MatrixXd const& signature) const;
   [[nodiscard]] std::vector<Refit> refits_in_place_of(std::size_t effect, double strength,
                                                       std::vector<std::size_t> const& chosen,
                                                       std::vector<Hypothesis> const& tried,
