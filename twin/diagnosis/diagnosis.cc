@@ -29,7 +29,7 @@ class Diagnostician {
         held_out_(held_out),
         machine_(Machine::build(machine)),
         hypotheses_(excited_hypotheses()),
-        search_(machine, runs, hypotheses_, options) {}
+        search_(searched(machine, runs, hypotheses_, options)) {}
   Diagnosis operator()();
 
  private:
@@ -75,8 +75,7 @@ Diagnosis Diagnostician::operator()() {
   d.hypotheses = hypotheses_;
   say("scanning for heat that the machine does not know");
   d.scan = scan_for_free_heat(search_.plain(), d.calibrated);
-  do search_();
-  while (write_down_and_reject());
+  while (write_down_and_reject()) search_();
   auto const& amended = search_.estimation();
   if (!held_out_.empty() && !d.effects.empty()) d.vote = vote();
   d.visible = search_.visible();

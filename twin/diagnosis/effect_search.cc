@@ -19,6 +19,8 @@ namespace {
 // named.
 constexpr int to_the_end = 50;
 constexpr int most_effects = 8;
+constexpr std::uint64_t nearby_starts = 4;
+constexpr double nearby_share = 0.1;       // of the priors' deviations
 constexpr double open_loop = 0.2;          // share of free growth
 constexpr double closed_law = 0.25;        // of the prior that laws have where they are open
 constexpr double number_comes_back = 2.0;  // strictness with an effect, where one had left the file without
@@ -50,12 +52,14 @@ bool is_ordinary(Hypothesis const& hypothesis, Fit const& fit, Eigen::Index unkn
   return hypothesis.is_ordinary(fit.x[unknown], std::sqrt(fit.covariance(unknown, unknown)));
 }
 
-/// Whether laws are first taken as the file has them: where there are any, and drawings, so that no step of a loop may
-/// be anything.
+bool has_drawings(std::vector<UncertainNumber> const& numbers) {
+  return std::none_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.is_any_step(); });
+}
+
+/// Whether laws are first taken as the file has them: where there are any, and drawings.
 bool has_closed_laws(std::vector<UncertainNumber> const& numbers) {
-  auto const is_any_step = [](auto const& number) { return number.path.ends_with(".weight") && number.nominal == 0.0; };
-  return std::any_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.of_law; }) &&
-         std::none_of(numbers.begin(), numbers.end(), is_any_step);
+  return has_drawings(numbers) &&
+         std::any_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.of_law; });
 }
 
 Eigen::VectorXd shorter(Eigen::VectorXd const& x, Eigen::Index gone) {
@@ -89,14 +93,18 @@ struct EffectSearch::Refit {
 };
 
 EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& runs,
-                           std::vector<Hypothesis> hypotheses, DiagnosisOptions const& options)
+                           std::vector<Hypothesis> hypotheses, DiagnosisOptions const& options,
+                           std::optional<std::uint64_t> nearby)
     : options_(options), geometry_(Machine::build(document).geometry), hypotheses_(std::move(hypotheses)) {
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs));
   bool const closed = has_closed_laws(estimation_->numbers());
   if (closed) estimation_ = estimation_->with_laws(closed_law);
   expected_ = estimation_->noise();
-  fit_ = estimation_->fit(options.start ? estimation_->drawn(*options.start) : estimation_->prior_mean(), to_the_end);
+  Eigen::VectorXd const start = nearby          ? estimation_->drawn(*nearby, nearby_share)
+                                : options.start ? estimation_->drawn(*options.start)
+                                                : estimation_->prior_mean();
+  fit_ = estimation_->fit(start, to_the_end);
   open_loops();
   if (closed) open_laws();
   listen_to_noise();
@@ -128,17 +136,12 @@ bool EffectSearch::acquit_sensor() {
     other.reject(e);
     other.search();
     if (other.misfit() > misfit() - 2.0) continue;
-    estimation_ = std::move(other.estimation_);
-    fit_ = std::move(other.fit_);
-    hypotheses_ = std::move(other.hypotheses_);
-    signatures_ = std::move(other.signatures_);
-    explanations_ = std::move(other.explanations_);
+    *this = std::move(other);
     return true;
   }
   return false;
 }
 
-/// −2 ln of the evidence for the machine with the effects found, whatever noise was heard.
 double EffectSearch::misfit() const { return fit_.evidence + estimation_->noise_scale(); }
 
 void EffectSearch::reject(std::size_t effect) {
@@ -498,6 +501,20 @@ bool EffectSearch::exchange() {
     explanations_[e] = explanation_of(all);
   }
   return exchanged;
+}
+
+EffectSearch searched(Value const& document, std::vector<BinnedRun> const& runs,
+                      std::vector<Hypothesis> const& hypotheses, DiagnosisOptions const& options) {
+  EffectSearch best(document, runs, hypotheses, options);
+  best();
+  if (has_drawings(best.plain().numbers())) return best;
+  for (std::uint64_t seed = 1; seed <= nearby_starts; ++seed) {
+    if (options.progress) options.progress(fmt::format("from a start nearby, {} of {}", seed, nearby_starts));
+    EffectSearch other(document, runs, hypotheses, options, seed);
+    other();
+    if (other.misfit() < best.misfit()) best = std::move(other);
+  }
+  return best;
 }
 
 }  // namespace thermotwin::twin

@@ -39,9 +39,10 @@ struct Suspicion {
 class EffectSearch {
  public:
   /// Calibrates, and hears the noise that the calibrated machine leaves. `hypotheses`: all that are tried, those of
-  /// some size, too. `document`, `runs` and `options` must outlive this.
+  /// some size, too. `nearby`: a seed of a start near the priors' means; none: the one that the options ask for.
+  /// `runs` must outlive this.
   EffectSearch(Value const& document, std::vector<BinnedRun> const& runs, std::vector<Hypothesis> hypotheses,
-               DiagnosisOptions const& options);
+               DiagnosisOptions const& options, std::optional<std::uint64_t> nearby = std::nullopt);
 
   /// Tries the hypotheses, beside the effects found so far.
   void operator()();
@@ -58,6 +59,8 @@ class EffectSearch {
   [[nodiscard]] Fit const& fit() const { return fit_; }
   /// Amplitudes as they were when each was found.
   [[nodiscard]] std::vector<Explanation> const& explanations() const { return explanations_; }
+  /// −2 ln of the evidence for the machine with the effects found, whatever noise was heard.
+  [[nodiscard]] double misfit() const;
   /// Where none was found: what has half of the evidence that it would need, or more.
   [[nodiscard]] std::optional<Suspicion> const& suspicion() const { return suspicion_; }
   /// What heat of free course must have to be evident, beside the effects found if there are any [2 ln].
@@ -72,7 +75,6 @@ class EffectSearch {
 
   void search();
   bool acquit_sensor();
-  [[nodiscard]] double misfit() const;
   void say(std::string const& what) const {
     if (options_.progress) options_.progress(what);
   }
@@ -106,7 +108,7 @@ class EffectSearch {
   bool drop_superfluous();
   bool exchange();
 
-  DiagnosisOptions const& options_;
+  DiagnosisOptions options_;
   thermal::Geometry geometry_;
   std::vector<ChannelNoise> expected_;
   std::vector<Hypothesis> hypotheses_;
@@ -119,5 +121,10 @@ class EffectSearch {
   std::vector<Explanation> explanations_;
   std::optional<Suspicion> suspicion_;
 };
+
+/// A search that has tried all hypotheses: of several, the one whose explanation has the most evidence, where a machine
+/// has no drawings. Its first fit has many optima, and what is named depends on where it ends.
+[[nodiscard]] EffectSearch searched(Value const& document, std::vector<BinnedRun> const& runs,
+                                    std::vector<Hypothesis> const& hypotheses, DiagnosisOptions const& options);
 
 }  // namespace thermotwin::twin

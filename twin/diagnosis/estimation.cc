@@ -210,11 +210,11 @@ Eigen::VectorXd Estimation::prior_mean() const {
   return x;
 }
 
-Eigen::VectorXd Estimation::drawn(std::uint64_t seed) const {
+Eigen::VectorXd Estimation::drawn(std::uint64_t seed, double share) const {
   Eigen::VectorXd x = prior_mean();
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     auto const& unknown = unknowns_[u];
-    double const draw = unknown.mean + unknown.deviation * RandomStream(seed, unknown.name).normal();
+    double const draw = unknown.mean + share * unknown.deviation * RandomStream(seed, unknown.name).normal();
     x[Eigen::Index(u)] = std::clamp(draw, unknown.lower, unknown.upper);
   }
   return x;

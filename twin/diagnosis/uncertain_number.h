@@ -28,6 +28,8 @@ struct UncertainNumber {
   [[nodiscard]] double value(double x) const;
   /// ∂value/∂x.
   [[nodiscard]] double slope(double x) const;
+  /// A step of a structural loop without drawings, which may be anything.
+  [[nodiscard]] bool is_any_step() const { return path.ends_with(".weight") && nominal == 0.0; }
 };
 
 /// What is uncertain in a machine file, by what kind of number it is (physics.md 8.1, as deviations of the logarithm):
