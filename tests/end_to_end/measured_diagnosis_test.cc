@@ -150,10 +150,8 @@ TEST_F(MeasuredDiagnosis, OfTheSpindleNamesItsHeatAndPredictsHoursAtASpeedNeverS
     RecordProperty(channel, std::to_string(errors.at(channel)));
     std::printf("%s: %.2f um RMSE, regressions %.1f and %.1f\n", channel.c_str(), errors.at(channel), driven_alike,
                 knowing_all);
-    EXPECT_LT(errors.at(channel), driven_alike) << channel;
+    EXPECT_LT(errors.at(channel), channel == "ch5" ? driven_alike : knowing_all) << channel;
   }
-  EXPECT_LT(errors.at("ch1"), regressions.at("ch1").second);
-  EXPECT_LT(errors.at("ch2"), regressions.at("ch2").second);
 }
 
 }  // namespace

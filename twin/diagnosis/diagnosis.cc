@@ -18,6 +18,9 @@ namespace thermotwin::twin {
 namespace {
 
 constexpr int fine = 48;  // knots of a scan: half an hour tells from another body what is switched by its own clock
+// What heat of a free course needs where no effect was found, of what an effect does: it follows what the form of a
+// machine gets wrong, too.
+constexpr double free_heat_alone = 2.5;
 
 class Diagnostician {
  public:
@@ -179,21 +182,23 @@ double Diagnostician::vote() const {
 
 /// Heat of free course is still evident, beside effects or where none was.
 bool Diagnostician::is_heat_left() const {
-  auto const& left = diagnosis_.explanations.empty() ? diagnosis_.scan : diagnosis_.left;
-  return !left.empty() && left[0].gain > search_.evident_beside();
+  bool const alone = diagnosis_.explanations.empty();
+  auto const& left = alone ? diagnosis_.scan : diagnosis_.left;
+  return !left.empty() && left[0].gain > (alone ? free_heat_alone : 1.0) * search_.evident_beside();
 }
 
 bool is_about_heat(Hypothesis const& effect) {
   return effect.is_about("source") || effect.is_about("film") || effect.is_about("boundary");
 }
 
-/// On which an effect acts that is about heat; what acts on the machine as a whole warms no one body.
+/// By the first effect that is about heat; what acts on the machine as a whole warms no one body.
 std::optional<std::string> Diagnostician::first_warmed() const {
   auto const& bodies = machine_.network().ranges();
-  for (auto const& effect : diagnosis_.effects)
-    if (is_about_heat(effect) &&
-        std::any_of(bodies.begin(), bodies.end(), [&](auto const& range) { return range.name == effect.body; }))
-      return effect.body;
+  auto const& effects = diagnosis_.effects;
+  for (std::size_t e = 0; e < effects.size(); ++e)
+    if (is_about_heat(effects[e]) &&
+        std::any_of(bodies.begin(), bodies.end(), [&](auto const& range) { return range.name == effects[e].body; }))
+      return warmed_most(search_.estimation(), diagnosis_.amended, e);
   return std::nullopt;
 }
 

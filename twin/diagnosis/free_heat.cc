@@ -318,16 +318,40 @@ std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const
   return scan;
 }
 
+namespace {
+
+/// The machine as it was fitted, but for one of its effects.
+Machine lacking(Estimation const& amended, Fit const& fit, std::size_t effect) {
+  Eigen::VectorXd x = fit.x;
+  x[x.size() - Eigen::Index(amended.effects().size() - effect)] = as_good_as_none;
+  return amended.machine_at(x);
+}
+
+}  // namespace
+
+std::string warmed_most(Estimation const& amended, Fit const& fit, std::size_t effect) {
+  Machine const machine = amended.machine_at(fit.x), without = lacking(amended, fit, effect);
+  auto const& network = machine.network();
+  std::map<std::string, double> warmed;  // [K/s]
+  for (auto const& run : amended.data()) {
+    LinearisedRun const twin(machine, run);
+    auto const more = twin.more_heat_than(without);
+    for (auto const& range : network.ranges()) {
+      auto const first = network.capacity().begin() + range.first;
+      auto const [moving, standing] = twin.mean(more.at(range.name));
+      warmed[range.name] += (std::abs(moving) + std::abs(standing)) / std::accumulate(first, first + range.count, 0.0);
+    }
+  }
+  auto const less = [](auto const& a, auto const& b) { return a.second < b.second; };
+  return std::max_element(warmed.begin(), warmed.end(), less)->first;
+}
+
 FreeHeat heat_of_effects(Estimation const& amended, Fit const& fit, std::string const& body) {
   auto const effects = Eigen::Index(amended.effects().size());
   Eigen::VectorXd const amplitudes = fit.x.tail(effects);
   Machine const machine = amended.machine_at(fit.x);
   std::vector<Machine> lacking_one;
-  for (Eigen::Index e = 0; e < effects; ++e) {
-    Eigen::VectorXd x = fit.x;
-    x[x.size() - effects + e] = as_good_as_none;
-    lacking_one.push_back(amended.machine_at(x));
-  }
+  for (std::size_t e = 0; e < amended.effects().size(); ++e) lacking_one.push_back(lacking(amended, fit, e));
   Eigen::MatrixXd const root =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(fit.covariance.bottomRightCorner(effects, effects)).operatorSqrt();
   FreeHeat all;

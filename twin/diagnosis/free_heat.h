@@ -54,6 +54,10 @@ struct FreeHeat {
 /// so many in half a day, or in a run that is longer.
 [[nodiscard]] std::vector<FreeHeat> scan_for_free_heat(Estimation const& estimation, Fit const& fit, int knots = 24);
 
+/// Of the bodies between which an effect of a fit moves heat, the one that gets most for its heat capacity: what
+/// radiates to a test bar from a column is seen at the bar.
+[[nodiscard]] std::string warmed_most(Estimation const& amended, Fit const& fit, std::size_t effect);
+
 /// What the effects of a fit bring into one body, at its temperatures; errors are those of their amplitudes.
 [[nodiscard]] FreeHeat heat_of_effects(Estimation const& amended, Fit const& fit, std::string const& body);
 

@@ -12,7 +12,7 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr int most_rounds = 4;  // of holding other unknowns
+constexpr int most_rounds = 12;  // of holding other unknowns
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -43,10 +43,11 @@ double expected_gain(LeastSquares const& least_squares, Eigen::VectorXd const& x
 ///
 ///   LLᵀ = JᵀJ,   J' = (Lᵀ; 0),   r' = (L⁻¹ Jᵀr; √(|r|² − |L⁻¹ Jᵀr|²)).
 ///
-/// It asks for a Jacobian where it has gone to, and is stopped where the next step would gain too little.
+/// It asks for a Jacobian where it has gone to, and is stopped where the next step would gain too little, or where
+/// something presses against a bound that is not held there: the step would be cut off, again and again.
 class Cost final : public ceres::CostFunction, public ceres::IterationCallback {
  public:
-  explicit Cost(LeastSquares const& problem) : problem_(problem) {
+  Cost(LeastSquares const& problem, std::vector<int> const& held) : problem_(problem), held_(held) {
     mutable_parameter_block_sizes()->push_back(int(problem.start.size()));
     set_num_residuals(int(problem.start.size()) + 1);
   }
@@ -65,7 +66,8 @@ class Cost final : public ceres::CostFunction, public ceres::IterationCallback {
       Eigen::Map<RowMajor> J(jacobians[0], n + 1, n);
       J.topRows(n) = information.matrixU();
       J.row(n).setZero();
-      worth_a_step_ = !(expected_gain(problem_, x, at) <= problem_.tolerance * at.cost);
+      worth_a_step_ = !(expected_gain(problem_, x, at) <= problem_.tolerance * at.cost) &&
+                      std::ranges::includes(held_, pressed(problem_, x, at.gradient));
     }
     r[n] = std::sqrt(std::max(0.0, at.cost - r.squaredNorm()));
     return true;
@@ -76,13 +78,14 @@ class Cost final : public ceres::CostFunction, public ceres::IterationCallback {
 
  private:
   LeastSquares const& problem_;
+  std::vector<int> const& held_;
   mutable bool worth_a_step_ = true;
 };
 
 /// From result.x on, those of the unknowns held that are listed.
 void solve_holding(std::vector<int> const& held, LeastSquares const& least_squares, LeastSquaresResult& result) {
   ceres::Problem problem;
-  auto* const cost = new Cost(least_squares);  // the problem's
+  auto* const cost = new Cost(least_squares, held);  // the problem's
   problem.AddResidualBlock(cost, nullptr, result.x.data());
   for (int i = 0; i < int(result.x.size()); ++i) {
     if (std::isfinite(least_squares.lower[i]))

@@ -194,6 +194,25 @@ TEST(FreeHeat, OfTwoEffectsIsWhatTheyBringTogether) {
   EXPECT_EQ(heat_of_effects(estimation, fit, "bed").heat[0].cwiseAbs().maxCoeff(), 0.0);
 }
 
+/// A column radiates to a test bar, and gets what the bar loses, but is a hundred times as heavy; heat has one place.
+TEST(FreeHeat, OfAnEffectBetweenTwoBodiesIsToldOfTheLighterOne) {
+  Asked const asked(tests::measured(v450(), tests::two_speeds()), 5);
+  std::vector<Hypothesis> both;
+  for (auto const& hypothesis : hypotheses(v450(), Machine::build(v450())))
+    if (hypothesis.label() == "radiation at column_front to test_bar" ||
+        (hypothesis.label() == "heat at motor" && hypothesis.keys.back().second == "machine.on"))
+      both.push_back(hypothesis);
+  ASSERT_EQ(both.size(), 2);
+  if (both[0].body == "motor") std::swap(both[0], both[1]);
+  ASSERT_EQ(both[0].body, "column_front");
+  auto const estimation = asked.estimation.with(both);
+  Fit fit;
+  fit.x = estimation.prior_mean();
+  fit.x.tail(2) = Eigen::Vector2d(0.5, 0.5);
+  EXPECT_EQ(warmed_most(estimation, fit, 0), "test_bar");
+  EXPECT_EQ(warmed_most(estimation, fit, 1), "motor");
+}
+
 /// 30 W in the run that turns, none in the one that stands.
 TEST(FreeHeat, IsToldBySpeedOfRunsAtOneSpeed) {
   auto const run_at = [](std::string const& speed) {

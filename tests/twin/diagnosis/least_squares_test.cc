@@ -81,24 +81,45 @@ TEST(LeastSquares, FitsTheOthersToWhatIsHeld) {
   EXPECT_TRUE(result.converged);
 }
 
-/// A linear problem takes one step: Jacobians are asked for where it begins and where it ends.
-TEST(LeastSquares, EndsWhereTheLinearisationHasNothingToGain) {
-  std::mt19937_64 random(9);
-  auto const A = nearly_alike(40, 3, random);
-  Eigen::VectorXd const noise = Eigen::VectorXd::LinSpaced(40, -1.0, 1.0);
-  Eigen::VectorXd const left = noise - A * A.colPivHouseholderQr().solve(noise);
-  auto problem = problem_of(A, A * Eigen::Vector3d(0.5, 1.0, 2.0) + left, 0.0);
-  std::set<std::vector<double>> places, linearised;
+/// Where a solution asks for costs, and where for Jacobians.
+struct Asked {
+  std::set<std::vector<double>> costs, linearised;
+};
+
+Asked asked(LeastSquares problem) {
+  Asked result;
   problem.evaluate = [&, evaluate = problem.evaluate](auto const& x, bool wanted, auto& at) {
     std::vector<double> const place(x.begin(), x.end());
-    places.insert(place);
-    if (wanted) linearised.insert(place);
+    result.costs.insert(place);
+    if (wanted) result.linearised.insert(place);
     return evaluate(x, wanted, at);
   };
   problem.tolerance = 1e-6;
   EXPECT_TRUE(solve(problem).converged);
-  EXPECT_EQ(places.size(), 2);
-  EXPECT_EQ(linearised, places);
+  return result;
+}
+
+Eigen::VectorXd noise_beside(Eigen::MatrixXd const& A) {
+  Eigen::VectorXd const noise = Eigen::VectorXd::LinSpaced(A.rows(), -1.0, 1.0);
+  return noise - A * A.colPivHouseholderQr().solve(noise);
+}
+
+/// A linear problem takes one step: Jacobians are asked for where it begins and where it ends.
+TEST(LeastSquares, EndsWhereTheLinearisationHasNothingToGain) {
+  std::mt19937_64 random(9);
+  auto const A = nearly_alike(40, 3, random);
+  auto const [costs, linearised] = asked(problem_of(A, A * Eigen::Vector3d(0.5, 1.0, 2.0) + noise_beside(A), 0.0));
+  EXPECT_EQ(costs.size(), 2);
+  EXPECT_EQ(linearised, costs);
+}
+
+/// And one more where the first is cut off at a bound: what presses against it is held there at once.
+TEST(LeastSquares, HoldsAtOnceWhatPressesAgainstABound) {
+  std::mt19937_64 random(9);
+  auto const A = nearly_alike(40, 3, random);
+  auto const [costs, linearised] = asked(problem_of(A, A * Eigen::Vector3d(-0.5, 1.0, 2.0) + noise_beside(A), 0.0));
+  EXPECT_EQ(costs.size(), 3);
+  EXPECT_EQ(linearised, costs);
 }
 
 /// What begins at a bound leaves it where that is better.
