@@ -32,7 +32,7 @@ class Diagnostician {
         held_out_(held_out),
         machine_(Machine::build(machine)),
         hypotheses_(excited_hypotheses()),
-        search_(searched(machine, runs, hypotheses_, options)) {}
+        search_(best_search(machine, runs, hypotheses_, options)) {}
   Diagnosis operator()();
 
  private:

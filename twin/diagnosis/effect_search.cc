@@ -503,8 +503,8 @@ bool EffectSearch::exchange() {
   return exchanged;
 }
 
-EffectSearch searched(Value const& document, std::vector<BinnedRun> const& runs,
-                      std::vector<Hypothesis> const& hypotheses, DiagnosisOptions const& options) {
+EffectSearch best_search(Value const& document, std::vector<BinnedRun> const& runs,
+                         std::vector<Hypothesis> const& hypotheses, DiagnosisOptions const& options) {
   EffectSearch best(document, runs, hypotheses, options);
   best();
   if (has_drawings(best.plain().numbers())) return best;

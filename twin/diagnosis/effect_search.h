@@ -125,7 +125,7 @@ class EffectSearch {
 
 /// A search that has tried all hypotheses: of several, the one whose explanation has the most evidence, where a machine
 /// has no drawings. Its first fit has many optima, and what is named depends on where it ends.
-[[nodiscard]] EffectSearch searched(Value const& document, std::vector<BinnedRun> const& runs,
-                                    std::vector<Hypothesis> const& hypotheses, DiagnosisOptions const& options);
+[[nodiscard]] EffectSearch best_search(Value const& document, std::vector<BinnedRun> const& runs,
+                                       std::vector<Hypothesis> const& hypotheses, DiagnosisOptions const& options);
 
 }  // namespace thermotwin::twin
