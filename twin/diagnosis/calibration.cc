@@ -12,6 +12,7 @@
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/run_files.h"
+#include "twin/diagnosis/start.h"
 #include "twin/file/output_path.h"
 #include "twin/file/text_file.h"
 
@@ -121,7 +122,7 @@ void add_written(Calibration& calibration, Estimation const& estimation) {
   std::vector<std::size_t> others;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n)
     if (!calibration.numbers[n].identified) others.push_back(n);
-  Fit fit = estimation.knowing(others).fit(estimation.prior_mean(), iterations);
+  Fit fit = best_fit(estimation.knowing(others), iterations);
   for (std::size_t const n : others) fit.x[Eigen::Index(n)] = 0.0;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n) calibration.numbers[n].written = fit.x[Eigen::Index(n)];
   calibration.document = estimation.document_at(fit.x);
@@ -165,7 +166,7 @@ Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) 
     throw thermal::InputError(
         "the machine has no number that calibration could change: no conductance, film, friction, loss, mass or step "
         "of a structural loop");
-  Fit const fit = estimation.fit(estimation.prior_mean(), iterations);
+  Fit const fit = best_fit(estimation, iterations);
   Calibration calibration;
   calibration.converged = fit.converged;
   Machine const before = Machine::build(machine);

@@ -10,6 +10,7 @@
 #include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/observed_noise.h"
 #include "twin/diagnosis/separation.h"
+#include "twin/diagnosis/start.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -19,8 +20,6 @@ namespace {
 // named.
 constexpr int to_the_end = 50;
 constexpr int most_effects = 8;
-constexpr std::uint64_t nearby_starts = 4;
-constexpr double nearby_share = 0.1;       // of the priors' deviations
 constexpr double open_loop = 0.2;          // share of free growth
 constexpr double closed_law = 0.25;        // of the prior that laws have where they are open
 constexpr double number_comes_back = 2.0;  // strictness with an effect, where one had left the file without
@@ -50,10 +49,6 @@ std::vector<std::size_t> promising(std::vector<Score> const& scores, std::vector
 /// Of an amplitude as it was fitted: no fault of a sensor, for instance, which good ones have as well.
 bool is_ordinary(Hypothesis const& hypothesis, Fit const& fit, Eigen::Index unknown) {
   return hypothesis.is_ordinary(fit.x[unknown], std::sqrt(fit.covariance(unknown, unknown)));
-}
-
-bool has_drawings(std::vector<UncertainNumber> const& numbers) {
-  return std::none_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.is_any_step(); });
 }
 
 /// Whether laws are first taken as the file has them: where there are any, and drawings.
@@ -93,18 +88,15 @@ struct EffectSearch::Refit {
 };
 
 EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& runs,
-                           std::vector<Hypothesis> hypotheses, DiagnosisOptions const& options,
-                           std::optional<std::uint64_t> nearby)
+                           std::vector<Hypothesis> hypotheses, DiagnosisOptions const& options, std::size_t start)
     : options_(options), geometry_(Machine::build(document).geometry), hypotheses_(std::move(hypotheses)) {
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs));
   bool const closed = has_closed_laws(estimation_->numbers());
   if (closed) estimation_ = estimation_->with_laws(closed_law);
   expected_ = estimation_->noise();
-  Eigen::VectorXd const start = nearby          ? estimation_->drawn(*nearby, nearby_share)
-                                : options.start ? estimation_->drawn(*options.start)
-                                                : estimation_->prior_mean();
-  fit_ = estimation_->fit(start, to_the_end);
+  bool const drawn = options.start && start == 0;
+  fit_ = estimation_->fit(drawn ? drawn_start(*estimation_, *options.start) : starts(*estimation_)[start], to_the_end);
   open_loops();
   if (closed) open_laws();
   listen_to_noise();
@@ -507,10 +499,10 @@ EffectSearch best_search(Value const& document, std::vector<BinnedRun> const& ru
                          std::vector<Hypothesis> const& hypotheses, DiagnosisOptions const& options) {
   EffectSearch best(document, runs, hypotheses, options);
   best();
-  if (has_drawings(best.plain().numbers())) return best;
-  for (std::uint64_t seed = 1; seed <= nearby_starts; ++seed) {
-    if (options.progress) options.progress(fmt::format("from a start nearby, {} of {}", seed, nearby_starts));
-    EffectSearch other(document, runs, hypotheses, options, seed);
+  std::size_t const others = starts(best.plain()).size() - 1;
+  for (std::size_t start = 1; start <= others; ++start) {
+    if (options.progress) options.progress(fmt::format("from a start nearby, {} of {}", start, others));
+    EffectSearch other(document, runs, hypotheses, options, start);
     other();
     if (other.misfit() < best.misfit()) best = std::move(other);
   }

@@ -40,10 +40,10 @@ struct Suspicion {
 class EffectSearch {
  public:
   /// Calibrates, and hears the noise that the calibrated machine leaves. `hypotheses`: all that are tried, those of
-  /// some size, too. `nearby`: a seed of a start near the priors' means; none: the one that the options ask for.
-  /// `runs` must outlive this.
+  /// some size, too. `start`: which of those of start.h; instead of the first, what the options ask for. `runs` must
+  /// outlive this.
   EffectSearch(Value const& document, std::vector<BinnedRun> const& runs, std::vector<Hypothesis> hypotheses,
-               DiagnosisOptions const& options, std::optional<std::uint64_t> nearby = std::nullopt);
+               DiagnosisOptions const& options, std::size_t start = 0);
 
   /// Tries the hypotheses, beside the effects found so far.
   void operator()();

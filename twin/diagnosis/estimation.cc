@@ -12,7 +12,6 @@
 #include "thermal/units.h"
 #include "twin/diagnosis/least_squares.h"
 #include "twin/file/document.h"
-#include "twin/instruments/random_stream.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
@@ -207,16 +206,6 @@ Estimation Estimation::with_form_of_file(std::vector<std::size_t> const& but) co
 Eigen::VectorXd Estimation::prior_mean() const {
   Eigen::VectorXd x(Eigen::Index(unknowns_.size()));
   for (std::size_t u = 0; u < unknowns_.size(); ++u) x[Eigen::Index(u)] = unknowns_[u].mean;
-  return x;
-}
-
-Eigen::VectorXd Estimation::drawn(std::uint64_t seed, double share) const {
-  Eigen::VectorXd x = prior_mean();
-  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    auto const& unknown = unknowns_[u];
-    double const draw = unknown.mean + share * unknown.deviation * RandomStream(seed, unknown.name).normal();
-    x[Eigen::Index(u)] = std::clamp(draw, unknown.lower, unknown.upper);
-  }
   return x;
 }
 

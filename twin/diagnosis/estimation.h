@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -67,8 +66,6 @@ class Estimation {
   /// Of the machine as the document has it: squares of residuals and of what is linear, at its best, by their errors.
   [[nodiscard]] double cost_of_document() const;
   [[nodiscard]] Eigen::VectorXd prior_mean() const;
-  /// Drawn from the priors with that share of their deviations, within bounds.
-  [[nodiscard]] Eigen::VectorXd drawn(std::uint64_t seed, double share = 1.0) const;
 
   /// The machine's document with the estimates in it: numbers, the sensors' lags, effects.
   [[nodiscard]] Value document_at(Eigen::VectorXd const& x) const;

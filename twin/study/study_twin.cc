@@ -15,6 +15,7 @@
 #include "twin/diagnosis/observed_noise.h"
 #include "twin/diagnosis/prediction.h"
 #include "twin/diagnosis/run_files.h"
+#include "twin/diagnosis/start.h"
 #include "twin/run.h"
 #include "twin/study/study_runs.h"
 
@@ -81,9 +82,18 @@ Value calibrated(WorldData const& data, int repetition, Question const& question
   auto const rows = binned(measured);
   Estimation const estimation = expected_estimation(start, rows).with_form_of_file();
   if (estimation.numbers().empty()) throw InputError("the machine has no number that calibration could change");
-  auto const first = estimation.fit(estimation.prior_mean(), iterations);
-  auto const heard = estimation.with(observed_noise(estimation, first.x, estimation.noise()));
-  return estimation.document_at(heard.fit(first.x, iterations).x);
+  Eigen::VectorXd best;
+  double least = std::numeric_limits<double>::infinity();
+  for (auto const& point : starts(estimation)) {
+    auto const first = estimation.fit(point, iterations);
+    auto const heard = estimation.with(observed_noise(estimation, first.x, estimation.noise()));
+    auto const fit = heard.fit(first.x, iterations);
+    double const misfit = fit.evidence + heard.noise_scale();
+    if (best.size() > 0 && !(misfit < least)) continue;
+    least = misfit;
+    best = fit.x;
+  }
+  return estimation.document_at(best);
 }
 
 output::Dataset said_of(Machine const& twin, MeasuredRun const& run, std::optional<double> sampling) {

@@ -27,7 +27,7 @@ struct TwinRuns {
 /// set in it, and with coefficients that are 20 %, capacities and weights of the structural loop that are 10 % off
 /// (vary_parameters, drawn anew for each repetition). Where all runs were measured it starts from the file as the study
 /// has it. The estimate is the maximum a posteriori of estimation.h, for all numbers at once, first with the noise that
-/// is expected and then with what is heard in the residuals.
+/// is expected and then with what is heard in the residuals; of several starts (start.h), noise counted, the likeliest.
 [[nodiscard]] TwinRuns twin_runs(StudyWorld const& world, WorldData const& data, int repetition,
                                  Question const& question);
 
