@@ -85,6 +85,7 @@ struct EffectSearch::Refit {
     standard_error = std::sqrt(fit.covariance(place, place));
     strength = is_ordinary(hypothesis, fit, place) ? -INFINITY : evidence - fit.evidence;
   }
+  static bool is_weaker(Refit const& a, Refit const& b) { return a.strength < b.strength; }
 };
 
 EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& runs,
@@ -400,8 +401,7 @@ bool EffectSearch::add_effect(int round) {
     }
     linearise();
     all = instead_of(estimation_->effects().size() - 1, best.strength, rivals);
-    auto const strongest = std::max_element(all.begin(), all.end(),
-                                            [](Refit const& a, Refit const& b) { return a.strength < b.strength; });
+    auto const strongest = std::max_element(all.begin(), all.end(), Refit::is_weaker);
     if (strongest->strength < best.strength + 2.0 || attempt == 1) break;
     former = best;
     former_fit = std::move(fit_);
@@ -473,8 +473,7 @@ bool EffectSearch::exchange() {
     std::set<std::string> rivals;
     for (auto const& alternative : explanation.alternatives) rivals.insert(alternative.hypothesis.label());
     auto all = instead_of(e, strength, rivals);
-    auto const best = *std::max_element(all.begin(), all.end(),
-                                        [](Refit const& a, Refit const& b) { return a.strength < b.strength; });
+    auto const best = *std::max_element(all.begin(), all.end(), Refit::is_weaker);
     if (best.strength > strength + 2.0) {
       auto effects = estimation_->effects();
       effects[e] = best.hypothesis;

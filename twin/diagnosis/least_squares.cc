@@ -28,9 +28,9 @@ std::vector<int> pressed(LeastSquares const& least_squares, Eigen::VectorXd cons
   return result;
 }
 
-/// What a step of Gauss and Newton would gain, of |r|²: gᵀ (JᵀJ)⁻¹ g over what does not press against a bound.
-double expected_gain(LeastSquares const& least_squares, Eigen::VectorXd const& x, NormalEquations at) {
-  for (int const i : pressed(least_squares, x, at.gradient)) {
+/// What a step of Gauss and Newton would gain, of |r|²: gᵀ (JᵀJ)⁻¹ g over all others than these.
+double expected_gain(NormalEquations at, std::vector<int> const& pressed) {
+  for (int const i : pressed) {
     at.gradient[i] = 0.0;
     at.curvature.row(i).setZero();
     at.curvature.col(i).setZero();
@@ -66,20 +66,20 @@ class Cost final : public ceres::CostFunction, public ceres::IterationCallback {
       Eigen::Map<RowMajor> J(jacobians[0], n + 1, n);
       J.topRows(n) = information.matrixU();
       J.row(n).setZero();
-      worth_a_step_ = !(expected_gain(problem_, x, at) <= problem_.tolerance * at.cost) &&
-                      std::ranges::includes(held_, pressed(problem_, x, at.gradient));
+      auto const stopped = pressed(problem_, x, at.gradient);
+      goes_on_ = std::ranges::includes(held_, stopped) && !(expected_gain(at, stopped) <= problem_.tolerance * at.cost);
     }
     r[n] = std::sqrt(std::max(0.0, at.cost - r.squaredNorm()));
     return true;
   }
   ceres::CallbackReturnType operator()(ceres::IterationSummary const&) override {
-    return worth_a_step_ ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    return goes_on_ ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
  private:
   LeastSquares const& problem_;
   std::vector<int> const& held_;
-  mutable bool worth_a_step_ = true;
+  mutable bool goes_on_ = true;
 };
 
 /// From result.x on, those of the unknowns held that are listed.
