@@ -90,6 +90,11 @@ std::vector<scenarios::Experiment> read_all(std::vector<std::string> const& name
 }
 
 void PlaceCommand::check_outputs() const {
+  for (auto const& name : unseen)
+    for (auto const& decides : experiments)
+      if (experiment_file(name) == experiment_file(decides))
+        throw thermal::InputError(
+            fmt::format("'{}' decides (--experiments), and cannot judge (--hold-out) as well", name));
   check_suffix(output, "a list of sensors", {".toml"});
   std::vector<std::filesystem::path> read = {candidates};
   for (auto const* names : {&experiments, &unseen})
@@ -136,7 +141,8 @@ void PlaceCommand::operator()() {
   options.design.experiments = read_all(experiments);
   options.unseen = read_all(unseen);
   options.map = !fields.empty() || !picture.empty() || !folder.empty();
-  if (!folder.empty()) output::require_empty(folder);
+  for (auto const& target : {folder, fields})
+    if (!target.empty()) output::require_empty(target);
   if (!candidates.empty()) options.rules = read_candidate_rules(candidates);
   std::optional<Progress> progress;
   if (!json) {

@@ -37,4 +37,14 @@ std::vector<Eigen::Index> complete_rows(std::vector<output::Channel const*> cons
   return complete;
 }
 
+Eigen::Index first_value(output::Channel const& channel, std::vector<std::string>& remarks) {
+  auto const& values = channel.values;
+  auto const first = std::find_if(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+  auto const row = first == values.end() ? 0 : first - values.begin();
+  if (row > 0)
+    remarks.push_back(fmt::format("changes of {} count from row {}, where its values begin, and not from the first",
+                                  channel.name, row + 1));
+  return row;
+}
+
 }  // namespace thermotwin::twin

@@ -14,4 +14,7 @@ namespace thermotwin::twin {
 [[nodiscard]] std::vector<Eigen::Index> complete_rows(std::vector<output::Channel const*> const& channels,
                                                       std::string const& run, std::vector<std::string>& remarks);
 
+/// The row that a channel's changes count from: of its first value. A remark says so where that is not the first row.
+[[nodiscard]] Eigen::Index first_value(output::Channel const& channel, std::vector<std::string>& remarks);
+
 }  // namespace thermotwin::twin

@@ -280,12 +280,8 @@ NetworkForm form_of(NetworkTable const& table, TablePlace const& place) {
 NamedModel method_of(std::string const& method, Value const& table) {
   try {
     return named_model(method);
-  } catch (std::invalid_argument const&) {
-    std::vector<std::string> known;
-    for (auto const& entry : models::model_methods()) known.emplace_back(entry.name);
-    auto const own = method.substr(method.find_last_of(' ') + 1);  // without "twin"
-    throw FileError(table.find("method")->where,
-                    fmt::format("unknown method '{}'; {}", method, thermal::did_you_mean(own, known)));
+  } catch (thermal::InputError const& error) {
+    throw FileError(table.find("method")->where, error.what());
   }
 }
 

@@ -27,14 +27,14 @@ struct RecordedRun {
 [[nodiscard]] RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<double> sampling,
                                             Machine const* twin = nullptr);
 
-/// A run as error models see it, temperatures and errors counted from its first row.
+/// A run as error models see it, temperatures and errors counted from the first value of each, mostly the first row.
 struct ErrorModelRun {
   models::Batch batch;                     ///< as shown; error 0 where the run did not show it
   std::optional<models::Batch> said;       ///< by the twin, where there is one
   std::optional<models::AxisRecord> axis;  ///< where the error is a slope
   bool shown = true;                       ///< the run shows the error
   std::string unit, title;                 ///< of the error
-  std::vector<double> zero;                ///< what the sensors showed in the first row, to 1 mK [°C]
+  std::vector<double> zero;                ///< what the sensors showed first, to 1 mK [°C]
   std::string fingerprint;
 
   /// What the twin errs by. There must be one.

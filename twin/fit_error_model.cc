@@ -27,8 +27,10 @@ std::string unusable(output::Dataset const& shown, std::string const& sensor) {
 }
 
 std::vector<std::string> usable_sensors(std::vector<RecordedRun>& runs) {
-  std::vector<std::string> sensors;
-  for (auto const& channel : runs.front().shown.readings) sensors.push_back(channel.name);
+  std::vector<std::string> sensors;  // of any run
+  for (auto const& run : runs)
+    for (auto const& channel : run.shown.readings)
+      if (std::find(sensors.begin(), sensors.end(), channel.name) == sensors.end()) sensors.push_back(channel.name);
   if (sensors.empty())
     throw thermal::InputError(
         fmt::format("{}: no sensor is in it, and an error model follows sensors; give the "

@@ -113,7 +113,7 @@ TEST_F(ErrorModelFile, RefusesWhatIsNoModel) {
 
 TEST_F(ErrorModelFile, NamesTheNearestMethod) {
   EXPECT_THAT(complaint(predicts + "[model]\nmethod = \"rigde\"\ninputs = [\"T2\"]\n"),
-              HasSubstr("model.toml:3:10: unknown method 'rigde'; did you mean 'ridge'?"));
+              HasSubstr("model.toml:3:10: no model 'rigde'; did you mean 'ridge'?"));
 }
 
 TEST_F(ErrorModelFile, WantsExactlyOneForm) {
@@ -213,7 +213,7 @@ TEST_F(ErrorModelFile, RefusesPartsThatMakeNoMean) {
   EXPECT_THAT(complaint(predicts + part("ridge", "T2", form) + whole("")),
               HasSubstr("the mean of several models has only [[part]]"));
   EXPECT_THAT(complaint(predicts + twin + part("twin rigde", "T2", form)),
-              HasSubstr("model.toml:4:10: unknown method 'twin rigde'; did you mean 'ridge'?"));
+              HasSubstr("model.toml:4:10: no model 'rigde'; did you mean 'ridge'?"));
 }
 
 TEST_F(ErrorModelFile, IsReadWithoutItsFit) {

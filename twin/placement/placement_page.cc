@@ -85,17 +85,18 @@ Json to_json(Distinction const& d) {
   return json;
 }
 
-std::string error_line(std::string const& what, SetFigures const& set, double reference) {
-  return fmt::format("  {:<26} {:>8.2f} {:>13.2f} {:>12.2f}  {:>6.2f} .. {:<6.2f} {:>+6.1f} %\n", what, set.model_um,
+/// `dead`: how many sensors may be lost; 0: their loss is not told.
+std::string error_line(std::string const& what, SetFigures const& set, double reference, int dead) {
+  return fmt::format("  {:<26} {:>8.2f} {:>13.2f} {:>12.2f}  {:>6.2f} .. {:<6.2f} {:>+6.1f} %{}\n", what, set.model_um,
                      set.predicted_um, set.unseen_um, set.unseen_low_um, set.unseen_high_um,
-                     percent(set.model_um, reference));
+                     percent(set.model_um, reference), dead > 0 ? fmt::format("  {:>13.2f}", set.worst_um) : "");
 }
 
-std::string proposed_lines(Proposed const& proposed, double reference) {
+std::string proposed_lines(Proposed const& proposed, double reference, int dead) {
   std::string text;
-  if (proposed.fewer) text += error_line("proposed, no " + proposed.without, *proposed.fewer, reference);
-  text += error_line(fmt::format("proposed {}", proposed.set.sensors.size()), proposed.set, reference);
-  if (proposed.more) text += error_line("proposed + " + proposed.with, *proposed.more, reference);
+  if (proposed.fewer) text += error_line("proposed, no " + proposed.without, *proposed.fewer, reference, dead);
+  text += error_line(fmt::format("proposed {}", proposed.set.sensors.size()), proposed.set, reference, dead);
+  if (proposed.more) text += error_line("proposed + " + proposed.with, *proposed.more, reference, dead);
   return text;
 }
 
@@ -138,17 +139,20 @@ std::string placement_text(PlacementReport const& report) {
       count, report.candidates, report.machine, report.noise, report.members, report.experiments.size(),
       report.unseen_members, numbers_text(report), teacher_text(report.teacher), set_table(best, report.dead));
   if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(report.proposed->set, 0));
-  text += fmt::format("  {:<26} {:>8} {:>13} {:>12}  {:>16}\n", "all displacements [um]", "model", "predicted 1s",
-                      "unseen rms", "80 % of machines");
+  text += fmt::format("  {:<26} {:>8} {:>13} {:>12}  {:>16}{}\n", "all displacements [um]", "model", "predicted 1s",
+                      "unseen rms", "80 % of machines",
+                      report.dead > 0 ? fmt::format("           {:>13}", fmt::format("any {} dead", report.dead)) : "");
   text += fmt::format("  {:<26} {:>8.2f}\n", "no sensor", report.prior_um);
   if (report.fewer)
-    text += error_line(fmt::format("best {}", report.fewer->sensors.size()), *report.fewer, best.model_um);
-  text += error_line(fmt::format("recommended {}", count), best, best.model_um);
-  if (report.more) text += error_line(fmt::format("best {}", report.more->sensors.size()), *report.more, best.model_um);
-  if (report.proposed) text += proposed_lines(*report.proposed, best.model_um);
+    text += error_line(fmt::format("best {}", report.fewer->sensors.size()), *report.fewer, best.model_um, report.dead);
+  text += error_line(fmt::format("recommended {}", count), best, best.model_um, report.dead);
+  if (report.more)
+    text += error_line(fmt::format("best {}", report.more->sensors.size()), *report.more, best.model_um, report.dead);
+  if (report.proposed) text += proposed_lines(*report.proposed, best.model_um, report.dead);
   text +=
       fmt::format("  {:<26} {:>8.2f}                                              {:>+6.1f} %\n",
                   fmt::format("all {}", report.candidates), report.floor_um, percent(report.floor_um, best.model_um));
+  for (auto const& remark : report.remarks) text += remark + "\n";
   if (report.dead > 0)
     text += fmt::format("\nwith any {} of them dead: at most {:.2f} um, {:.2f} times the error of all\n", report.dead,
                         best.worst_um, best.worst_um / best.model_um);
@@ -162,6 +166,7 @@ std::string placement_text(PlacementReport const& report) {
 
 std::string placement_json(PlacementReport const& report) {
   Json json = {{"machine", report.machine},
+               {"remarks", report.remarks},
                {"candidates", report.candidates},
                {"noise_K", report.noise},
                {"members", report.members},

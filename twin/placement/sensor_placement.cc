@@ -17,6 +17,7 @@
 #include "twin/machine.h"
 #include "twin/placement/effect_signatures.h"
 #include "twin/placement/snapshot_moments.h"
+#include "twin/turning_bodies.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -140,6 +141,7 @@ class Judge {
     return models::number_of_sets(candidates_, count, prices_) <= most_angles;
   }
   [[nodiscard]] EnsembleOptions unseen_options() const;
+  [[nodiscard]] std::vector<std::string> remarks(PlacementReport const& report) const;
 
   Value const& document_;
   PlacementOptions const& options_;
@@ -185,6 +187,11 @@ Judge::Judge(Value const& document, PlacementOptions const& options)
   for (Index i = 0; i < candidates_; ++i) problem_.cost[i] = sites_[std::size_t(i)].cost;
   all_ = moments_->problem(Index(sites_.size()));
   prices_ = {problem_.cost, problem_.budget};
+  if (!(problem_.prior() > 0.0))
+    throw InputError(
+        "none of the machine's displacements moves: no step of its structural loop has a weight, so that no sensor "
+        "could "
+        "explain one");
 }
 
 EnsembleOptions Judge::unseen_options() const {
@@ -374,11 +381,44 @@ PlacementReport Judge::operator()() {
     report.proved = false;  // what was proved is another set
   }
   report.recommended = figures(chosen.sensors);
-  if (count > 1) report.fewer = figures(best(count - 1, std::min(dead, count - 2)).sensors);
-  if (count < candidates_) report.more = figures(best(count + 1, dead).sensors);
+  auto const room = Index(chosen.sensors.size());  // a budget may end first
+  if (room > 1) report.fewer = figures(best(room - 1, std::min(dead, room - 2)).sensors);
+  if (room == count && count < candidates_)
+    if (auto const more = best(count + 1, dead).sensors; Index(more.size()) > count) report.more = figures(more);
   if (!proposed_.empty()) report.proposed = proposed();
   if (options_.map) report.map = map(chosen.sensors);
+  report.remarks = remarks(report);
   return report;
+}
+
+std::vector<std::string> Judge::remarks(PlacementReport const& report) const {
+  std::vector<std::string> words;
+  auto const& rules = options_.rules;
+  if (int(report.recommended.sensors.size()) < options_.sensors)
+    words.push_back(fmt::format("{} were asked for; the budget of {:g} has room for no better set than these {}",
+                                options_.sensors, rules.budget, report.recommended.sensors.size()));
+  auto const turning = turning_bodies(document_);
+  auto const about = [&](SetFigures const& set, std::string const& which) {
+    std::set<std::string> turn, forbidden;
+    for (auto const& sensor : set.sensors)
+      for (auto const& at : sensor.site.at) {
+        auto const body = body_of(at);
+        if (std::find(turning.begin(), turning.end(), body) != turning.end()) turn.insert(body);
+        if (std::find(rules.forbidden.begin(), rules.forbidden.end(), body) != rules.forbidden.end())
+          forbidden.insert(body);
+      }
+    if (!turn.empty())
+      words.push_back(
+          fmt::format("the {} set sits on what turns: {}; its signals need a way out", which, fmt::join(turn, ", ")));
+    if (!forbidden.empty())
+      words.push_back(fmt::format("the {} set sits on what is forbidden: {}", which, fmt::join(forbidden, ", ")));
+    if (set.cost > rules.budget)
+      words.push_back(
+          fmt::format("the {} set costs {:g}, more than the budget of {:g}", which, set.cost, rules.budget));
+  };
+  about(report.recommended, "recommended");
+  if (report.proposed) about(report.proposed->set, "proposed");
+  return words;
 }
 
 }  // namespace

@@ -81,6 +81,7 @@ struct Proposed {
 
 struct PlacementReport {
   std::string machine;
+  std::vector<std::string> remarks;  ///< what a budget, a forbidden body or one that turns means for these sets
   std::size_t candidates = 0;
   int members = 0, unseen_members = 0, dead = 0;
   std::size_t numbers = 0, ranged = 0;  ///< of the file: drawn for each member, and within a range that it states

@@ -362,6 +362,14 @@ StudyReport StudyRunner::run() {
 
 }  // namespace
 
+Figures figures_of(StudyReport const& report, Combination const& row) {
+  Figures figures = row.figures;
+  for (auto const& selection : report.selections)
+    if (selection.world == row.world && selection.selection == row.selection)
+      for (auto const& [name, values] : selection.figures) figures["selection." + name] = values;
+  return figures;
+}
+
 StudyReport run_study(Study const& study, StudyOptions const& options) { return StudyRunner(study, options).run(); }
 
 }  // namespace thermotwin::twin

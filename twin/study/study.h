@@ -32,6 +32,7 @@ struct SelectionFigures {
 /// A claim, and what the figures say of it: the two figures and their difference, or the figure.
 struct ClaimVerdict {
   StudyClaim claim;
+  std::string world;  ///< that it was judged in
   enum class Answer { holds, fails, undecided, refused } answer = Answer::refused;
   std::string words;
 };
@@ -48,6 +49,9 @@ struct StudyReport {
   std::vector<std::string> verdict;  ///< sentences
   std::vector<std::string> remarks;  ///< with the worlds: sensors left out, what measured runs lack
 };
+
+/// Of a combination, and "selection." of what its selection is worth.
+[[nodiscard]] Figures figures_of(StudyReport const& report, Combination const& row);
 
 struct StudyOptions {
   std::function<void(std::string const&, double)> progress;  ///< what is being done, and the share done

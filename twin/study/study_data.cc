@@ -37,14 +37,13 @@ struct View {
 
 class WorldReader {
  public:
-  using Rows = std::vector<Index>;
-
   WorldReader(StudyWorld const& world, WorldRuns const& runs) : world_(world), runs_(runs) {}
   WorldReader(StudyWorld const& world, WorldData const& data) : WorldReader(world, *data.runs) {
     data_.sensors = data.sensors;
   }
   WorldData read();
-  [[nodiscard]] models::Batch true_batch(output::Dataset const& data, Rows const& rows, std::string const& name) const;
+  [[nodiscard]] models::Batch true_batch(output::Dataset const& data, KeptRows const& kept,
+                                         std::string const& name) const;
 
  private:
   [[nodiscard]] std::vector<std::string> candidates() const;
@@ -52,18 +51,19 @@ class WorldReader {
   [[nodiscard]] std::string unusable(std::string const& sensor, output::Dataset const& data,
                                      std::string const& run) const;
   void check_sensors();
-  [[nodiscard]] Rows complete(output::Dataset const& data, std::string const& name,
-                              std::vector<std::string>& remarks) const;
+  [[nodiscard]] KeptRows complete(output::Dataset const& data, std::string const& name,
+                                  std::vector<std::string>& remarks) const;
   [[nodiscard]] StudyRun run_of(output::Dataset const& data, std::string const& name,
                                 std::vector<std::string>& remarks) const;
-  [[nodiscard]] models::Batch batch(View const& view, Eigen::VectorXd const& time, Rows const& rows,
+  [[nodiscard]] models::Batch batch(View const& view, Eigen::VectorXd const& time, KeptRows const& kept,
                                     std::string const& name) const;
   [[nodiscard]] models::AxisRecord record(View const& readings, View const& errors, Eigen::VectorXd const& time,
-                                          Rows const& rows, std::string const& name) const;
-  [[nodiscard]] Eigen::MatrixXd rises(View const& view, Rows const& rows) const;
+                                          KeptRows const& kept, std::string const& name) const;
+  [[nodiscard]] Eigen::MatrixXd rises(View const& view, KeptRows const& kept) const;
   [[nodiscard]] std::vector<std::string> components() const;
   void check_instants() const;
   void remark_measured();
+  void remark_repeated();
   [[nodiscard]] std::string missing_readings(MeasuredRun const& run) const;
   [[nodiscard]] std::vector<std::string> run_names() const;
   [[nodiscard]] std::vector<std::string> reader_remarks(std::string const& run) const;
@@ -126,16 +126,18 @@ void WorldReader::check_sensors() {
 }
 
 /// What is left out is remarked.
-WorldReader::Rows WorldReader::complete(output::Dataset const& data, std::string const& name,
-                                        std::vector<std::string>& remarks) const {
+KeptRows WorldReader::complete(output::Dataset const& data, std::string const& name,
+                               std::vector<std::string>& remarks) const {
   std::vector<output::Channel const*> channels;
   for (auto const& sensor : data_.sensors) channels.push_back(channel_of(data.readings, sensor));
   if (auto const* error = channel_of(data.displacements, world_.error)) channels.push_back(error);
   auto known = reader_remarks(name);
   auto const before = Index(known.size());
   auto const rows = complete_rows(channels, name, known);
+  std::vector<Index> since;
+  for (auto const& sensor : data_.sensors) since.push_back(first_value(*channel_of(data.readings, sensor), known));
   remarks.insert(remarks.end(), known.begin() + before, known.end());
-  return rows;
+  return {rows, since};
 }
 
 /// What the reader of a measured run had to say of it.
@@ -157,6 +159,19 @@ std::string WorldReader::missing_readings(MeasuredRun const& run) const {
     if (asked && missing > 0) counts.push_back(fmt::format("{} {}", channel.name, missing));
   }
   return fmt::format("{}", fmt::join(counts, ", "));
+}
+
+/// What is learnt is no prediction where the same is asked, whatever its file is called.
+void WorldReader::remark_repeated() {
+  auto const same = [](models::Batch const& a, models::Batch const& b) {
+    return a.time.size() == b.time.size() && a.time == b.time && a.temperature_rise == b.temperature_rise &&
+           a.error == b.error;
+  };
+  for (std::size_t i = 0; i < data_.test.front().size(); ++i)
+    for (std::size_t k = 0; k < data_.train.front().size(); ++k)
+      if (same(data_.test.front()[i].seen, data_.train.front()[k].seen))
+        data_.remarks.push_back(fmt::format("{} has the same data as {}, which is trained on: it tests nothing",
+                                            world_.test[i], world_.train[k]));
 }
 
 void WorldReader::remark_measured() {
@@ -195,28 +210,28 @@ std::vector<std::string> WorldReader::components() const {
   return result;
 }
 
-Eigen::MatrixXd WorldReader::rises(View const& view, Rows const& rows) const {
-  Eigen::MatrixXd rise(Index(rows.size()), Index(data_.sensors.size()));
+Eigen::MatrixXd WorldReader::rises(View const& view, KeptRows const& kept) const {
+  Eigen::MatrixXd rise(Index(kept.rows.size()), Index(data_.sensors.size()));
   for (std::size_t j = 0; j < data_.sensors.size(); ++j) {
     auto const& values = channel_of(view.readings, data_.sensors[j])->values;
-    rise.col(Index(j)) = values(rows).array() - values[rows[0]];
+    rise.col(Index(j)) = values(kept.rows).array() - values[kept.since[j]];
   }
   return rise;
 }
 
-models::Batch WorldReader::batch(View const& view, Eigen::VectorXd const& time, Rows const& rows,
+models::Batch WorldReader::batch(View const& view, Eigen::VectorXd const& time, KeptRows const& kept,
                                  std::string const& name) const {
   auto const* error = channel_of(view.displacements, world_.error);
   if (!error)
     throw thermal::InputError(fmt::format("{} has no displacement '{}'; {}", name, world_.error,
                                           thermal::did_you_mean(world_.error, names_of(view.displacements))));
-  return {name, time(rows), data_.sensors, components(), rises(view, rows), error->values(rows)};
+  return {name, time(kept.rows), data_.sensors, components(), rises(view, kept), error->values(kept.rows)};
 }
 
 models::AxisRecord WorldReader::record(View const& readings, View const& errors, Eigen::VectorXd const& time,
-                                       Rows const& rows, std::string const& name) const {
+                                       KeptRows const& kept, std::string const& name) const {
   auto const axis = world_.error.substr(slope_prefix.size());
-  return axis_record({name, time(rows), data_.sensors, components(), rises(readings, rows), {}},
+  return axis_record({name, time(kept.rows), data_.sensors, components(), rises(readings, kept), {}},
                      laser_of(errors.positioning, axis, name), world_.from, world_.to);
 }
 
@@ -226,22 +241,23 @@ View truth_of(output::Dataset const& data) {
   return {data.truth_readings, data.truth_displacements, data.truth_positioning};
 }
 
-models::Batch WorldReader::true_batch(output::Dataset const& data, Rows const& rows, std::string const& name) const {
+models::Batch WorldReader::true_batch(output::Dataset const& data, KeptRows const& kept,
+                                      std::string const& name) const {
   auto const truth = truth_of(data);
-  return world_.slope() ? models::slope_batch(record(truth, truth, data.time_s, rows, name))
-                        : batch(truth, data.time_s, rows, name);
+  return world_.slope() ? models::slope_batch(record(truth, truth, data.time_s, kept, name))
+                        : batch(truth, data.time_s, kept, name);
 }
 
 StudyRun WorldReader::run_of(output::Dataset const& data, std::string const& name,
                              std::vector<std::string>& remarks) const {
-  auto const rows = complete(data, name, remarks);
+  auto const kept = complete(data, name, remarks);
   auto const seen = seen_of(data);
   bool const known = !data.truth_readings.empty();
-  auto const truth = known ? std::optional(true_batch(data, rows, name)) : std::nullopt;
-  if (!world_.slope()) return {batch(seen, data.time_s, rows, name), truth, {}, {}, rows};
-  auto const axis = record(seen, seen, data.time_s, rows, name);
-  return {models::slope_batch(axis), truth, axis, record(seen, known ? truth_of(data) : seen, data.time_s, rows, name),
-          rows};
+  auto const truth = known ? std::optional(true_batch(data, kept, name)) : std::nullopt;
+  if (!world_.slope()) return {batch(seen, data.time_s, kept, name), truth, {}, {}, kept};
+  auto const axis = record(seen, seen, data.time_s, kept, name);
+  return {models::slope_batch(axis), truth, axis, record(seen, known ? truth_of(data) : seen, data.time_s, kept, name),
+          kept};
 }
 
 WorldData WorldReader::read() {
@@ -260,6 +276,7 @@ WorldData WorldReader::read() {
         if (first) data_.remarks.push_back(names[i] + ": " + remark);
     }
   }
+  remark_repeated();
   remark_measured();
   check_instants();
   data_.no_modes = runs_.no_modes;
@@ -275,8 +292,8 @@ WorldData WorldReader::read() {
 }  // namespace
 
 models::Batch true_batch(StudyWorld const& world, WorldData const& data, output::Dataset const& dataset,
-                         std::vector<Index> const& rows) {
-  return WorldReader(world, data).true_batch(dataset, rows, "the twin");
+                         KeptRows const& kept) {
+  return WorldReader(world, data).true_batch(dataset, kept, "the twin");
 }
 
 std::vector<WorldData> study_data(Study const& study, std::function<void(double)> const& progress,

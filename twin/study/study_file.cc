@@ -4,6 +4,7 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <set>
+#include <span>
 #include <stdexcept>
 
 #include "models/error_model.h"
@@ -55,11 +56,14 @@ void check_world(Value const& table, StudyWorld const& world) {
     throw FileError(place_of_key(table, "split"),
                     fmt::format("'split' cuts one run; here are {} in 'train' and {} in 'test'", world.train.size(),
                                 world.test.size()));
+  if (world.split && !(*world.split > 0.0))
+    throw FileError(place_of_key(table, "split"), "'split' is 0 s; a time after the first reading is due");
   if (world.fit == "each" && (world.train.size() < 3 || world.test.size() == 1))
-    throw FileError(place_of_key(table, "fit"),
-                    fmt::format("'fit' is each: at least three runs to train on, and none or two to test on, are due; "
-                                "here are {} and {}",
-                                world.train.size(), world.test.size()));
+    throw FileError(
+        place_of_key(table, "fit"),
+        fmt::format("'fit' is each: at least three runs to train on, and none or at least two to test on, are due; "
+                    "here are {} and {}",
+                    world.train.size(), world.test.size()));
   if (world.fit == "together" && world.test.empty() && !world.split)
     throw FileError(table.where,
                     fmt::format("the world '{}' has nothing to test on; give 'test' or 'split'", world.name));
@@ -124,6 +128,13 @@ void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::s
                     fmt::format("no world '{}'; {}", claim.world, thermal::did_you_mean(claim.world, worlds)));
 }
 
+template <class Method>
+std::vector<std::string> names_of(std::span<Method const> methods) {
+  std::vector<std::string> names;
+  for (auto const& method : methods) names.emplace_back(method.name);
+  return names;
+}
+
 /// "T1, T4": what stands between commas, without blanks around it.
 std::vector<std::string> listed_sensors(std::string const& text, std::string const& list) {
   std::vector<std::string> names;
@@ -165,6 +176,12 @@ void check_study(Value const& document, StudyDescription const& study) {
   check_combination(document, "reference", study.reference, combinations);
   for (std::size_t c = 0; c < study.claims.size(); ++c)
     check_claim(tables(document, "claim")[c], study.claims[c], combinations, study);
+  for (std::size_t w = 0; w < study.worlds.size(); ++w)
+    if (study.folds > 0 && study.worlds[w].fit == "each")
+      throw FileError(
+          place_of_key(tables(document, "world")[w], "fit"),
+          "'fit' is each: every run predicts every other, and 'folds' have nothing to leave out; give 'folds' "
+          "= 0, or fit = \"together\"");
   if (study.folds == 1) throw FileError(place_of_key(document, "folds"), "'folds' is 1; 0 or at least 2 are due");
 }
 
@@ -173,8 +190,14 @@ void check_study(Value const& document, StudyDescription const& study) {
 NamedModel named_model(std::string const& text) {
   bool const twin = text == twin_alone || text.starts_with(std::string(twin_alone) + " ");
   NamedModel model{twin, twin ? text.substr(std::min(twin_alone.size() + 1, text.size())) : text};
-  if (!model.observes() && (!twin || !model.method.empty())) (void)models::model_method(model.method);
-  return model;
+  if (model.observes() || (twin && model.method.empty())) return model;
+  auto known = names_of(models::model_methods());
+  if (std::find(known.begin(), known.end(), model.method) != known.end()) return model;
+  if (twin)
+    known.emplace_back("observer");
+  else
+    known.insert(known.end(), {"twin", "twin observer"});
+  throw thermal::InputError(fmt::format("no model '{}'; {}", model.method, thermal::did_you_mean(model.method, known)));
 }
 
 NamedSelection named_selection(std::string const& text) {
@@ -184,7 +207,11 @@ NamedSelection named_selection(std::string const& text) {
     selection.sensors = listed_sensors(text, text.substr(std::min(space, text.size())));
     return selection;
   }
-  if (selection.name != "all") (void)models::selection_method(selection.name);
+  auto known = names_of(models::selection_methods());
+  known.insert(known.end(), {"all", "sensors"});
+  if (std::find(known.begin(), known.end(), selection.name) == known.end())
+    throw thermal::InputError(
+        fmt::format("no selection method '{}'; {}", selection.name, thermal::did_you_mean(selection.name, known)));
   if (space == std::string::npos) return selection;
   int count = 0;
   auto const [end, error] = std::from_chars(text.data() + space + 1, text.data() + text.size(), count);
@@ -223,6 +250,7 @@ Study read_study(std::filesystem::path const& file) {
   check_study(document, study.description);
   for (std::size_t w = 0; w < study.description.worlds.size(); ++w)
     study.description.worlds[w].table = tables(document, "world")[w];
+  study.document = document;
   if (study.description.reference.empty())
     study.description.reference =
         combination_name(study.description.selections.front(), study.description.models.front());

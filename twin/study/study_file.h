@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "twin/file/value.h"
 #include "twin/study/study_description.h"
 
 namespace thermotwin::twin {
@@ -50,6 +51,7 @@ struct NamedModel {
 struct Study {
   StudyDescription description;
   std::filesystem::path directory;  ///< of the file: names of files in it start here
+  Value document{};                 ///< as read: where its words stand
 };
 
 /// A complaint about a world says which, and where in the study's file what it quotes stands.

@@ -207,7 +207,7 @@ std::string study_text(StudyReport const& report) {
   text += "\nverdict\n";
   for (auto const& sentence : report.verdict) text += "  " + sentence + "\n";
   for (auto const& claim : report.claims)
-    text += fmt::format("  \"{}\" {}: {}\n", claim.claim.says, name_of(claim.answer), claim.words);
+    text += fmt::format("  {}: \"{}\" {}: {}\n", claim.world, claim.claim.says, name_of(claim.answer), claim.words);
   return text;
 }
 
@@ -215,10 +215,7 @@ std::string study_csv(StudyReport const& report) {
   std::set<std::string> names;
   std::vector<Combination> rows = report.rows;
   rows.insert(rows.end(), report.means.begin(), report.means.end());
-  for (auto& row : rows)
-    for (auto const& selection : report.selections)
-      if (selection.world == row.world && selection.selection == row.selection)
-        for (auto const& [name, values] : selection.figures) row.figures["selection." + name] = values;
+  for (auto& row : rows) row.figures = figures_of(report, row);
   for (auto const& row : rows)
     for (auto const& [name, values] : row.figures) names.insert(name);
   std::string text = "world,selection,model,refused,sensors,remark";
@@ -240,7 +237,10 @@ std::string study_json(StudyReport const& report) {
   Json json = {{"title", report.description.title}, {"verdict", report.verdict}};
   json["claims"] = Json::array();
   for (auto const& claim : report.claims)
-    json["claims"].push_back({{"says", claim.claim.says}, {"answer", name_of(claim.answer)}, {"words", claim.words}});
+    json["claims"].push_back({{"says", claim.claim.says},
+                              {"world", claim.world},
+                              {"answer", name_of(claim.answer)},
+                              {"words", claim.words}});
   json["remarks"] = report.remarks;
   json["worlds"] = Json::array();
   for (std::size_t w = 0; w < report.units.size(); ++w)

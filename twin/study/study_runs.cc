@@ -12,6 +12,7 @@
 #include "twin/diagnosis/measured_run.h"
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
+#include "twin/file/tables.h"
 #include "twin/file/value.h"
 #include "twin/history.h"
 #include "twin/parallel.h"
@@ -198,17 +199,46 @@ void find_modes(Order const& order, MeasuredRun const* measured, WorldRuns& runs
   }
 }
 
+/// What no world has, nobody can choose. What only some have, the others refuse.
+void check_selections(Study const& study, std::vector<Order> const& orders) {
+  std::vector<std::string> known;
+  std::size_t most = 0;
+  for (auto const& order : orders) {
+    most = std::max(most, order.machine.sensors.size());
+    for (auto const& sensor : order.machine.sensors)
+      if (std::find(known.begin(), known.end(), sensor.description.name) == known.end())
+        known.push_back(sensor.description.name);
+  }
+  auto const complain = [&](std::string const& words) {
+    if (!study.document.is_table()) throw thermal::InputError(words);
+    throw FileError(place_of(study.document, words.substr(0, words.find(':'))), words);
+  };
+  for (auto const& text : study.description.selections) {
+    auto const selection = named_selection(text);
+    for (auto const& name : selection.sensors)
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        complain(fmt::format("'{}': no machine of the study has a sensor '{}'; {}", text, name,
+                             thermal::did_you_mean(name, known)));
+    if (selection.count && std::size_t(*selection.count) > most)
+      complain(fmt::format("'{}': the machines of the study have {} sensors at most", text, most));
+  }
+}
+
+std::vector<Order> orders_of(Study const& study) {
+  std::vector<Order> orders;
+  for (auto const& world : study.description.worlds) orders.push_back(order_of(world, study.directory));
+  check_selections(study, orders);
+  return orders;
+}
+
 }  // namespace
 
-void check_worlds(Study const& study) {
-  for (auto const& world : study.description.worlds) static_cast<void>(order_of(world, study.directory));
-}
+void check_worlds(Study const& study) { static_cast<void>(orders_of(study)); }
 
 std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)> const& progress,
                                   std::atomic<bool> const* stop) {
-  std::vector<Order> orders;
+  std::vector<Order> const orders = orders_of(study);
   std::map<std::string, int> ordinal;  // of each different run
-  for (auto const& world : study.description.worlds) orders.push_back(order_of(world, study.directory));
   for (auto const& order : orders)
     for (auto const& source : order.sources) ordinal.emplace(source.file.string(), int(ordinal.size()));
 

@@ -197,7 +197,7 @@ Question less_twin(Question question, StudyWorld const& world, WorldData const& 
                    TwinRuns const& twin) {
   std::vector<models::Batch> said;
   for (auto const* list : {&data.train[std::size_t(repetition)], &data.test[std::size_t(repetition)]})
-    for (auto const& run : *list) said.push_back(true_batch(world, data, twin.runs[said.size()], run.rows));
+    for (auto const& run : *list) said.push_back(true_batch(world, data, twin.runs[said.size()], run.kept));
   for (auto const& asked : question.asked)
     if (data.runs->measured[asked.run]) said[asked.run].error.array() += zero_of(question, asked, said[asked.run]);
   for (std::size_t k = 0; k < question.training.size(); ++k) {
@@ -234,7 +234,8 @@ FittedModel observed(StudyWorld const& world, WorldData const& data, int repetit
         auto own = asked.batch;
         auto const& runs = asked.run < data.train[std::size_t(repetition)].size() ? data.train : data.test;
         auto const place = asked.run - (&runs == &data.test ? data.train[std::size_t(repetition)].size() : 0);
-        own.error = followed(data, repetition, asked.run, observer, chosen)(runs[std::size_t(repetition)][place].rows);
+        own.error =
+            followed(data, repetition, asked.run, observer, chosen)(runs[std::size_t(repetition)][place].kept.rows);
         if (data.runs->measured[asked.run]) own.error.array() += zero_of(question, asked, own);
         said.emplace(asked.run, std::move(own));
       }

@@ -6,6 +6,7 @@
 
 #include "models/error_model.h"
 #include "models/selection.h"
+#include "thermal/nearest_name.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -136,25 +137,37 @@ Margin less_than(StudyClaim const& claim, Compared const& compared) {
   return margin;
 }
 
+/// "; did you mean 'cross.rmse'?", of a combination that has others.
+std::string nearest_figure(std::string const& figure, Figures const& known) {
+  std::vector<std::string> names;
+  for (auto const& [name, values] : known) names.push_back(name);
+  return names.empty() || known.contains(figure) ? "" : "; " + thermal::did_you_mean(figure, names);
+}
+
 ClaimVerdict judged_claim(StudyReport const& report, StudyClaim const& claim) {
   auto const world = claim.world.empty() ? report.description.worlds.front().name : claim.world;
   auto const rows = rows_in(world == mean_of_worlds ? report.means : report.rows, world);
   auto const* row = named_row(rows, claim.combination, claim.figure);
   auto const* other = claim.than.empty() ? nullptr : named_row(rows, claim.than, claim.figure);
   Compared compared;
-  if (row) compared = {row->name(), "", values_of(row->figures, claim.figure), {}};
+  Figures known;
+  if (row) {
+    known = figures_of(report, *row);
+    compared = {row->name(), "", values_of(known, claim.figure), {}};
+  }
   if (other) {
     compared.than = claim.than == best_of_papers ? fmt::format("{} ({})", other->name(), claim.than) : other->name();
-    compared.others = values_of(other->figures, claim.figure);
+    compared.others = values_of(figures_of(report, *other), claim.figure);
   }
   auto const margin = claim.at_most ? below(*claim.at_most, compared)
                       : claim.share ? within_share(*claim.share, compared)
                                     : less_than(claim, compared);
   if (margin.values.empty())
-    return {claim, ClaimVerdict::Answer::refused,
-            fmt::format("there is no '{}' of these combinations in '{}'", claim.figure, world)};
+    return {claim, world, ClaimVerdict::Answer::refused,
+            fmt::format("there is no '{}' of these combinations in '{}'{}", claim.figure, world,
+                        nearest_figure(claim.figure, known))};
   auto const of = interval(margin.values);
-  return {claim, answer_of(of, claim.at_most || claim.tolerance || claim.share),
+  return {claim, world, answer_of(of, claim.at_most || claim.tolerance || claim.share),
           fmt::format("{} of {}: {}{}{}", claim.figure, compared.name, text_of(interval(compared.values), 3),
                       margin.words, of.values == 1 ? " (one repetition, no interval)" : "")};
 }

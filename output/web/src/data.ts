@@ -178,7 +178,7 @@ export interface StudySection {
   kind: 'study';
   title: string;
   verdict: string[];
-  claims: {says: string; answer: string; words: string}[];
+  claims: {says: string; world?: string; answer: string; words: string}[];
   remarks: string[];
   worlds: {name: string; machine: string; error: string; unit: string; repetitions: number}[];
   selections: {world: string; selection: string; remark: string; figures: Record<string, StudyFigure>}[];

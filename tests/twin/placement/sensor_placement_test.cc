@@ -346,6 +346,32 @@ TEST(PlaceSensors, SpeaksToPeopleAndPrograms) {
   EXPECT_EQ(std::get<Value::List>(parse_toml(file, "tables").find("temperature_sensor")->content).size(), 2U);
 }
 
+TEST(PlaceSensors, SaysWhatABudgetLeavesOf) {
+  auto options = quick(4);
+  options.rules.budget = 2.0;
+  options.rules.forbidden = {"bed"};
+  options.proposed = {"T1", "T2", "bed"};
+  auto const report = place_sensors(v450(), options);
+  EXPECT_EQ(report.recommended.sensors.size(), 2U);
+  ASSERT_TRUE(report.fewer);
+  EXPECT_EQ(report.fewer->sensors.size(), 1U);
+  EXPECT_GT(report.fewer->model_um, report.recommended.model_um);
+  EXPECT_FALSE(report.more) << "no money is left";
+  EXPECT_THAT(report.remarks,
+              testing::ElementsAre("4 were asked for; the budget of 2 has room for no better set than these 2",
+                                   "the proposed set sits on what is forbidden: bed",
+                                   "the proposed set costs 3, more than the budget of 2"));
+  EXPECT_THAT(placement_text(report), HasSubstr(report.remarks.front()));
+}
+
+TEST(PlaceSensors, SaysWhichSitesTurn) {
+  auto options = quick(1);
+  options.rules = rules_from("[[site]]\nname = \"nose\"\nat = \"shaft[20 mm]\"\n[[site]]\nat = \"bed\"\n");
+  auto const report = place_sensors(v450(), options);
+  ASSERT_EQ(report.recommended.sensors[0].site.name, "nose");
+  EXPECT_THAT(report.remarks, Contains("the recommended set sits on what turns: shaft; its signals need a way out"));
+}
+
 TEST(PlaceSensors, RefusesWhatCannotBe) {
   EXPECT_THAT(refusal(v450(), quick(0)), HasSubstr("at least 1"));
   EXPECT_THAT(refusal(v450(), quick(500)), HasSubstr("candidate sites"));
@@ -360,6 +386,8 @@ TEST(PlaceSensors, RefusesWhatCannotBe) {
   options.proposed = {"cartridge[900 mm]"};
   EXPECT_THAT(refusal(v450(), options), HasSubstr("900 mm is outside 'cartridge'"));
   EXPECT_THAT(refusal(read_toml(machine_file("water_pipe")), quick(1)), HasSubstr("no displacement"));
+  EXPECT_THAT(refusal(read_toml(machine_file("spindle_5probe")), quick(1)),
+              HasSubstr("no step of its structural loop has a weight"));
 }
 
 }  // namespace

@@ -86,6 +86,40 @@ TEST(Study, SaysWhatMeasuredRunsLack) {
               HasSubstr("world 'v450': 'sampling' is 60 s, finer than the 180 s between the rows of "));
 }
 
+/// What is known of the first row stays known where another channel lacks it, and the twin counts from the same row.
+TEST(Study, CountsFromTheFirstValueOfEachSensor) {
+  SmallStudy const study(measured_world("3 min"));
+  output::Dataset shown;
+  measure(study, [&](output::Dataset& data) {
+    channel(data.readings, "T8").values[0] = NAN;
+    shown = data;
+  });
+  auto const &first = channel(shown.readings, "T1").values, &second = channel(shown.readings, "T8").values;
+  auto const read = read_study(study.file());
+  auto const worlds = study_data(read, {}, nullptr);
+  auto const& run = worlds.front().train.front().front();
+  EXPECT_EQ(run.kept.since, (std::vector<Eigen::Index>{0, 1, 0}));
+  ASSERT_EQ(run.seen.time.size(), first.size() - 1);
+  EXPECT_NEAR(run.seen.temperature_rise(0, 0), first[1] - first[0], 1e-9);
+  EXPECT_NEAR(run.seen.temperature_rise(5, 1), second[6] - second[1], 1e-9);
+  auto const said = true_batch(read.description.worlds[0], worlds.front(), shown, run.kept);  // as of a twin
+  auto const& truth = channel(shown.truth_readings, "T8").values;
+  EXPECT_NEAR(said.temperature_rise(5, 1), truth[6] - truth[1], 1e-9);
+  EXPECT_THAT(
+      worlds.front().remarks,
+      testing::Contains("fast.h5: changes of T8 count from row 2, where its values begin, and not from the first"));
+}
+
+TEST(Study, SaysThatATestWasTrainedOn) {
+  auto text = measured_world("3 min");
+  text.replace(text.find("slow.h5"), 7, "copy.h5");
+  SmallStudy const study(text);
+  measure(study, [](output::Dataset&) {});
+  std::filesystem::copy_file(study.experiment_path("fast.h5"), study.experiment_path("copy.h5"));
+  EXPECT_THAT(study.report().remarks,
+              testing::Contains("v450: copy.h5 has the same data as fast.h5, which is trained on: it tests nothing"));
+}
+
 /// Rows are left out as `fit` leaves them out, and not the sensor, for three empty cells; lags do not reach across
 /// them.
 TEST(Study, LeavesOutRowsWhereFewReadingsAreMissing) {

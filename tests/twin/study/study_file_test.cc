@@ -22,15 +22,23 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
   EXPECT_THAT(with(all, "forward 2", "sensors T1, T1"), HasSubstr("small.toml:4:22: 'sensors T1, T1': 'T1' is given"));
   for (auto const* gap : {"sensors", "sensors T1,, T8", "sensors T1,"})
     EXPECT_THAT(with(all, "forward 2", gap), HasSubstr("after 'sensors', names with commas between them are due"));
-  EXPECT_THAT(with(all, "\"ridge\"", "\"rigde\""), HasSubstr("small.toml:5:21: no model 'rigde'; known: linear, "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"rigde\""),
+              HasSubstr("small.toml:5:21: no model 'rigde'; did you mean 'ridge'?"));
   EXPECT_THAT(with(all, "\"ridge\"", "\"twin rigde\""),
-              HasSubstr("small.toml:5:21: no model 'rigde'; known: linear, "));
-  EXPECT_THAT(with(all, "\"ridge\"", "\"twins\""), HasSubstr("small.toml:5:21: no model 'twins'; known: "));
+              HasSubstr("small.toml:5:21: no model 'rigde'; did you mean 'ridge'?"));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"twins\""),
+              HasSubstr("small.toml:5:21: no model 'twins'; did you mean 'twin'?"));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"twin observe\""),
+              HasSubstr("small.toml:5:21: no model 'observe'; did you mean 'observer'?"));
+  EXPECT_THAT(with(all, "forward 2", "al"),
+              HasSubstr("small.toml:4:22: no selection method 'al'; did you mean 'all'?"));
   EXPECT_THAT(with(all, "\"ridge\"", "\"linear\""), HasSubstr("small.toml:5:21: 'linear' is given twice"));
-  EXPECT_THAT(with(all, "\"ridge\"", "\"linear & rigde\""), HasSubstr("small.toml:5:21: no model 'rigde'; known: "));
+  EXPECT_THAT(with(all, "\"ridge\"", "\"linear & rigde\""),
+              HasSubstr("small.toml:5:21: no model 'rigde'; did you mean 'ridge'?"));
   EXPECT_THAT(with(all, "\"ridge\"", "\"linear & \""), HasSubstr("small.toml:5:21: no model ''; known: "));
   EXPECT_THAT(with(all, "\"ridge\"", "\"ridge & ridge\""),
               HasSubstr("small.toml:5:21: 'ridge & ridge' has a model twice"));
+  EXPECT_THAT(with(all, "test = [\"slow.toml\"]", "split = \"0 min\""), HasSubstr("'split' is 0 s; a time after"));
   EXPECT_THAT(with(all, "seeds = 5", "seeds = 3"), HasSubstr("'seeds' is 3; allowed is 5 to 1000"));
   EXPECT_THAT(with(all, "E_Z", "E_W"),
               HasSubstr("small.toml:10:9: world 'v450': the machine has no displacement 'E_W'; did you mean"));
@@ -64,6 +72,15 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
   EXPECT_THAT(with("reference = \"all + liner\"\n" + all, "Small", "Small"),
               HasSubstr("small.toml:1:13: the study has no combination 'all + liner'; did you mean 'all + linear'?"));
   EXPECT_THAT(with(all, "error = \"E_Z\"", "error = \"slope z\""), HasSubstr("no laser measurement of axis 'z'"));
+}
+
+TEST(Study, LeavesOutNothingWhereEveryRunPredictsEveryOther) {
+  auto text = "folds = 3\n" + head + world;
+  text.replace(text.find("train = [\"fast.toml\"]"), 21,
+               "fit = \"each\"\ntrain = [\"spindle_constant_25\", \"spindle_constant_50\", \"spindle_constant_75\"]");
+  text.replace(text.find("test = [\"slow.toml\"]"), 20, "");
+  EXPECT_THAT(SmallStudy(text).complaint(),
+              HasSubstr("'fit' is each: every run predicts every other, and 'folds' have"));
 }
 
 TEST(Study, JudgesInstantsByOneModelOfAllRuns) {

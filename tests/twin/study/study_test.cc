@@ -84,10 +84,11 @@ TEST(Study, MeasuresSelectionsAgainstTheBestSet) {
   EXPECT_EQ(row(report, "all + ridge").figures.at("validation.rmse").size(), 5U);
 }
 
-/// A set of the user's own is judged as a method's choice is; a sensor that the world does not have is refused by name.
+/// A set of the user's own is judged as a method's choice is; a sensor that models of the world do not see is refused
+/// by name, and one that no machine has is a mistake in the file.
 TEST(Study, JudgesTheSensorsThatItIsGiven) {
   auto text = head + world;
-  text.replace(text.find("\"forward 2\""), 11, "\"sensors T9, T1\", \"sensors T1, T18\"");
+  text.replace(text.find("\"forward 2\""), 11, "\"sensors T9, T1\", \"sensors T1, T4\"");
   auto const report = SmallStudy(text).report();
   auto const& given = row(report, "sensors T9, T1 + linear");
   EXPECT_EQ(given.sensors, (std::vector<std::string>{"T1", "T9"}));
@@ -95,7 +96,14 @@ TEST(Study, JudgesTheSensorsThatItIsGiven) {
   auto const& quality = report.selections.at(1).figures;
   EXPECT_GE(quality.at("regret")[0], 0.0);
   EXPECT_FALSE(quality.contains("rank_correlation"));  // it has no score
-  EXPECT_EQ(row(report, "sensors T1, T18 + linear").refused, "there is no sensor 'T18' here; did you mean 'T1'?");
+  EXPECT_THAT(row(report, "sensors T1, T4 + linear").refused, testing::StartsWith("there is no sensor 'T4' here; "));
+  text.replace(text.find("T1, T4\""), 6, "T1, T18");
+  EXPECT_THAT(SmallStudy(text).complaint(),
+              HasSubstr("small.toml:4:40: 'sensors T1, T18': no machine of the study has a "
+                        "sensor 'T18'; did you mean 'T10'?"));
+  text.replace(text.find("sensors T1, T18"), 15, "forward 11");
+  EXPECT_THAT(SmallStudy(text).complaint(),
+              HasSubstr("'forward 11': the machines of the study have 10 sensors at most"));
 }
 
 TEST(Study, MayCutOneRunInTwo) {

@@ -53,7 +53,7 @@ improvement = 75
   EXPECT_EQ(report.claims.at(4).answer, ClaimVerdict::Answer::fails);
   EXPECT_EQ(report.claims.at(5).answer, ClaimVerdict::Answer::holds);
   EXPECT_EQ(report.claims.at(6).answer, ClaimVerdict::Answer::fails);
-  EXPECT_THAT(study_text(report), HasSubstr("\"nobody errs\" does not hold: cross.rmse of all + linear: "));
+  EXPECT_THAT(study_text(report), HasSubstr("  v450: \"nobody errs\" does not hold: cross.rmse of all + linear: "));
 }
 
 /// Errors of an own method and of two of the papers' (a method of theirs on sensors that one of theirs chose), in three
@@ -96,6 +96,26 @@ StudyClaim share_of_papers(double share, std::string const& combination, std::st
   claim.share = share;
   claim.world = world;
   return claim;
+}
+
+/// Of what a selection is worth, too; a figure that is not there has a nearest name.
+TEST(StudyVerdict, JudgesAnyColumnOfTheTable) {
+  auto report = of_two_worlds();
+  report.selections.push_back({"mill", "grey_fuzzy", {{"regret", {0.2, 0.3, 0.4}}}, ""});
+  StudyClaim claim;
+  claim.combination = "grey_fuzzy + linear";
+  claim.world = "mill";
+  claim.at_most = 1.0;
+  for (auto const* figure : {"selection.regret", "cros.rmse"}) {
+    claim.figure = figure;
+    report.description.claims.push_back(claim);
+  }
+  put_verdict(report);
+  EXPECT_EQ(report.claims.at(0).answer, ClaimVerdict::Answer::holds);
+  EXPECT_EQ(report.claims.at(0).world, "mill");
+  EXPECT_EQ(report.claims.at(1).answer, ClaimVerdict::Answer::refused);
+  EXPECT_EQ(report.claims.at(1).words,
+            "there is no 'cros.rmse' of these combinations in 'mill'; did you mean 'cross.rmse'?");
 }
 
 /// Exactly half of the best paper method's in each repetition, though repetitions differ by three.

@@ -52,7 +52,7 @@ function claimsPanel(section: StudySection): HTMLElement {
     {name: 'claim', values: section.claims.map((c) => c.says)}, {name: 'answer', values: section.claims.map((c) => c.answer)},
     {name: 'words', values: section.claims.map((c) => c.words)},
   ], make('ul', {class: 'claims'}, ...section.claims.map((claim) => make('li', {},
-    make('span', {class: `answer ${look[claim.answer] ?? ''}`}, claim.answer), make('span', {}, `“${claim.says}”`),
+    make('span', {class: `answer ${look[claim.answer] ?? ''}`}, claim.answer), make('span', {}, `${claim.world ? `${claim.world}: ` : ''}“${claim.says}”`),
     make('p', {class: 'words'}, inMicrometres(claim.words))))));
 }
 
