@@ -28,6 +28,7 @@ struct PlaceCommand {
   void operator()();
 
  private:
+  void check_spectra() const;
   void check_outputs() const;
   void write_map(PlacementReport const& report, Machine const& built) const;
   void write_page(PlacementReport const& report) const;
@@ -89,12 +90,15 @@ std::vector<scenarios::Experiment> read_all(std::vector<std::string> const& name
   return experiments;
 }
 
-void PlaceCommand::check_outputs() const {
+void PlaceCommand::check_spectra() const {
   for (auto const& name : unseen)
     for (auto const& decides : experiments)
       if (experiment_file(name) == experiment_file(decides))
         throw thermal::InputError(
             fmt::format("'{}' decides (--experiments), and cannot judge (--hold-out) as well", name));
+}
+
+void PlaceCommand::check_outputs() const {
   check_suffix(output, "a list of sensors", {".toml"});
   std::vector<std::filesystem::path> read = {candidates};
   for (auto const* names : {&experiments, &unseen})
@@ -132,6 +136,7 @@ void PlaceCommand::write_map(PlacementReport const& report, Machine const& built
 }
 
 void PlaceCommand::operator()() {
+  check_spectra();
   check_outputs();
   Value const document = read_toml(machine_file(machine));
   Machine const built = Machine::build(document);

@@ -189,8 +189,7 @@ Judge::Judge(Value const& document, PlacementOptions const& options)
   prices_ = {problem_.cost, problem_.budget};
   if (!(problem_.prior() > 0.0))
     throw InputError(
-        "none of the machine's displacements moves: no step of its structural loop has a weight, so that no sensor "
-        "could "
+        "none of the machine's displacements moves: no step of its structural loop has a weight, and no sensor could "
         "explain one");
 }
 

@@ -135,6 +135,11 @@ std::vector<std::string> names_of(std::span<Method const> methods) {
   return names;
 }
 
+void require_known(char const* kind, std::string const& name, std::vector<std::string> const& known) {
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw thermal::InputError(fmt::format("no {} '{}'; {}", kind, name, thermal::did_you_mean(name, known)));
+}
+
 /// "T1, T4": what stands between commas, without blanks around it.
 std::vector<std::string> listed_sensors(std::string const& text, std::string const& list) {
   std::vector<std::string> names;
@@ -192,12 +197,12 @@ NamedModel named_model(std::string const& text) {
   NamedModel model{twin, twin ? text.substr(std::min(twin_alone.size() + 1, text.size())) : text};
   if (model.observes() || (twin && model.method.empty())) return model;
   auto known = names_of(models::model_methods());
-  if (std::find(known.begin(), known.end(), model.method) != known.end()) return model;
   if (twin)
     known.emplace_back("observer");
   else
     known.insert(known.end(), {"twin", "twin observer"});
-  throw thermal::InputError(fmt::format("no model '{}'; {}", model.method, thermal::did_you_mean(model.method, known)));
+  require_known("model", model.method, known);
+  return model;
 }
 
 NamedSelection named_selection(std::string const& text) {
@@ -209,9 +214,7 @@ NamedSelection named_selection(std::string const& text) {
   }
   auto known = names_of(models::selection_methods());
   known.insert(known.end(), {"all", "sensors"});
-  if (std::find(known.begin(), known.end(), selection.name) == known.end())
-    throw thermal::InputError(
-        fmt::format("no selection method '{}'; {}", selection.name, thermal::did_you_mean(selection.name, known)));
+  require_known("selection method", selection.name, known);
   if (space == std::string::npos) return selection;
   int count = 0;
   auto const [end, error] = std::from_chars(text.data() + space + 1, text.data() + text.size(), count);
@@ -236,10 +239,14 @@ std::vector<NamedModel> named_models(std::string const& text) {
   }
 }
 
+thermal::InputError about(Value const& table, std::string const& complaint, std::string const& before) {
+  auto const text = before + complaint;
+  if (!table.is_table()) return thermal::InputError(text);
+  return FileError(place_of(table, complaint.substr(0, complaint.find(';'))), text);  // not at what it offers
+}
+
 thermal::InputError about(StudyWorld const& world, std::string const& complaint) {
-  auto const text = fmt::format("world '{}': {}", world.name, complaint);
-  if (!world.table.is_table()) return thermal::InputError(text);
-  return FileError(place_of(world.table, complaint.substr(0, complaint.find(';'))), text);  // not at what it offers
+  return about(world.table, complaint, fmt::format("world '{}': ", world.name));
 }
 
 Study read_study(std::filesystem::path const& file) {

@@ -54,7 +54,10 @@ struct Study {
   Value document{};                 ///< as read: where its words stand
 };
 
-/// A complaint about a world says which, and where in the study's file what it quotes stands.
+/// A complaint says where in this table of the study's file what it quotes stands, if there is one.
+[[nodiscard]] thermal::InputError about(Value const& table, std::string const& complaint,
+                                        std::string const& before = "");
+/// One about a world says which, too.
 [[nodiscard]] thermal::InputError about(StudyWorld const& world, std::string const& complaint);
 
 /// FileError with line and column: unknown keys, methods and combinations; no world, selection or model; names given

@@ -12,7 +12,6 @@
 #include "twin/diagnosis/measured_run.h"
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
-#include "twin/file/tables.h"
 #include "twin/file/value.h"
 #include "twin/history.h"
 #include "twin/parallel.h"
@@ -209,18 +208,14 @@ void check_selections(Study const& study, std::vector<Order> const& orders) {
       if (std::find(known.begin(), known.end(), sensor.description.name) == known.end())
         known.push_back(sensor.description.name);
   }
-  auto const complain = [&](std::string const& words) {
-    if (!study.document.is_table()) throw thermal::InputError(words);
-    throw FileError(place_of(study.document, words.substr(0, words.find(':'))), words);
-  };
   for (auto const& text : study.description.selections) {
     auto const selection = named_selection(text);
     for (auto const& name : selection.sensors)
       if (std::find(known.begin(), known.end(), name) == known.end())
-        complain(fmt::format("'{}': no machine of the study has a sensor '{}'; {}", text, name,
-                             thermal::did_you_mean(name, known)));
+        throw about(study.document, fmt::format("'{}': no machine of the study has a sensor '{}'; {}", text, name,
+                                                thermal::did_you_mean(name, known)));
     if (selection.count && std::size_t(*selection.count) > most)
-      complain(fmt::format("'{}': the machines of the study have {} sensors at most", text, most));
+      throw about(study.document, fmt::format("'{}': the machines of the study have {} sensors at most", text, most));
   }
 }
 
