@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "models/candidates.h"
+#include "models/log_determinant.h"
 
 namespace thermotwin::models {
 
@@ -38,9 +39,7 @@ std::vector<Index> greedy(MatrixXd covariance, std::vector<Index> members, int c
 }
 
 double log_determinant(MatrixXd const& covariance, std::vector<Index> const& set) {
-  Eigen::LLT<MatrixXd> const factors(covariance(set, set));
-  if (factors.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
-  return 2 * factors.matrixLLT().diagonal().array().log().sum();
+  return models::log_determinant(Eigen::LLT<MatrixXd>(covariance(set, set)));
 }
 
 /// The best single exchange, carried out; false if none raises the determinant.

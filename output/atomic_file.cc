@@ -55,6 +55,19 @@ fs::path temporary_beside(fs::path const& path) {
   return temporary += fmt::format(".{}-{}.tmp", ::getpid(), number++);
 }
 
+/// Whether it is what temporary_beside makes of a name.
+bool is_leftover(std::string_view file, std::string_view of) {
+  if (!file.starts_with(of)) return false;
+  file.remove_prefix(of.size());
+  if (!file.starts_with('.') || !file.ends_with(".tmp")) return false;
+  file = file.substr(1, file.size() - 5);
+  auto const dash = file.find('-');
+  auto const is_number = [](std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  return dash != std::string_view::npos && is_number(file.substr(0, dash)) && is_number(file.substr(dash + 1));
+}
+
 /// With the permissions of the old file.
 void replace(fs::path const& path, std::string_view contents) {
   struct stat old {};
@@ -89,12 +102,11 @@ void write_atomically(fs::path const& path, std::string_view contents) {
 }
 
 void remove_leftovers(fs::path const& path) {
-  std::string const begin = path.filename().string() + '.';
+  std::error_code ignored;
   std::vector<fs::path> leftovers;
-  for (auto const& entry : fs::directory_iterator(path.has_parent_path() ? path.parent_path() : fs::path(".")))
-    if (auto const name = entry.path().filename().string(); name.starts_with(begin) && name.ends_with(".tmp"))
-      leftovers.push_back(entry.path());
-  for (auto const& leftover : leftovers) fs::remove(leftover);
+  for (auto const& entry : fs::directory_iterator(path.has_parent_path() ? path.parent_path() : fs::path("."), ignored))
+    if (is_leftover(entry.path().filename().string(), path.filename().string())) leftovers.push_back(entry.path());
+  for (auto const& leftover : leftovers) fs::remove(leftover, ignored);
 }
 
 void make_directory(fs::path const& directory) {

@@ -68,13 +68,6 @@ std::string column_name(Channel const& channel, Group const& group) {
   throw InputError(fmt::format("'{}' cannot be the name of a column", channel.name));
 }
 
-std::string quoted(std::string const& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string text = "\"";
-  for (char const c : field) text += c == '"' ? "\"\"" : std::string(1, c);
-  return text + '"';
-}
-
 bool is_wanted(Group const& group, CsvGroups const& wanted) {
   if (group.channels == &Dataset::inputs) return wanted.inputs;
   if (group.channels == &Dataset::readings) return wanted.readings;
@@ -111,6 +104,13 @@ void check_time(scenarios::CsvTable const& table) {
 
 }  // namespace
 
+std::string csv_field(std::string const& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string field = "\"";
+  for (char const c : text) field += c == '"' ? "\"\"" : std::string(1, c);
+  return field + '"';
+}
+
 void export_csv(Dataset const& dataset, std::ostream& stream, CsvGroups const& wanted) {
   check(dataset);
   std::vector<Channel const*> columns;
@@ -118,7 +118,7 @@ void export_csv(Dataset const& dataset, std::ostream& stream, CsvGroups const& w
   for (auto const& group : groups) {
     if (!is_wanted(group, wanted)) continue;
     for (auto const& channel : dataset.*group.channels) {
-      stream << ',' << quoted(column_name(channel, group));
+      stream << ',' << csv_field(column_name(channel, group));
       columns.push_back(&channel);
     }
   }

@@ -16,6 +16,9 @@ struct CsvGroups {
   bool heat = false;
 };
 
+/// A field of a table: in quotes where it has commas, quotes or line breaks.
+[[nodiscard]] std::string csv_field(std::string const& text);
+
 /// Writes a table: header `time_s,<name>_<unit>,…` ("T1_degC", "E_Z_um", "spindle.speed_rpm"), numbers with the fewest
 /// digits that read back as the same double, a missing sample as an empty field.
 ///

@@ -8,6 +8,7 @@
 #include "output/campaign_file.h"
 #include "output/error.h"
 #include "output/hdf5_building.h"
+#include "output/hdf5_reading.h"
 #include "thermal/error.h"
 
 namespace thermotwin::output {
@@ -205,20 +206,14 @@ std::map<std::int64_t, std::string> read_failures(std::filesystem::path const& p
   hdf5::Silence const silence;
   Handle const file(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open");
   Handle const runs(H5Dopen2(file, "/failures/run", H5P_DEFAULT), H5Dclose, "failures");
-  Handle const reasons(H5Dopen2(file, "/failures/reason", H5P_DEFAULT), H5Dclose, "failures");
   Handle const space(H5Dget_space(runs), H5Sclose, "failures");
   auto const count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
   std::map<std::int64_t, std::string> failures;
   if (count == 0) return failures;
   std::vector<std::int64_t> numbers(count);
-  std::vector<char*> texts(count);
-  auto const text = any_text_type();
   expect(H5Dread(runs, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), "runs");
-  expect(H5Dread(reasons, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), "reasons");
-  for (std::size_t i = 0; i < count; ++i) {
-    failures[numbers[i]] = texts[i];
-    H5free_memory(texts[i]);
-  }
+  auto const reasons = hdf5::read_names(file, "/failures/reason");
+  for (std::size_t i = 0; i < std::min(count, reasons.size()); ++i) failures[numbers[i]] = reasons[i];
   return failures;
 } catch (hdf5::Failure const& failure) {
   throw thermal::InputError(fmt::format("'{}' is no part of a campaign: {}", part.string(), failure.what()));

@@ -47,8 +47,11 @@ std::vector<std::string> read_names(Id group, std::string const& name) {
   auto const type = any_text_type();
   std::vector<char*> texts(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
   expect(H5Dread(variable, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), name);
-  std::vector<std::string> names(texts.begin(), texts.end());
-  for (char* text : texts) H5free_memory(text);
+  std::vector<std::string> names;
+  for (char* text : texts) {
+    names.emplace_back(text ? text : "");  // null where nothing was written
+    H5free_memory(text);
+  }
   return names;
 }
 

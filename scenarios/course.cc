@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "thermal/error.h"
@@ -44,16 +45,20 @@ void check_temperature(DrivenChannel const& driven) {
 
 /// `most`: times what the machine can do.
 void check_motion(DrivenChannel const& driven, MachineLimits const& machine, double most) {
-  auto const hold = [&](std::string const& channel, double limit, thermal::Dimension dimension) {
+  auto const hold = [&](std::string const& channel, double limit, thermal::Dimension dimension,
+                        std::string const& maximum = "the machine's maximum") {
     if (driven.channel.name != channel || limit <= 0.0) return;
-    double const fastest = driven.signal.largest_magnitude();
-    if (fastest > most * limit * (1.0 + round_off))
+    double const largest = driven.signal.largest_magnitude();
+    if (largest > most * limit * (1.0 + round_off))
       throw InputError("channel '" + channel + "': " + driven.channel.description + " reaches " +
-                       thermal::format_quantity(fastest, dimension) + ", and the machine's maximum is " +
+                       thermal::format_quantity(largest, dimension) + ", and " + maximum + " is " +
                        thermal::format_quantity(limit, dimension) + "; is its unit right?");
   };
   hold("spindle.speed", machine.max_spindle_speed, thermal::dimension::angular_speed);
-  for (AxisLimits const& axis : machine.axes) hold(axis.name + ".feed", axis.rapid_feed, thermal::dimension::speed);
+  for (AxisLimits const& axis : machine.axes) {
+    hold(axis.name + ".feed", axis.rapid_feed, thermal::dimension::speed);
+    hold(axis.name + ".duty", 1.0, thermal::dimension::dimensionless, "the most");
+  }
 }
 
 /// Whether a channel of another dimension is driven is told by ExperimentCourse::replace_or_add.
@@ -61,7 +66,7 @@ DrivenChannel checked(DrivenChannel driven, MachineLimits const& machine, double
   auto const dimension = thermal::dimension_of(driven.channel.unit);
   if (dimension == thermal::dimension::temperature_difference)
     check_temperature(driven);
-  else if (dimension == thermal::dimension::angular_speed || dimension == thermal::dimension::speed)
+  else
     check_motion(driven, machine, most);
   return driven;
 }
@@ -107,6 +112,11 @@ Signal const* find(std::vector<DrivenChannel> const& driven, std::string const& 
   return found == driven.end() ? nullptr : &found->signal;
 }
 
+/// What is derived where the channels are made, as others follow from it.
+bool carries_others(std::string const& channel) {
+  return channel.ends_with(".speed") || channel.ends_with(".feed") || channel.ends_with(".duty");
+}
+
 void check_axes(Experiment const& experiment, MachineLimits const& machine) {
   std::vector<std::string> names;
   for (AxisLimits const& axis : machine.axes) names.push_back(axis.name);
@@ -132,16 +142,51 @@ AxisMotion motion_of(Experiment const& experiment, AxisLimits const& axis) {
   return axis_at_rest(axis);
 }
 
+/// Feed v while moving, share d of the time in motion, and mean |speed| of a screw, ω = 2π v/l · d (physics.md 2.11).
+struct ScrewMotion {
+  std::function<double(double)> feed, duty, speed;
+  struct Part {
+    Signal values;
+    Signal running = values.running();
+  };
+  std::vector<Part> signals;  ///< of which it is made: it turns where none is zero
+};
+
+/// What is driven of the three carries the others along; a feed or a speed alone is motion all the time that it lasts.
+ScrewMotion screw_motion(AxisMotion const& programme, std::optional<Signal> const& feed,
+                         std::optional<Signal> const& duty, std::optional<Signal> const& speed, double turn) {
+  auto const at = [](Signal const& signal) { return [signal](double t) { return signal.at(t); }; };
+  ScrewMotion screw{at(programme.feed), at(programme.duty), at(programme.screw_speed), {}};
+  for (auto const& signal : {feed, duty, speed})
+    if (signal) screw.signals.push_back({*signal});
+  if (!feed && !speed) screw.signals.push_back({programme.feed});
+  if (!feed && !duty && !speed) screw.signals.push_back({programme.duty});
+
+  if (duty) screw.duty = at(*duty);
+  if (feed)
+    screw.feed = at(*feed);
+  else if (speed && duty)
+    screw.feed = [speed = *speed, duty = *duty, turn](double t) {
+      return duty.at(t) > 0.0 ? speed.at(t) / (turn * duty.at(t)) : 0.0;
+    };
+  else if (speed)
+    screw.feed = [speed = *speed, turn](double t) { return speed.at(t) / turn; };
+  if (!duty && feed && speed)
+    screw.duty = [feed = *feed, speed = *speed, turn](double t) {
+      return feed.at(t) > 0.0 ? std::min(1.0, speed.at(t) / (turn * feed.at(t))) : 0.0;
+    };
+  else if (!duty && (feed || speed))
+    screw.duty = [feed = screw.feed](double t) { return feed(t) > 0.0 ? 1.0 : 0.0; };
+  if (speed)
+    screw.speed = at(*speed);
+  else if (feed || duty)
+    screw.speed = [feed = screw.feed, duty = screw.duty, turn](double t) { return turn * feed(t) * duty(t); };
+  return screw;
+}
+
 double next_after(double t, std::vector<double> const& times) {
   auto const next = std::upper_bound(times.begin(), times.end(), t);
   return next == times.end() ? std::numeric_limits<double>::infinity() : *next;
-}
-
-/// A recorded feed is in motion while it is recorded: duty 1.
-void follow(Signal const& recorded_feed, AxisLimits const& axis, AxisMotion& motion) {
-  motion.feed = recorded_feed.magnitude();
-  motion.duty = motion.feed.running();
-  motion.screw_speed = motion.feed.scaled(2.0 * std::numbers::pi / axis.lead);
 }
 
 }  // namespace
@@ -175,18 +220,34 @@ void ExperimentCourse::add_spindle(Experiment const& experiment, MachineLimits c
 }
 
 void ExperimentCourse::add_axis(Experiment const& experiment, AxisLimits const& axis) {
-  AxisMotion motion = motion_of(experiment, axis);
-  if (Signal const* recorded = find(driven_, axis.name + ".feed")) follow(*recorded, axis, motion);
-  add({axis.name + ".feed", "m/s", "feed while moving"}, motion.feed);
-  add({axis.name + ".duty", "1", "share of the time in motion"}, motion.duty);
-  add({axis.name + ".speed", "rad/s", "mean speed of the screw"}, motion.screw_speed);
-  add({axis.name + ".moving_speed", "rad/s", "speed of the screw while moving"},
-      motion.feed.scaled(2.0 * std::numbers::pi / axis.lead));
-  add({axis.name + ".running", "1", "1 while the screw turns"}, motion.screw_speed.running());
+  AxisMotion const motion = motion_of(experiment, axis);
+  add_screw(motion, axis);
   add({axis.name + ".stroke_from", "m", "near end of the nut's stroke"}, motion.stroke_from);
   add({axis.name + ".stroke_to", "m", "far end of the nut's stroke"}, motion.stroke_to);
   add({axis.name + ".position", "m", "nut position"}, motion.position);
   if (motion.position.times().size() > 1) add_jumps(motion.position.times());  // the integrator meets each reversal
+}
+
+void ExperimentCourse::add_screw(AxisMotion const& motion, AxisLimits const& axis) {
+  double const turn = 2.0 * std::numbers::pi / axis.lead;
+  auto const driven = [&](std::string const& what) {
+    Signal const* signal = find(driven_, axis.name + what);
+    return signal ? std::optional(signal->magnitude()) : std::nullopt;
+  };
+  auto const screw = screw_motion(motion, driven(".feed"), driven(".duty"), driven(".speed"), turn);
+  add({axis.name + ".feed", "m/s", "feed while moving"}, screw.feed);
+  add({axis.name + ".duty", "1", "share of the time in motion"}, screw.duty);
+  add({axis.name + ".speed", "rad/s", "mean speed of the screw"}, screw.speed);
+  add({axis.name + ".moving_speed", "rad/s", "speed of the screw while moving"},
+      [feed = screw.feed, turn](double t) { return turn * feed(t); });
+  add({axis.name + ".running", "1", "1 while the screw turns"}, [signals = screw.signals](double t) {
+    return std::all_of(signals.begin(), signals.end(), [t](auto const& s) { return s.running.at(t) != 0.0; }) ? 1.0
+                                                                                                              : 0.0;
+  });
+  for (auto const& signal : screw.signals) {
+    add_times(signal.values);
+    add_jumps(signal.running.jumps());
+  }
 }
 
 void ExperimentCourse::add_ambient(Experiment const& experiment) {
@@ -242,8 +303,7 @@ void ExperimentCourse::replace_or_add(DrivenChannel const& driven) {
     throw InputError("channel '" + known.name + "': " + driven.channel.description + " is in " + driven.channel.unit +
                      ", the channel in " + known.unit);
   }
-  bool const done = known.name == "spindle.speed" || known.name.ends_with(".feed");
-  if (done) return;
+  if (carries_others(known.name)) return;
   formulas_[std::size_t(place)] = [signal = driven.signal](double t) { return signal.at(t); };
   add_times(driven.signal);
 }
@@ -313,5 +373,11 @@ void ExperimentCourse::evaluate(double t, std::span<double> values) const {
 double ExperimentCourse::next_jump(double t) const { return next_after(t, jumps_); }
 
 double ExperimentCourse::next_bend(double t) const { return next_after(t, bends_); }
+
+std::vector<thermal::InputChannel> own_channels(MachineLimits const& machine) {
+  Experiment standstill;
+  standstill.duration = 3600.0;
+  return ExperimentCourse(standstill, machine).channels();
+}
 
 }  // namespace thermotwin::scenarios

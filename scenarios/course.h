@@ -25,6 +25,7 @@ constexpr double same_jump = 1e-6;
 /// | <axis>.feed | m/s | while moving |
 /// | <axis>.duty | 1 | share of the time in motion |
 /// | <axis>.speed | rad/s | mean magnitude of the screw's speed, duty included: 2π feed/lead · duty |
+/// | <axis>.moving_speed | rad/s | magnitude of the screw's speed while moving: 2π feed/lead |
 /// | <axis>.running | 1 | 1 while the screw's speed is not zero |
 /// | <axis>.stroke_from, <axis>.stroke_to | m | where the nut's heat is spread; equal while the nut is followed |
 /// | <axis>.position | m | of the nut; the middle of the stroke unless it is followed |
@@ -39,8 +40,8 @@ constexpr double same_jump = 1e-6;
 /// | time_of_day | s | 0 to 86400 |
 /// | clock.day_cosine, clock.day_sine | 1 | of 2π time_of_day/86400 s |
 ///
-/// Recorded columns and input programmes replace a channel of the same name, or add one. A replaced spindle.speed or
-/// <axis>.feed carries along what follows from it.
+/// Recorded columns and input programmes replace a channel of the same name, or add one. A replaced spindle.speed,
+/// <axis>.feed, <axis>.duty or <axis>.speed carries along what follows from it, whatever its sign.
 ///
 /// Of jumps that are one the last counts: until then every channel is as it was just before the first.
 class ExperimentCourse : public thermal::Course {
@@ -59,6 +60,7 @@ class ExperimentCourse : public thermal::Course {
 
   void add_spindle(Experiment const& experiment, MachineLimits const& machine);
   void add_axis(Experiment const& experiment, AxisLimits const& axis);
+  void add_screw(AxisMotion const& motion, AxisLimits const& axis);
   void add_ambient(Experiment const& experiment);
   void add_switches(Experiment const& experiment);
   void add_clock(Experiment const& experiment);
@@ -81,5 +83,8 @@ class ExperimentCourse : public thermal::Course {
   std::vector<double> bends_;
   double longest_step_ = std::numeric_limits<double>::infinity();
 };
+
+/// The channels that every experiment on such a machine has.
+[[nodiscard]] std::vector<thermal::InputChannel> own_channels(MachineLimits const& machine);
 
 }  // namespace thermotwin::scenarios

@@ -59,14 +59,18 @@ std::string nearest_name(std::string_view name, std::span<std::string const> kno
   return nearest == known.end() ? std::string() : *nearest;
 }
 
+std::string meant_name(std::string_view name, std::span<std::string const> known) {
+  if (known.empty()) return {};
+  if (std::string whole = whole_name(name, known); !whole.empty()) return whole;
+  std::string nearest = nearest_name(name, known);
+  int const size = static_cast<int>(name.size()), edits = edit_distance(name, nearest);
+  return edits <= std::max(1, size / 3) && edits < size ? nearest : std::string();
+}
+
 std::string did_you_mean(std::string_view name, std::span<std::string const> known,
                          std::function<std::string(std::string const&)> const& meaning) {
   if (known.empty()) return "none is known";
-  if (std::string const whole = whole_name(name, known); !whole.empty()) return "did you mean '" + whole + "'?";
-  std::string const nearest = nearest_name(name, known);
-  int const size = static_cast<int>(name.size());
-  int const edits = edit_distance(name, nearest);
-  if (edits <= std::max(1, size / 3) && edits < size) return "did you mean '" + nearest + "'?";
+  if (std::string const meant = meant_name(name, known); !meant.empty()) return "did you mean '" + meant + "'?";
   std::string sentence = "known: ";
   std::vector<std::string> const names = nearest_first(name, known);
   for (std::size_t i = 0; i < std::min(names.size(), listed_at_most); ++i) {

@@ -15,9 +15,13 @@ int edit_distance(std::string_view a, std::string_view b);
 /// known.
 std::string nearest_name(std::string_view name, std::span<std::string const> known);
 
-/// The end of an error message about an unknown name: "did you mean 'min'?" when only one begins with it, or one is
-/// close, else "known: 'a', 'b', …" (the nearest ten, nearest first), else "none is known". Beside the listed ones
-/// stands what they mean, where `meaning` says it: "'GJL-250' (grey cast iron)".
+/// The known name that was meant: the only one that begins so, or the nearest one if it is close; empty if there is
+/// none.
+std::string meant_name(std::string_view name, std::span<std::string const> known);
+
+/// The end of an error message about an unknown name: "did you mean 'min'?" where that was meant, else "known: 'a',
+/// 'b', …" (the nearest ten, nearest first), else "none is known". Beside the listed ones stands what they mean, where
+/// `meaning` says it: "'GJL-250' (grey cast iron)".
 std::string did_you_mean(std::string_view name, std::span<std::string const> known,
                          std::function<std::string(std::string const&)> const& meaning = {});
 

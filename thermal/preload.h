@@ -68,12 +68,11 @@ S nut_approach(S const& expansion, S const& radius, S const& screw_rise, S const
 }
 
 /// g = (∂Q/∂(θ_i − θ_o))/G: loop gain of heat that feeds on its own temperature difference; G conductance from the
-/// inner ring to the sink [W/K]. Warn above loop_gain_warning; at 1 the bearing runs away.
+/// inner ring to the sink [W/K]. At 1 the bearing runs away; 0.5 is near.
 template <class S>
 S loop_gain(S const& heat_slope, S const& conductance) {
   return heat_slope / conductance;
 }
-inline constexpr double loop_gain_warning = 0.5;
 
 /// A ring a ≤ r ≤ b rotating freely.
 struct RotatingRing {

@@ -219,9 +219,10 @@ void Assembly::add_air_terms() {
     }
 }
 
-std::vector<int> Assembly::friction_channels(std::string const& axis) {
-  return {channel(axis + ".speed"),
-          channel(axis + (friction_at_mean_speed_.contains(axis) ? ".speed" : ".moving_speed"))};
+std::vector<int> Assembly::friction_channels(std::string const& speed) {
+  constexpr std::string_view of_axis = ".speed";
+  std::string const axis = speed.ends_with(of_axis) ? speed.substr(0, speed.size() - of_axis.size()) : "";
+  return {channel(speed), channel(friction_while_moving_.contains(axis) ? axis + ".moving_speed" : speed)};
 }
 
 double Assembly::rated_speed(std::optional<double> own, std::string const& channel) const {

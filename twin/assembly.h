@@ -104,9 +104,9 @@ class Assembly {
   [[nodiscard]] thermal::Port boundary(std::string const& channel, double offset = 0.0);
 
   [[nodiscard]] int channel(std::string const& name) { return builder_.channel(name); }
-  /// Mean speed of the screw of an axis, and the one at which its friction is taken.
-  [[nodiscard]] std::vector<int> friction_channels(std::string const& axis);
-  void take_friction_at_mean_speed(std::string const& axis) { friction_at_mean_speed_.insert(axis); }
+  /// A speed over time, and the one at which friction is taken: of an axis, that of its screw while moving.
+  [[nodiscard]] std::vector<int> friction_channels(std::string const& speed);
+  void take_friction_while_moving(std::string const& axis) { friction_while_moving_.insert(axis); }
   /// The same for one that is between 0 and 1: a run must not give it in rpm.
   [[nodiscard]] int share(std::string const& name) { return builder_.share(name); }
   [[nodiscard]] double maximum_spindle_speed() const { return maximum_spindle_speed_; }
@@ -148,7 +148,7 @@ class Assembly {
   std::vector<ReadingTerm> reading_terms_;
   std::vector<AirTerm> air_terms_;
   double maximum_spindle_speed_ = 0.0;
-  std::set<std::string> friction_at_mean_speed_;
+  std::set<std::string> friction_while_moving_;  ///< axes
   Eigen::Vector3d up_;
   int part_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
+#include <span>
 
 #include "scenarios/course.h"
 #include "thermal/course_inputs.h"
@@ -78,6 +79,19 @@ std::vector<FieldRecord> machine_fields() {
   for (auto const& table : describe_machine())
     fields.push_back({table.name, "table", "", "", "", table.fields, {}, {}});
   return fields;
+}
+
+/// An input that an experiment would have to give, and that nearly has the name of one that all have.
+void find_misspelt_inputs(Value const& document, Machine const& machine, std::vector<std::string>& found) {
+  std::vector<std::string> own;
+  for (auto const& channel : scenarios::own_channels(machine.limits)) own.push_back(channel.name);
+  auto const& names = machine.network().channel_names();
+  for (auto const& name : std::span(names).first(std::size_t(machine.network().external_channels()))) {
+    bool const is_own = std::find(own.begin(), own.end(), name) != own.end();
+    if (auto const meant = is_own ? "" : thermal::meant_name(name, own); !meant.empty())
+      found.push_back(
+          fmt::format("{}: input '{}': did you mean '{}'?", place_of(document, "'" + name + "'").text(), name, meant));
+  }
 }
 
 /// InputError for what looks like a name, and is that of no file that comes with the program.
@@ -209,6 +223,7 @@ void FileChecker::read_machine(std::filesystem::path const& file, Value const& d
   check_counts(document);
   static_cast<void>(ranged_numbers(document));
   find_implausible(document, machine_fields(), check.warnings);
+  find_misspelt_inputs(document, machine, check.warnings);
   check.text = fmt::format("the machine {}: {} nodes, {} parts, {} sensors, {} displacement channels", machine.name,
                            machine.network().nodes(), machine.network().parts().size(), machine.sensors.size(),
                            machine.displacements.size());

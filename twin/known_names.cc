@@ -32,13 +32,10 @@ std::string material_list() {
 }
 
 std::string channel_list() {
-  scenarios::Experiment experiment;
-  experiment.duration = 3600.0;
-  scenarios::ExperimentCourse const course(experiment, {0.0, {{"AXIS"}}});
   std::string text =
       "input channels; AXIS: the name of an axis of the machine\n"
       "A file may give them in any unit of the same kind: rpm, mm/min, degC, %.\n\n";
-  for (auto const& channel : course.channels())
+  for (auto const& channel : scenarios::own_channels({0.0, {{"AXIS"}}}))
     text += fmt::format("  {:<27} {:<6} {}\n", channel.name, channel.unit, channel.description);
   return text +
          "\nA record must hold spindle.speed where the spindle turns, ambient.temperature, and what a part asks\n"

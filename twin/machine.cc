@@ -203,7 +203,7 @@ void MachineBuilder::read_head() {
   machine_.limits.max_spindle_speed = assembly_.maximum_spindle_speed();
   for (auto const& [axis, table] : tables_.read<AxisDescription>("axis")) {
     machine_.limits.axes.push_back({axis.name, axis.rapid_feed, axis.lead, axis.stroke_from, axis.stroke_to});
-    if (axis.friction_at == "mean speed") assembly_.take_friction_at_mean_speed(axis.name);
+    if (axis.friction_at == "moving speed") assembly_.take_friction_while_moving(axis.name);
   }
 }
 
@@ -445,13 +445,10 @@ void MachineBuilder::build_network() {
 
 /// A table of numbers tells inputs and readings apart by their names.
 void MachineBuilder::refuse_names_of_inputs() const {
-  scenarios::Experiment standstill;
-  standstill.duration = 3600.0;
-  scenarios::ExperimentCourse const course(standstill, machine_.limits);
   auto const& network = *machine_.network_;
   std::set<std::string> inputs(network.channel_names().begin(),
                                network.channel_names().begin() + network.external_channels());
-  for (auto const& channel : course.channels()) inputs.insert(channel.name);
+  for (auto const& channel : scenarios::own_channels(machine_.limits)) inputs.insert(channel.name);
   for (auto const& [name, kind] : channels_) {
     if (!inputs.contains(name)) continue;
     for (auto const& table : tables_.of(kind))

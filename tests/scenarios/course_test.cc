@@ -248,6 +248,48 @@ TEST(ExperimentCourse, MovesItsAxes) {
   EXPECT_EQ(jumps(course), (std::vector<double>{1800.0}));
 }
 
+/// ω = 2π v/l · d: a record of two of the three, whatever their rows and signs, is the motion of the programme.
+TEST(ExperimentCourse, WhateverIsRecordedOfAScrewCarriesTheOthersAlong) {
+  double const feed = from_unit(8000, "mm/min"), speed = 0.5 * from_unit(800, "rpm");
+  Experiment programme = experiment(3600.0);
+  FeedProgram& axis = programme.axes.emplace_back();
+  axis.blocks = {{1800.0, feed, {}}, {1800.0, {}, {}}};
+  axis.duty = 0.5;
+  ExperimentCourse const due(programme, machine());
+  auto const driven = [](std::string const& what, std::string const& unit, double value) -> DrivenChannel {
+    return {{"z." + what, unit, "recorded"}, Signal({0.0, 900.0, 1800.0}, {value, value, 0.0}, Interpolation::step)};
+  };
+  auto const constant_duty = [](double duty) -> DrivenChannel { return {{"z.duty", "1", "recorded"}, Signal(duty)}; };
+  Experiment const still = experiment(3600.0);
+  std::vector<std::pair<Experiment, std::vector<DrivenChannel>>> const records = {
+      {still, {driven("feed", "m/s", -feed), constant_duty(0.5)}},
+      {still, {driven("feed", "m/s", feed), driven("duty", "1", 0.5)}},
+      {still, {driven("speed", "rad/s", -speed), constant_duty(0.5)}},
+      {still, {driven("speed", "rad/s", speed), driven("feed", "m/s", -feed)}},
+      {programme, {driven("duty", "1", 0.5)}}};
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    Experiment e = records[r].first;
+    e.driven = records[r].second;
+    ExperimentCourse const course(e, machine());
+    for (double const t : {0.0, 1000.0, 1800.0, 3000.0})
+      for (std::string const what : {"feed", "speed", "moving_speed", "running"})
+        EXPECT_NEAR(at(course, "z." + what, t), at(due, "z." + what, t), 1e-12 * speed)
+            << what << " at " << t << ", " << r;
+    EXPECT_EQ(at(course, "z.duty", 0.0), 0.5) << r;
+    EXPECT_EQ(course.next_jump(900.0), 1800.0) << r;
+  }
+}
+
+TEST(ExperimentCourse, ASpeedOfAScrewAloneIsMotionAllTheTime) {
+  Experiment e = experiment(3600.0);
+  e.driven = {{{"z.speed", "rad/s", "recorded"}, Signal(-from_unit(800, "rpm"))}};
+  ExperimentCourse const course(e, machine());
+  EXPECT_NEAR(at(course, "z.feed", 0.0), from_unit(8000, "mm/min"), 1e-12);
+  EXPECT_NEAR(at(course, "z.moving_speed", 0.0), from_unit(800, "rpm"), 1e-12);
+  EXPECT_EQ(at(course, "z.duty", 0.0), 1.0);
+  EXPECT_EQ(at(course, "z.running", 0.0), 1.0);
+}
+
 TEST(ExperimentCourse, AFollowedNutIsAStrokeOfNoLength) {
   ExperimentCourse const course(eventful(), machine());
   EXPECT_NEAR(at(course, "z.position", 3.0), 0.42, 1e-12);

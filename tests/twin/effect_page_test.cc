@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
+#include "tests/twin/only.h"
+
 namespace thermotwin::twin {
 namespace {
 
@@ -36,27 +38,22 @@ TEST(EffectPage, ListsEveryEffectOnALineOfItsOwn) {
   }
 }
 
+std::string page_of(std::string const& name) {
+  return table_page(tests::only(describe_machine(), [&](auto const& table) { return table.name == name; }));
+}
+
 TEST(EffectPage, ShowsTheTablesOfAMachineFile) {
-  for (auto const& table : describe_machine())
-    if (table.name == "displacement") {
-      auto const page = table_page(table);
-      EXPECT_NE(page.find("segment"), std::string::npos);
-      EXPECT_NE(page.find("\n      against"), std::string::npos) << page;
-    }
+  auto const page = page_of("displacement");
+  EXPECT_NE(page.find("segment"), std::string::npos);
+  EXPECT_NE(page.find("\n      against"), std::string::npos) << page;
 }
 
 TEST(EffectPage, ShowsDefaultsOfListsAndWhatIsRequired) {
-  for (auto const& table : describe_machine()) {
-    auto const page = table_page(table);
-    if (table.name == "block") {
-      EXPECT_NE(page.find("list of number; default [10, 10, 10]"), std::string::npos) << page;
-      EXPECT_NE(page.find("three times length [m]; required"), std::string::npos) << page;
-      EXPECT_NE(page.find("default [\"0 mm\", \"0 mm\", \"0 mm\"]"), std::string::npos) << page;
-    }
-    if (table.name == "channel") {
-      EXPECT_NE(page.find("face: wall"), std::string::npos) << page;
-    }
-  }
+  auto const page = page_of("block");
+  EXPECT_NE(page.find("list of number; default [10, 10, 10]"), std::string::npos) << page;
+  EXPECT_NE(page.find("three times length [m]; required"), std::string::npos) << page;
+  EXPECT_NE(page.find("default [\"0 mm\", \"0 mm\", \"0 mm\"]"), std::string::npos) << page;
+  EXPECT_NE(page_of("channel").find("face: wall"), std::string::npos);
 }
 
 TEST(EffectsMarkdown, IsWhatTheDocumentationHolds) {

@@ -162,7 +162,7 @@ TEST(Compensation, OfAScrewShiftsAllPositionsAlike) {
 TEST(LaserAir, IsReadInProportionToThePosition) {
   auto const added = added_to_screw("[[laser_air]]\nname = \"path\"\nscrew = \"E_P\"", true);
   for (Eigen::Index p = 0; p < 3; ++p)
-    EXPECT_NEAR(added(added.rows() - 1, p), 5.0 * 0.955 * (0.12 + 0.3 * double(p)), 1e-9) << p;
+    EXPECT_NEAR(added(added.rows() - 1, p), -5.0 * 0.955 * (0.12 + 0.3 * double(p)), 1e-9) << p;
 }
 
 TEST(ProbeDrift, OfAScrewIsReadAtAllItsPositions) {

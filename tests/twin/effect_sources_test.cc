@@ -219,22 +219,26 @@ TEST(SkfBearing, IsTheTorqueOfTheCatalogue) {
 TEST(RollingContact, GrowsWithSpeedToTheOnePointFiveAndFallsAsTheOilWarms) {
   for (auto const& s : snippets()) {
     if (s.effect != "rolling_contact") continue;
-    std::string const channel = s.name == "bearing"           ? "spindle.speed"
-                                : s.name.starts_with("guide") ? "z.feed"
-                                                              : "z.speed";
-    double const low = heat_with(s, 293.15, 293.15, {{channel, 0.1}}),
-                 high = heat_with(s, 293.15, 293.15, {{channel, 0.4}});
+    auto const at = [&](double speed) -> Inputs {
+      if (s.name == "bearing") return {{"spindle.speed", speed}};
+      if (s.name.starts_with("guide")) return {{"z.feed", speed}};
+      return {{"z.speed", speed}, {"z.moving_speed", speed}};
+    };
+    double const low = heat_with(s, 293.15, 293.15, at(0.1)), high = heat_with(s, 293.15, 293.15, at(0.4));
     EXPECT_NEAR(std::log2(high / low) / 2.0, 1.54, 0.07) << s.name;
     EXPECT_LT(heat_with(s, 313.15, 313.15), 0.7 * heat_with(s, 293.15, 293.15)) << s.name;
-    EXPECT_EQ(heat_with(s, 293.15, 293.15, {{channel, 0.0}}), 0.0) << s.name;
+    EXPECT_EQ(heat_with(s, 293.15, 293.15, at(0.0)), 0.0) << s.name;
   }
 }
 
 /// What moves half of the time has its own torque for half of the time; with the mean speed alone the oil would drag
 /// less.
 TEST(FeedDrive, HasTheTorqueOfTheSpeedAtWhichItMoves) {
-  for (std::string const name : {"ball_nut", "support_bearing", "feed_motor"}) {
-    auto const& effect = snippet(name);
+  std::vector<std::pair<std::string, std::string>> const parts = {
+      {"ball_nut", "plain"},    {"support_bearing", "plain"},      {"feed_motor", "plain"},
+      {"skf_bearing", "plain"}, {"rolling_contact", "double_nut"}, {"gear", "of_an_axis"}};
+  for (auto const& [name, of] : parts) {
+    auto const& effect = snippet(name, of);
     auto const heat = [&](double mean, double moving) {
       return total_heat(effect, {{"z.speed", mean}, {"z.moving_speed", moving}});
     };
@@ -244,6 +248,18 @@ TEST(FeedDrive, HasTheTorqueOfTheSpeedAtWhichItMoves) {
     EXPECT_EQ(heat(50.0, 0.0), heat(50.0, 50.0)) << name;
     EXPECT_EQ(heat(0.0, 100.0), 0.0) << name;
   }
+}
+
+/// A screw that moves half of the time is cooled, and conducts to its nut, as the mean of motion and rest does, not as
+/// at half its speed.
+TEST(FeedDrive, ConductsAsTheMeanOfMotionAndRest) {
+  auto const& effect = snippet("film", "of_a_screw");
+  auto const heat = [&](double mean, double moving) {
+    return heat_with(effect, 303.15, 303.15, {{"z.speed", mean}, {"z.moving_speed", moving}});
+  };
+  EXPECT_NEAR(heat(50.0, 100.0), 0.5 * (heat(100.0, 100.0) + heat(0.0, 0.0)), 1e-9 * std::abs(heat(100.0, 100.0)));
+  EXPECT_GT(std::abs(heat(50.0, 100.0) / heat(50.0, 50.0) - 1.0), 0.01);
+  EXPECT_EQ(heat(0.0, 100.0), heat(0.0, 0.0));
 }
 
 TEST(Gear, ChurnsWithAPowerOfSpeedAndLosesUnderLoad) {

@@ -77,6 +77,18 @@ TEST(FileCheck, WarnsOfWhatIsNotPlausible) {
   EXPECT_THAT(checks[1].warnings, ElementsAre(HasSubstr("'amplitude' is \"12 K\"; outside what is plausible")));
 }
 
+TEST(FileCheck, WarnsOfAnInputThatNearlyHasAKnownName) {
+  TemporaryDirectory const folder;
+  auto text = contents(machine_file("vmc850"));
+  std::string const speed = "speed = \"z.speed\"";
+  text.replace(text.find(speed), speed.size(), "speed = \"zspeed\"");
+  put(folder / "machine.toml", text);
+  auto const check = check_files({folder / "machine.toml"})[0];
+  EXPECT_EQ(check.mistake, "");
+  EXPECT_THAT(check.warnings,
+              ElementsAre(MatchesRegex(".*machine.toml:294:[0-9]+: input 'zspeed': did you mean 'z.speed'\\?")));
+}
+
 TEST(FileCheck, CountsInWholeNumbers) {
   TemporaryDirectory const folder;
   auto text = contents(machine_file("v450"));

@@ -12,6 +12,7 @@
 #include "output/atomic_file.h"
 #include "output/campaign_file.h"
 #include "output/checksum.h"
+#include "output/csv.h"
 #include "output/error.h"
 #include "output/locked_file.h"
 #include "thermal/error.h"
@@ -188,10 +189,10 @@ class Stopper {
   std::exception_ptr first_;
 };
 
-std::string csv_text(std::string text) {
+/// A field of a CSV file: all in one line.
+std::string in_one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
-  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
-  return "\"" + text + "\"";
+  return output::csv_field(text);
 }
 
 }  // namespace
@@ -255,7 +256,7 @@ bool finish_campaign(Campaign const& campaign, fs::path const& folder) {
   std::string failures = "run,reason\n";
   for (auto const& part : parts)
     for (auto const& [run, reason] : output::read_failures(folder / part.file))
-      failures += fmt::format("{},{}\n", run, csv_text(reason));
+      failures += fmt::format("{},{}\n", run, in_one_line(reason));
   output::write_atomically(folder / "failures.csv", failures);
   CampaignForm const form(campaign, Machine::build(campaign.machine(campaign.nominal(0))));
   auto layout = form.layout();

@@ -7,6 +7,7 @@
 #include "output/atomic_file.h"
 #include "thermal/error.h"
 #include "twin/file/output_path.h"
+#include "twin/file/text_file.h"
 #include "twin/file/value.h"
 #include "twin/influence_file.h"
 
@@ -214,9 +215,9 @@ std::string with_last_words(std::string_view text, std::string_view comment) {
 
 void write_amended(fs::path const& machine_file, fs::path const& path, std::string_view text) {
   refuse_to_overwrite(path, machine_file, {});
-  output::write_atomically(path, text);
   auto const from = weights_file(machine_file), to = weights_file(path);
-  if (fs::exists(from) && !fs::exists(to)) fs::copy_file(from, to);
+  if (fs::exists(from) && !fs::exists(to)) output::write_atomically(to, text_of_file(from));
+  output::write_atomically(path, text);
 }
 
 }  // namespace thermotwin::twin

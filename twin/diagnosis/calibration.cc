@@ -27,7 +27,7 @@ constexpr double more_than_noise = 2.0;  // misfit
 
 std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machine const& machine) {
   if (unknown.kind == Unknown::Kind::lag) return "s";
-  if (unknown.kind == Unknown::Kind::input) return "1";
+  if (unknown.kind == Unknown::Kind::input || unknown.kind == Unknown::Kind::warmth) return "1";
   if (unknown.kind != Unknown::Kind::offset || unknown.run < 0) return "K";
   auto const& channels = estimation.data()[std::size_t(unknown.run)].run->channels;
   auto const of_zero = std::find_if(channels.begin(), channels.end(), [&](auto const& channel) {

@@ -9,7 +9,7 @@
 
 namespace thermotwin::twin {
 
-/// Root mean square of measured minus predicted [SI] for two machines; NaN where there is no sample.
+/// Root mean square of measured minus predicted for two machines; NaN where there is no sample.
 struct GapPair {
   double before = 0.0, after = 0.0;
   Eigen::Index samples = 0;

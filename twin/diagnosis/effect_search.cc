@@ -269,10 +269,8 @@ std::vector<EffectSearch::Refit> EffectSearch::refits(Fit const& about, std::vec
     auto const last = about.x.size();
     bool const both = refit.hypothesis.trial->either_sign;
     start[last] = std::clamp(start[last], both ? -most_of_largest : 1e-3, most_of_largest);
-    try {
-      refit.take(estimation_->with(std::vector<Hypothesis>{refit.hypothesis}).fit(start, 4), last, fit_.evidence);
-    } catch (std::exception const&) {  // what cannot be fitted has no evidence
-    }
+    auto const with_it = estimation_->with(std::vector<Hypothesis>{refit.hypothesis});
+    if (auto fit = with_it.try_fit(start, 4)) refit.take(std::move(*fit), last, fit_.evidence);
   });
   std::stable_sort(result.begin(), result.end(), [](auto const& a, auto const& b) { return a.strength > b.strength; });
   return result;
@@ -329,10 +327,8 @@ std::vector<EffectSearch::Refit> EffectSearch::refits_in_place_of(std::size_t ef
     start[place] = probable_amplitude(scores[chosen[i]]);
     auto effects = estimation_->effects();
     effects[effect] = refit.hypothesis;
-    try {
-      refit.take(with_effects(effects).fit(start, 10), place, strength + fit_.evidence);
-    } catch (std::exception const&) {  // what cannot be fitted has no evidence
-    }
+    if (auto fit = with_effects(effects).try_fit(start, 10))
+      refit.take(std::move(*fit), place, strength + fit_.evidence);
   });
   return result;
 }
@@ -433,7 +429,8 @@ std::vector<double> EffectSearch::strengths_beside_others() const {
     if (is_ordinary(effects[e], fit_, first + Eigen::Index(e))) return;
     auto others = effects;
     others.erase(others.begin() + std::ptrdiff_t(e));
-    strengths[e] = with_effects(others).fit(shorter(fit_.x, first + Eigen::Index(e)), 10).evidence - fit_.evidence;
+    auto const without_it = with_effects(others).try_fit(shorter(fit_.x, first + Eigen::Index(e)), 10);
+    strengths[e] = without_it ? without_it->evidence - fit_.evidence : explanations_[e].alternatives[0].strength;
   });
   return strengths;
 }
@@ -478,12 +475,12 @@ bool EffectSearch::exchange() {
       auto effects = estimation_->effects();
       effects[e] = best.hypothesis;
       Estimation const changed = with_effects(effects);
-      Fit const fit = changed.fit(best.x, 10);
-      auto const place = fit.x.size() - Eigen::Index(effects.size() - e);
-      if (fit.evidence < fit_.evidence - 2.0 && !is_ordinary(best.hypothesis, fit, place)) {
-        strength += fit_.evidence - fit.evidence;
+      auto fit = changed.try_fit(best.x, 10);
+      auto const place = best.x.size() - Eigen::Index(effects.size() - e);
+      if (fit && fit->evidence < fit_.evidence - 2.0 && !is_ordinary(best.hypothesis, *fit, place)) {
+        strength += fit_.evidence - fit->evidence;
         estimation_ = changed;
-        fit_ = fit;
+        fit_ = std::move(*fit);
         linearise();
         exchanged = true;
         all = instead_of(e, strength, rivals);

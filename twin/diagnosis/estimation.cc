@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 
+#include "models/log_determinant.h"
 #include "thermal/error.h"
 #include "thermal/threaded_product.h"
 #include "thermal/units.h"
@@ -276,7 +277,9 @@ std::unique_ptr<Estimation::Traced const> Estimation::trace(Eigen::VectorXd cons
   traced->runs.resize(data_->size());
   try {
     in_parallel(data_->size(), [&](std::size_t r) { traced->runs[r].emplace(traced->machine, (*data_)[r]); });
-  } catch (std::exception const&) {
+  } catch (thermal::InputError const&) {
+    return nullptr;
+  } catch (thermal::IntegrationError const&) {
     return nullptr;
   }
   return traced;
@@ -383,7 +386,9 @@ bool Estimation::evaluate(Eigen::VectorXd const& x, std::unique_ptr<Traced const
   try {
     add_heat(*traced, at);
     in_parallel(data_->size(), [&](std::size_t r) { add_readings(r, *traced, at); });
-  } catch (std::exception const&) {
+  } catch (thermal::InputError const&) {
+    return false;
+  } catch (thermal::IntegrationError const&) {
     return false;
   }
   at.own = thermal::threaded_square(at.jacobian);
@@ -447,6 +452,15 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   return fit;
 }
 
+std::optional<Fit> Estimation::try_fit(Eigen::VectorXd const& start, int iterations) const {
+  try {
+    return fit(start, iterations);
+  } catch (thermal::InputError const&) {
+  } catch (thermal::IntegrationError const&) {
+  }
+  return std::nullopt;
+}
+
 /// With all unknowns.
 Fit Estimation::fit_at(Eigen::VectorXd const& x, Linearisation at) const {
   auto const count = Eigen::Index(unknowns_.size());
@@ -474,9 +488,9 @@ Fit Estimation::fit_at(Eigen::VectorXd const& x, Linearisation at) const {
   product(free, held) = -at.shared.transpose();
   fit.jacobian = Jacobian(std::move(at.jacobian), std::move(priors), elimination_, first_linear_);
   Eigen::LLT<Eigen::MatrixXd> const information(product);
+  if (information.info() != Eigen::Success) throw thermal::InputError(std::string(cannot_be_run));
   fit.covariance = information.solve(Eigen::MatrixXd::Identity(count, count));
-  double const log_determinant = 2.0 * information.matrixLLT().diagonal().array().log().sum();
-  fit.evidence = fit.cost + log_determinant;
+  fit.evidence = fit.cost + models::log_determinant(information);
   for (auto const& unknown : unknowns_) fit.evidence += 2.0 * std::log(unknown.deviation);
   for (auto const& effect : effects_) fit.evidence += effect.choice;
   for (auto const& unknown : unknowns_)

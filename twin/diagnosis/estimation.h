@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,6 +62,8 @@ class Estimation {
 
   /// From there on; what is linear needs no start.
   [[nodiscard]] Fit fit(Eigen::VectorXd const& start, int iterations = 10) const;
+  /// The same; nothing where the machine cannot be run there.
+  [[nodiscard]] std::optional<Fit> try_fit(Eigen::VectorXd const& start, int iterations) const;
   /// Of the machine as the document has it: squares of residuals and of what is linear, at its best, by their errors.
   [[nodiscard]] double cost_of_document() const;
   [[nodiscard]] Eigen::VectorXd prior_mean() const;

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "models/log_determinant.h"
 #include "thermal/threaded_product.h"
 #include "twin/diagnosis/finding.h"
 #include "twin/diagnosis/regimes.h"
@@ -131,25 +132,20 @@ Eigen::MatrixXd walk_precision(std::vector<Eigen::VectorXd> const& knots, double
   return precision;
 }
 
-double log_determinant(Eigen::LLT<Eigen::MatrixXd> const& factor) {
-  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-}
-
 FreeHeat estimate(HeatSite const& site, std::vector<Eigen::VectorXd> const& knots, Eigen::MatrixXd const& information,
                   Eigen::VectorXd const& towards) {
-  FreeHeat best{site, 0.0, -INFINITY, knots, {}, {}, {}};
   auto const size = information.rows();
+  FreeHeat best{site, -INFINITY, knots, {}, Eigen::MatrixXd::Zero(size, size), {}};
   double const unit = site.is_air() ? of_air : 1.0;
-  Eigen::VectorXd heat;
+  Eigen::VectorXd heat = Eigen::VectorXd::Zero(size);
   for (double const first_deviation : first_deviations)
     for (double const intensity : intensities) {
       Eigen::MatrixXd const prior = walk_precision(knots, unit * first_deviation, unit * intensity);
       Eigen::LLT<Eigen::MatrixXd> const posterior(information + prior), before(prior);
       Eigen::VectorXd const q = posterior.solve(towards);
-      double const gain = q.dot(towards) - log_determinant(posterior) + log_determinant(before);
-      if (gain <= best.gain) continue;
+      double const gain = q.dot(towards) - models::log_determinant(posterior) + models::log_determinant(before);
+      if (!(gain > best.gain)) continue;
       best.gain = gain;
-      best.intensity = intensity;
       heat = q;
       best.spread = posterior.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
     }
@@ -238,7 +234,6 @@ void tell_in_watts(FreeHeat& air, Machine const& machine, std::vector<BinnedRun>
   auto const most = std::max_element(air.per_kelvin.begin(), air.per_kelvin.end(),
                                      [](auto const& a, auto const& b) { return a.second < b.second; });
   air.site.body = most->first;
-  air.intensity *= most->second;
   air.spread *= most->second;
   for (auto& of_run : air.heat) of_run *= most->second;
 }

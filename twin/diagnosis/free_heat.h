@@ -34,7 +34,6 @@ struct Watts {
 /// its kelvins for 100 W.
 struct FreeHeat {
   HeatSite site;
-  double intensity = 0.0;              ///< S [W/√s] that fits best
   double gain = 0.0;                   ///< 2 ln of the evidence against no such heat
   std::vector<Eigen::VectorXd> knots;  ///< per run [s]
   std::vector<Eigen::VectorXd> heat;   ///< per run, at the knots [W]

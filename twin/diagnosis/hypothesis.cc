@@ -113,7 +113,7 @@ void Sites::add_bodies() {
       add("solid but no motor", {place, body});
     if (std::find(turning.begin(), turning.end(), body) != turning.end()) return;
     add("resting solid", {place, body});
-    if (table.find("material")) add("casting", {place, body});
+    if (table.find("material") && feed_drive(body).empty()) add("casting", {place, body});
   };
   for (std::string const kind : {"lump", "bar", "hollow_cylinder", "block"})
     for_tables(kind, [&](Value const& table) {

@@ -12,6 +12,15 @@
 namespace thermotwin::twin {
 namespace {
 
+/// Of the whole process, once: a fit that ends early says so by `converged`.
+void silence() {
+  static bool const once = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
 constexpr int most_rounds = 12;  // of holding other unknowns
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -106,7 +115,7 @@ void solve_holding(std::vector<int> const& held, LeastSquares const& least_squar
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   options.callbacks.push_back(cost);
-  FLAGS_minloglevel = google::GLOG_FATAL;  // a fit that ends early says so by `converged`
+  silence();
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   result.converged = summary.termination_type == ceres::CONVERGENCE || summary.termination_type == ceres::USER_SUCCESS;

@@ -190,11 +190,14 @@ void remark_strangers(MeasuredData const& data, std::vector<Expected> const& exp
   auto const known = [&](std::string const& name) {
     return std::any_of(expected.begin(), expected.end(), [&](auto const& e) { return e.name == name; });
   };
-  for (auto const* group : {&data.readings, &data.displacements})
-    for (auto const& channel : *group)
-      if (!known(channel.name)) strangers.push_back(channel.name);
   for (auto const& e : expected)
     if (!find(e.displacement ? data.displacements : data.readings, e.name)) absent.push_back(e.name);
+  for (auto const* group : {&data.readings, &data.displacements})
+    for (auto const& channel : *group) {
+      if (known(channel.name)) continue;
+      auto const meant = thermal::meant_name(channel.name, absent);
+      strangers.push_back(meant.empty() ? channel.name : fmt::format("{} (did you mean '{}'?)", channel.name, meant));
+    }
   if (!strangers.empty()) remarks.push_back(fmt::format("in the data, but not used: {}", fmt::join(strangers, ", ")));
   if (!absent.empty())
     remarks.push_back(fmt::format("of the machine, but not in the data: {}", fmt::join(absent, ", ")));

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <string_view>
 
@@ -65,30 +64,6 @@ bool is_derived(SampledInput const& input, MeasuredData const& data) {
   return what == "running" && find(data.inputs, owner + ".feed") != nullptr;
 }
 
-/// Feed and mean speed of a screw from one another: speed = 2π feed/lead · duty.
-void complete_axis(std::vector<SampledInput>& inputs, scenarios::AxisLimits const& axis) {
-  SampledInput const* feed = find(inputs, axis.name + ".feed");
-  SampledInput const* speed = find(inputs, axis.name + ".speed");
-  SampledInput const* duty = find(inputs, axis.name + ".duty");
-  double const turns = 2.0 * std::numbers::pi / axis.lead;
-  if (speed && !feed) {
-    SampledInput derived = *speed;
-    derived.name = axis.name + ".feed";
-    derived.unit = "m/s";
-    bool const part_time = duty && duty->times == speed->times;
-    for (std::size_t i = 0; i < derived.values.size(); ++i)
-      derived.values[i] /= turns * (part_time && duty->values[i] > 0.0 ? duty->values[i] : 1.0);
-    inputs.push_back(derived);
-  } else if (feed && duty && !speed && duty->times == feed->times) {
-    SampledInput derived = *feed;
-    derived.name = axis.name + ".speed";
-    derived.unit = "rad/s";
-    for (std::size_t i = 0; i < derived.values.size(); ++i)
-      derived.values[i] = std::abs(derived.values[i]) * turns * duty->values[i];
-    inputs.push_back(derived);
-  }
-}
-
 std::vector<std::string> needed_channels(Machine const& machine) {
   auto const& network = machine.network();
   std::vector<std::string> names(network.channel_names().begin(),
@@ -109,20 +84,6 @@ std::string due_for(std::string const& channel, Machine const& machine) {
   for (auto const& known : suppositions())
     if (channel == known.channel) return "";
   return channel == "time_of_day" || channel.starts_with("clock.") ? "" : channel;
-}
-
-/// "'coolant.on'?" where a name is nearly one of these; else empty.
-std::string near_name(std::string const& name, std::vector<std::string> const& known) {
-  std::string const text = known.empty() ? "" : thermal::did_you_mean(name, known);
-  constexpr std::string_view question = "did you mean ";
-  return text.starts_with(question) ? text.substr(question.size()) : "";
-}
-
-/// Channels that every experiment on a machine with these axes has.
-std::vector<thermal::InputChannel> own_channels(scenarios::MachineLimits const& limits) {
-  scenarios::Experiment experiment;
-  experiment.duration = 3600.0;
-  return scenarios::ExperimentCourse(experiment, limits).channels();
 }
 
 std::vector<std::string> names_of(std::vector<thermal::InputChannel> const& channels) {
@@ -152,7 +113,7 @@ void check_unit_among(std::vector<thermal::InputChannel> const& own, Value const
 }
 
 void check_units(MeasuredData const& data, Machine const& machine) {
-  auto const own = own_channels(machine.limits);
+  auto const own = scenarios::own_channels(machine.limits);
   for (auto const& input : data.inputs)
     if (auto const table = data.input_tables.find(input.name); table != data.input_tables.end())
       located(table->second, [&] { check_unit_among(own, table->second, input); });
@@ -161,7 +122,7 @@ void check_units(MeasuredData const& data, Machine const& machine) {
 /// Of a measurement file, whose names somebody wrote: a name that is nearly one that is read, and not given, is a
 /// mistake. Others may belong to what the machine's file does not have yet.
 void check_names_of_inputs(MeasuredData const& data, Machine const& machine, std::vector<std::string>& remarks) {
-  auto read = names_of(own_channels(machine.limits));
+  auto read = names_of(scenarios::own_channels(machine.limits));
   for (auto const& name : needed_channels(machine)) read.push_back(name);
   auto const is_read = [&](std::string const& name) { return std::find(read.begin(), read.end(), name) != read.end(); };
   std::vector<std::string> not_given, unread;
@@ -169,9 +130,9 @@ void check_names_of_inputs(MeasuredData const& data, Machine const& machine, std
     if (!find(data.inputs, name)) not_given.push_back(name);
   for (auto const& [name, table] : data.input_tables) {
     if (is_read(name)) continue;
-    if (auto const near = near_name(name, not_given); !near.empty())
+    if (auto const near = thermal::meant_name(name, not_given); !near.empty())
       located(data.input_tables, name, [&, &name = name] {
-        throw InputError(fmt::format("nothing on '{}' reads '{}'; did you mean {}", machine.name, name, near));
+        throw InputError(fmt::format("nothing on '{}' reads '{}'; did you mean '{}'?", machine.name, name, near));
       });
     unread.push_back(name);
   }
@@ -189,31 +150,40 @@ void check_needs(MeasuredData const& data, Machine const& machine) {
     if (std::find(missing.begin(), missing.end(), due) == missing.end()) missing.push_back(due);
   }
   if (missing.empty()) return;
-  auto const known = names_of(own_channels(machine.limits));
+  auto const known = names_of(scenarios::own_channels(machine.limits));
   std::string hints;  // a name of the machine's file, or of the data, may be misspelt
   for (auto const& name : missing) {
     bool const own = std::find(known.begin(), known.end(), name) != known.end();
-    auto const hint = near_name(name, own ? given : known);
-    if (!hint.empty()) hints += fmt::format("; '{}': {} {}", name, own ? "is it" : "did you mean", hint);
+    auto const hint = thermal::meant_name(name, own ? given : known);
+    if (!hint.empty()) hints += fmt::format("; '{}': {} '{}'?", name, own ? "is it" : "did you mean", hint);
   }
   throw InputError(fmt::format("the machine '{}' needs inputs that the data lack: {}; the data have {}{}", machine.name,
                                fmt::join(missing, ", "),
                                given.empty() ? "none" : fmt::format("{}", fmt::join(given, ", ")), hints));
 }
 
-void check_speed(MeasuredData const& data, Machine const& machine) {
-  SampledInput const* speed = find(data.inputs, "spindle.speed");
-  double const limit = machine.limits.max_spindle_speed;
-  if (!speed || limit <= 0.0) return;
-  double fastest = 0.0;
-  for (double const value : speed->values)
-    if (std::isfinite(value)) fastest = std::max(fastest, std::abs(value));
-  if (fastest > 1.2 * limit)
-    located(data.input_tables, "spindle.speed", [&] {
-      throw InputError(fmt::format(
-          "input 'spindle.speed' reaches {:.0f} rpm, and the machine's maximum is {:.0f} rpm; is its unit right?",
-          thermal::to_unit(fastest, "rpm"), thermal::to_unit(limit, "rpm")));
-    });
+/// `most`: "the machine's maximum" or the like.
+void check_largest(MeasuredData const& data, std::string const& name, double limit, std::string_view most) {
+  SampledInput const* input = find(data.inputs, name);
+  if (!input || limit <= 0.0) return;
+  double largest = 0.0;
+  for (double const value : input->values)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  if (largest <= 1.2 * limit) return;
+  auto const text = [&](double value) { return thermal::format_quantity(value, thermal::dimension_of(input->unit)); };
+  located(data.input_tables, name, [&] {
+    throw InputError(
+        fmt::format("input '{}' reaches {}, and {} is {}; is its unit right?", name, text(largest), most, text(limit)));
+  });
+}
+
+void check_motion(MeasuredData const& data, Machine const& machine) {
+  constexpr std::string_view maximum = "the machine's maximum";
+  check_largest(data, "spindle.speed", machine.limits.max_spindle_speed, maximum);
+  for (auto const& axis : machine.limits.axes) {
+    check_largest(data, axis.name + ".feed", axis.rapid_feed, maximum);
+    check_largest(data, axis.name + ".duty", 1.0, "the most");
+  }
 }
 
 void remark_suppositions(MeasuredData const& data, Machine const& machine, std::vector<std::string>& remarks) {
@@ -226,10 +196,10 @@ void remark_suppositions(MeasuredData const& data, Machine const& machine, std::
   for (auto const& axis : machine.limits.axes) {
     bool const due =
         std::any_of(needed.begin(), needed.end(), [&](auto const& name) { return name.starts_with(axis.name + "."); });
-    if (due && !find(data.inputs, axis.name + ".feed")) said.push_back("axis " + axis.name + " stands still");
-    if (due && find(data.inputs, axis.name + ".feed") && !find(data.inputs, axis.name + ".speed") &&
-        !find(data.inputs, axis.name + ".duty"))
-      said.push_back("axis " + axis.name + " moves whenever it has a feed");
+    bool const feed = find(data.inputs, axis.name + ".feed"), speed = find(data.inputs, axis.name + ".speed");
+    if (due && !feed && !speed) said.push_back("axis " + axis.name + " stands still");
+    if (due && feed != speed && !find(data.inputs, axis.name + ".duty"))
+      said.push_back(fmt::format("axis {} moves whenever it has a {}", axis.name, feed ? "feed" : "speed"));
   }
   if (!said.empty()) remarks.push_back(fmt::format("not in the data, and supposed: {}", fmt::join(said, "; ")));
 }
@@ -257,7 +227,7 @@ void move_to_jumps(std::vector<InputChange>& changes, thermal::Course const& cou
 }  // namespace
 
 void check_unit_of_channel(Value const& table, SampledInput const& input) {
-  check_unit_among(own_channels({}), table, input);
+  check_unit_among(scenarios::own_channels({}), table, input);
 }
 
 void leave_out_impossible(SampledInput& input, std::vector<std::string>& remarks) {
@@ -278,14 +248,14 @@ void leave_out_impossible(SampledInput& input, std::vector<std::string>& remarks
 }
 
 std::vector<std::string> misspelt_inputs(MeasuredData const& data) {
-  auto const known = names_of(own_channels({}));
+  auto const known = names_of(scenarios::own_channels({}));
   std::vector<std::string> remarks;
   for (auto const& [name, table] : data.input_tables) {
     bool const is_known = std::find(known.begin(), known.end(), name) != known.end();
-    auto const near = is_known ? "" : near_name(name, known);
+    auto const near = is_known ? "" : thermal::meant_name(name, known);
     if (!near.empty())
       remarks.push_back(
-          fmt::format("{}: input '{}': did you mean {}", place_of(table, "'" + name + "'").text(), name, near));
+          fmt::format("{}: input '{}': did you mean '{}'?", place_of(table, "'" + name + "'").text(), name, near));
   }
   return remarks;
 }
@@ -297,11 +267,10 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
   if (SampledInput const* clock = find(data.inputs, "time_of_day"))
     experiment.start_time_of_day = start_time_of_day(*clock).value_or(experiment.start_time_of_day);
   std::erase_if(data.inputs, [](SampledInput const& input) { return !recorded(input); });
-  for (auto const& axis : machine.limits.axes) complete_axis(data.inputs, axis);
   check_names_of_inputs(data, machine, run.remarks);
   check_units(data, machine);
   check_needs(data, machine);
-  check_speed(data, machine);
+  check_motion(data, machine);
   remark_suppositions(data, machine, run.remarks);
   std::vector<std::vector<RecordGap>> gaps;
   for (auto const& input : data.inputs) {

@@ -46,7 +46,7 @@ std::vector<std::vector<Remedy>> remedies(Value const& document, std::vector<Bin
   Machine const machine = Machine::build(document);
   Value const extended = with_added_sensors(document, machine);
   Machine const observed = Machine::build(extended);
-  auto const schedules = separating_schedules(machine);
+  auto const schedules = separating_schedules(machine, runs);
   std::vector<MeasuredRun> further;
   for (auto const& schedule : schedules) further.push_back(simulated_run(observed, schedule));
   std::vector<BinnedRun> all = runs;

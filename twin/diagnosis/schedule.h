@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenarios/experiment.h"
-#include "twin/diagnosis/measured_run.h"
+#include "twin/diagnosis/binned_run.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -22,7 +22,8 @@ struct Schedule {
 [[nodiscard]] Schedule read_schedule(std::filesystem::path const& file);
 
 /// The catalogue's schedules for telling effects apart, `separate_*.toml`, but for those that this machine cannot do.
-[[nodiscard]] std::vector<Schedule> separating_schedules(Machine const& machine);
+/// Inputs of the machine's own, which they do not know, are held at their mean over the runs so far.
+[[nodiscard]] std::vector<Schedule> separating_schedules(Machine const& machine, std::vector<BinnedRun> const& runs);
 
 /// What the machine's channels would show of it, instruments included.
 [[nodiscard]] MeasuredRun simulated_run(Machine const& machine, Schedule const& schedule);

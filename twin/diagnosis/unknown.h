@@ -31,7 +31,7 @@ struct Unknown {
   std::string name;
   double mean = 0.0, deviation = 1.0;
   double lower = -INFINITY, upper = INFINITY;
-  std::size_t index = 0;  ///< of the number, effect, channel, field, alternative, change or interior
+  std::size_t index = 0;  ///< of the number, effect, channel, field, alternative, change, place, loop or interior
   int run = -1;           ///< −1: all
 };
 

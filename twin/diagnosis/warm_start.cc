@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <unordered_map>
 
+#include "models/log_determinant.h"
 #include "thermal/evaluation.h"
 #include "thermal/integrate.h"
 #include "twin/diagnosis/channel_reading.h"
@@ -118,7 +119,7 @@ Eigen::LLT<MatrixXd> covariance(MatrixXd const& shown) {
 /// 2 ln of N(d; 0, cov(d)), without what does not depend on it.
 double likelihood(MatrixXd const& shown, VectorXd const& rise) {
   auto const factor = covariance(shown);
-  return -rise.dot(factor.solve(rise)) - 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  return -rise.dot(factor.solve(rise)) - models::log_determinant(factor);
 }
 
 /// What no field gains more than, for each widens cov(d): dᵀ cov(d)⁻¹ d without any.

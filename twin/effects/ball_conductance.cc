@@ -18,6 +18,7 @@ struct SchaeferConductance {
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     using std::sqrt;
+    thermal::within<S>(thermal::schaefer_angular_speed, S(u[0]));
     double const speed = thermal::smooth_abs<double>(u[0], thermal::slowest_rotation);
     thermal::exchange<S>(c[0] * sqrt(S(c[1] + 2.0 * std::log(speed))) * (T[1] - T[0]), q);
   }

@@ -27,14 +27,16 @@ struct NutHeat {
 };
 
 /// q = w G (T₁ − T₀), G = G₀ + G₁ √(ω/ω_ref): port 0 nut, port 1 a cell of the screw, over which the nut stands for the
-/// share w of the time. c = {G₀, G₁, ω_ref}, u = {ω, w}.
+/// share w of the time. While the nut rests G is G₀. c = {G₀, G₁, ω_ref}, u = {those of torque_speed, w}.
 struct NutConductance {
   static constexpr std::string_view name = "conduction through the balls of a nut";
-  static constexpr int ports = 2, coefficients = 3, inputs = 2;
+  static constexpr int ports = 2, coefficients = 3, inputs = 3;
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    thermal::exchange<S>(u[1] * thermal::rolling_conductance<S>(c[0], c[1], c[2], u[0]) * (T[1] - T[0]), q);
+    double const speed = torque_speed(u), share = u[0] > 0.0 ? u[0] / speed : 0.0;
+    S const conductance = thermal::rolling_conductance<S>(c[0], share * c[1], c[2], speed);
+    thermal::exchange<S>(u[2] * conductance * (T[1] - T[0]), q);
   }
 };
 
@@ -83,18 +85,18 @@ struct BallNut {
     under.window = nut_length;
     under.edges = track.edges[0];
     auto const nut_port = assembly.port(nut), screw_port = assembly.network().add_average(std::move(under));
-    auto const speed = assembly.channel(axis + ".speed");
+    auto const speeds = assembly.friction_channels(axis + ".speed");
 
     auto torque = NutTorque::coefficients_of(preload, lead, nominal_diameter, axial_load, efficiency, viscous_share,
                                              thermal::mineral_oil_viscosity(oil), reference_speed);
     assembly.announce(name, {{nut_port, screw_port}, torque});
     torque.push_back(nut_share);
-    assembly.network().add<NutHeat>(assembly.part(), {nut_port, screw_port}, torque, assembly.friction_channels(axis));
+    assembly.network().add<NutHeat>(assembly.part(), {nut_port, screw_port}, torque, speeds);
     for (int i = 0; i < track.nodes(); ++i)
       assembly.network().add<NutConductance>(assembly.part(),
                                              {nut_port, {thermal::Port::Kind::node, assembly.first_node(screw) + i}},
                                              {conductance_rest, conductance_speed, reference_speed},
-                                             {speed, assembly.network().weight_channel(screw_port, i)});
+                                             {speeds[0], speeds[1], assembly.network().weight_channel(screw_port, i)});
   }
 };
 
@@ -107,7 +109,8 @@ Effect const& ball_nut_effect() {
        "Q = T_nut |ω|, n that while moving;  T_nut = T_pre (1 − φ + φ √(νn/(ν40 n_r))) + |F_ax| l/2π (1/η − 1);  T_pre "
        "= 0.05 (tan "
        "β)^(−1/2) F_a0 "
-       "l/2π;  G = G0 + G1 √(n/n_r);  spread over the screw by the exact overlap with the nut along its stroke",
+       "l/2π;  G = G0 + d G1 √(n/n_r), d the share of the time in motion;  spread over the screw by the exact overlap "
+       "with the nut along its stroke",
        "source, link",
        "nut and screw",
        "power of feed 1 to 1.5; first seen at screw and nut, 10…14 min; slope of the "

@@ -19,6 +19,7 @@ struct CopperHeat {
     S const load = u[1] * c[3];
     S const squared_current = c[2] * c[2] + load * load;
     auto const loss = [&](S const& share, S const& winding) {
+      thermal::within<S>(thermal::winding_temperature, winding);
       S const warm = 1.0 + thermal::copper_temperature_coefficient * (winding - thermal::reference_temperature);
       return u[0] * (1.0 + c[1]) * share * c[0] * warm * squared_current;
     };

@@ -37,7 +37,7 @@ Effect const& extra_mass_effect() {
        "C_m dT_m/dt = G_m (T − T_m),  q = G_m (T_m − T)",
        "link",
        "any place",
-       "nothing in the steady state; residual like a delayed slope, + early, − late, mirrored in cool-down; neighbours "
+       "nothing in the steady state; residual like a delayed slope, − in warm-up, + in cool-down; neighbours "
        "answer too; τ 5 min…3 h",
        "physics.md §7 no. 41",
        {41},

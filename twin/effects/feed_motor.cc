@@ -46,8 +46,8 @@ struct FeedMotor {
     f("resistance", &FeedMotor::resistance, dimension::resistance, "of a phase at 20 degC", Range{0.01, 20});
     f("torque_constant", &FeedMotor::torque_constant, dimension::torque_constant, "per effective phase current",
       Range{0.1, 5});
-    f("constant_torque", &FeedMotor::constant_torque, dimension::torque, "weight of a hanging axis and other friction",
-      Range{-50, 50});
+    f("constant_torque", &FeedMotor::constant_torque, dimension::torque,
+      "of seals, guides and a weight, as if it were friction: the same both ways, none at rest", Range{-50, 50});
     f("peak_factor", &FeedMotor::peak_factor, dimension::dimensionless,
       "mean square of the torque over its squared mean", Range{1.0, 4.0});
     f("hysteresis", &FeedMotor::hysteresis, dimension::power, "iron loss at reference speed, proportional to it",
@@ -71,7 +71,7 @@ struct FeedMotor {
     }
     numbers.insert(numbers.end(),
                    {resistance, peak_factor, torque_constant, constant_torque, hysteresis, eddy, reference_speed});
-    assembly.network().add<FeedMotorLoss>(assembly.part(), ports, numbers, assembly.friction_channels(axis));
+    assembly.network().add<FeedMotorLoss>(assembly.part(), ports, numbers, assembly.friction_channels(axis + ".speed"));
   }
 };
 

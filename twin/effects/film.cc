@@ -6,23 +6,39 @@
 #include "thermal/rotating_surface.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/effects/feed_torque.h"
 #include "twin/effects/sized_surface.h"
 
 namespace thermotwin::twin {
 namespace {
 
-/// q = A (T_fluid − T_surface)/(1/(f h) + r). Ports: surface cell, fluid. c = {A, r, size, coefficient, emissivity, f},
-/// u = {ω}. The correlation gives h from the temperatures, the speed and what else it needs.
+/// q = G (T_fluid − T_surface), G = A/(1/(f h) + r). Ports: surface cell, fluid. c = {A, r, size, coefficient,
+/// emissivity, f}, u = {ω}; of what turns, those of torque_speed, and G is the mean over motion and rest. The
+/// correlation gives h from the temperatures, the speed and what else it needs.
 template <class Correlation>
 struct FilmLaw {
   static constexpr std::string_view name = Correlation::name;
-  static constexpr int ports = 2, coefficients = 6, inputs = 1;
+  static constexpr int ports = 2, coefficients = 6, inputs = Correlation::turns ? 2 : 1;
   static constexpr bool conservative = true, in_lanes = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    S const h = c[5] * Correlation::template film<S>(T[0], T[1], c[2], c[3], c[4], u[0]);
-    q[0] = c[0] * h / (1.0 + c[1] * h) * (T[1] - T[0]);
+    S mean;
+    if constexpr (Correlation::turns) {
+      double const speed = torque_speed(u), share = speed > 0.0 ? u[0] / speed : 1.0;
+      mean = conductance(T, c, speed);
+      if (share < 1.0) mean = share * mean + (1.0 - share) * conductance(T, c, 0.0);
+    } else {
+      mean = conductance(T, c, u[0]);
+    }
+    q[0] = mean * (T[1] - T[0]);
     q[1] = -q[0];
+  }
+
+ private:
+  template <class S>
+  static S conductance(S const* T, S const* c, double speed) {
+    S const h = c[5] * Correlation::template film<S>(T[0], T[1], c[2], c[3], c[4], speed);
+    return c[0] * h / (1.0 + c[1] * h);
   }
 };
 
@@ -46,9 +62,10 @@ S jungnickel_plate(S const& surface, S const& fluid, S const& height) {
   return thermal::jungnickel_vertical_plate_nusselt<S>(rayleigh) * air.conductivity / height;
 }
 
-#define THERMOTWIN_CORRELATION(Name, title, expression)                                                       \
+#define THERMOTWIN_CORRELATION(Name, title, does_turn, expression)                                            \
   struct Name {                                                                                               \
     static constexpr std::string_view name = title;                                                           \
+    static constexpr bool turns = does_turn;                                                                  \
     template <class S>                                                                                        \
     static S film(S const& surface, S const& fluid, S const& size, S const& coefficient, S const& emissivity, \
                   double speed) {                                                                             \
@@ -56,38 +73,39 @@ S jungnickel_plate(S const& surface, S const& fluid, S const& height) {
       return expression;                                                                                      \
     }                                                                                                         \
   };
-THERMOTWIN_CORRELATION(Constant, "constant film", coefficient)
-THERMOTWIN_CORRELATION(Room, "room film", (thermal::room_film<S>(surface, fluid, emissivity)))
-THERMOTWIN_CORRELATION(Fan, "film under a fan",
+THERMOTWIN_CORRELATION(Constant, "constant film", false, coefficient)
+THERMOTWIN_CORRELATION(Room, "room film", false, (thermal::room_film<S>(surface, fluid, emissivity)))
+THERMOTWIN_CORRELATION(Fan, "film under a fan", false,
                        (speed > 0.0 ? coefficient : thermal::room_film<S>(surface, fluid, emissivity)))
-THERMOTWIN_CORRELATION(RotatingCylinder, "rotating cylinder",
+THERMOTWIN_CORRELATION(RotatingCylinder, "rotating cylinder", true,
                        (thermal::rotating_cylinder_film<S>(surface, fluid, size, S(speed))))
-THERMOTWIN_CORRELATION(RotatingDisc, "rotating disc",
+THERMOTWIN_CORRELATION(RotatingDisc, "rotating disc", true,
                        (thermal::rotating_disc_film<S>(surface, fluid, 0.5 * size, S(speed))))
-THERMOTWIN_CORRELATION(JungnickelCylinder, "rotating cylinder after Jungnickel",
+THERMOTWIN_CORRELATION(JungnickelCylinder, "rotating cylinder after Jungnickel", true,
                        (with_free_cylinder<S>(thermal::jungnickel_cylinder_film<S>(S(speed), 0.5 * size), surface,
                                               fluid, size)))
-THERMOTWIN_CORRELATION(AndersonSaundersCylinder, "rotating cylinder after Anderson and Saunders",
+THERMOTWIN_CORRELATION(AndersonSaundersCylinder, "rotating cylinder after Anderson and Saunders", true,
                        (with_free_cylinder<S>(forced_cylinder<S>(surface, fluid, size, speed,
                                                                  [](S const& Re, S const&) {
                                                                    return thermal::anderson_saunders_nusselt<S>(Re);
                                                                  }),
                                               surface, fluid, size)))
-THERMOTWIN_CORRELATION(SlowCylinder, "slowly rotating cylinder",
+THERMOTWIN_CORRELATION(SlowCylinder, "slowly rotating cylinder", true,
                        (with_free_cylinder<S>(forced_cylinder<S>(surface, fluid, size, speed,
                                                                  [](S const& Re, S const& Pr) {
                                                                    return thermal::slow_cylinder_nusselt<S>(Re, Pr);
                                                                  }),
                                               surface, fluid, size)))
-THERMOTWIN_CORRELATION(JungnickelDisc, "rotating disc after Jungnickel",
+THERMOTWIN_CORRELATION(JungnickelDisc, "rotating disc after Jungnickel", true,
                        (thermal::jungnickel_disc_film<S>(S(speed), 0.5 * size)))
-THERMOTWIN_CORRELATION(JungnickelPlate, "vertical plate after Jungnickel", (jungnickel_plate<S>(surface, fluid, size)))
-THERMOTWIN_CORRELATION(VerticalPlate, "vertical plate", (thermal::vertical_plate_film<S>(surface, fluid, size)))
-THERMOTWIN_CORRELATION(PlateUp, "horizontal plate facing up",
+THERMOTWIN_CORRELATION(JungnickelPlate, "vertical plate after Jungnickel", false,
+                       (jungnickel_plate<S>(surface, fluid, size)))
+THERMOTWIN_CORRELATION(VerticalPlate, "vertical plate", false, (thermal::vertical_plate_film<S>(surface, fluid, size)))
+THERMOTWIN_CORRELATION(PlateUp, "horizontal plate facing up", false,
                        (thermal::horizontal_plate_film<S>(thermal::Facing::up, surface, fluid, size)))
-THERMOTWIN_CORRELATION(PlateDown, "horizontal plate facing down",
+THERMOTWIN_CORRELATION(PlateDown, "horizontal plate facing down", false,
                        (thermal::horizontal_plate_film<S>(thermal::Facing::down, surface, fluid, size)))
-THERMOTWIN_CORRELATION(HorizontalCylinder, "horizontal cylinder",
+THERMOTWIN_CORRELATION(HorizontalCylinder, "horizontal cylinder", false,
                        (thermal::horizontal_cylinder_film<S>(surface, fluid, size)))
 #undef THERMOTWIN_CORRELATION
 
@@ -156,13 +174,14 @@ struct Film {
 
  private:
   void add_to(Assembly& assembly, Place const& place) const {
-    bool const rotating = correlation.starts_with("rotating") || correlation == "fan";
     // The speed of a film that does not rotate is asked from a channel that every course has.
-    int const input = assembly.channel(rotating ? speed : "ambient.floor_temperature");
+    auto const inputs = correlation.starts_with("rotating")
+                            ? assembly.friction_channels(speed)
+                            : std::vector{assembly.channel(correlation == "fan" ? speed : "ambient.floor_temperature")};
     for (auto const& contact : place.site.contacts)
       assembly.network().add(correlations().at(correlation), assembly.part(),
                              {assembly.node(place, contact.node), fluid(assembly, contact.centre)},
-                             {contact.area, contact.half_resistance, size(), needed(), emissivity, factor}, {input});
+                             {contact.area, contact.half_resistance, size(), needed(), emissivity, factor}, inputs);
   }
   [[nodiscard]] thermal::Port fluid(Assembly& assembly, Eigen::Vector3d const& point) const {
     return to == "ambient" ? assembly.air(point) : assembly.port(assembly.place(to, {"ambient"}));
@@ -193,7 +212,8 @@ Effect const& film_effect() {
   static Effect const effect = make_effect<Film>(
       {"film",
        "convection and radiation from a surface to the room or to a fluid",
-       "q = f h A (T_fluid − T_surface), in series with the half cell of a discretised body. room: h = 1.7·1.3 "
+       "q = f h A (T_fluid − T_surface), in series with the half cell of a discretised body; on a screw the mean over "
+       "motion and rest. room: h = 1.7·1.3 "
        "|ΔT|^(1/3) + "
        "0.8 ε 4σ T_m³;  rotating_cylinder: Nu = (Nu_f³ + Nu_n³)^(1/3), Nu_f = 0.133 Re^(2/3) Pr^(1/3) (anderson: 0.10 "
        "Re^(2/3); slow: 0.683 Re^0.466 Pr^(1/3); jungnickel: h = 3.75 ω^0.7 R^0.4), Nu_n Churchill & Chu;  "

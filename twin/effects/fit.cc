@@ -23,6 +23,7 @@ struct FitLaw {
   static void flows(S const* T, S const* c, double const*, S* q) {
     using std::pow;
     S const gap = thermal::fit_gap<S>(c[2], c[3], c[4], T[0] - c[6], c[5], T[1] - c[6]);
+    thermal::within<S>(thermal::fit_gap_range, gap);
     S const clearance = thermal::smooth_positive<S>(gap, thermal::fit_blend);
     S const pressure = c[10] * thermal::smooth_positive<S>(-gap, thermal::fit_blend);
     S const film = c[7] / (0.5 * clearance + c[8]) + c[9] * pow(pressure, 0.95);

@@ -6,19 +6,20 @@
 namespace thermotwin::twin {
 namespace {
 
-/// P = P_r (ω/ω_r)^m (ν(T)/ν₄₀)^0.2 + u (1 − η) P_t. Port: gear box. c = {P_r, m, ω_r, A, B, (1 − η) P_t}, u = {ω,
-/// flag}.
+/// P = d P_r (ω/ω_r)^m (ν(T)/ν₄₀)^0.2 + u (1 − η) P_t, ω while moving, for the share d of the time. Port: gear box.
+/// c = {P_r, m, ω_r, A, B, (1 − η) P_t}, u = {those of torque_speed, flag}.
 struct GearHeat {
   static constexpr std::string_view name = "loss of a gear stage";
-  static constexpr int ports = 1, coefficients = 6, inputs = 2;
+  static constexpr int ports = 1, coefficients = 6, inputs = 3;
   static constexpr bool conservative = false;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    q[0] = u[1] * c[5];
+    q[0] = u[2] * c[5];
     if (u[0] == 0.0) return;
     using std::pow;
+    double const speed = torque_speed(u);
     S const viscosity = flow_ratio<S>(c[3], c[4], T[0], 1.0, S(1.0));
-    q[0] += c[0] * pow(S(u[0] / c[2]), c[1]) * pow(viscosity, 0.2);
+    q[0] += u[0] / speed * c[0] * pow(S(speed / c[2]), c[1]) * pow(viscosity, 0.2);
   }
 };
 
@@ -45,11 +46,13 @@ struct Gear {
 
   void add_to(Assembly& assembly) const {
     auto const viscosity = thermal::mineral_oil_viscosity(oil);
+    auto inputs = assembly.friction_channels(speed);
+    inputs.push_back(assembly.share(while_loaded));
     assembly.network().add<GearHeat>(
         assembly.part(), {assembly.port(at)},
         {churning, exponent, assembly.rated_speed(rated_speed, speed), viscosity.scale, viscosity.temperature,
          thermal::transmission_loss<double>(efficiency, transmitted_power)},
-        {assembly.channel(speed), assembly.share(while_loaded)});
+        inputs);
   }
 };
 
@@ -57,8 +60,8 @@ struct Gear {
 
 Effect const& gear_effect() {
   static Effect const effect = make_effect<Gear>(
-      {"gear", "churning and load loss of a gear stage", "P = P_r (ω/ω_r)^m (ν(T)/ν40)^0.2 + (1 − η) P_t,  m = 1.7…2.5",
-       "source", "gear box of spindle or axis",
+      {"gear", "churning and load loss of a gear stage",
+       "P = d P_r (ω/ω_r)^m (ν(T)/ν40)^0.2 + (1 − η) P_t,  m = 1.7…2.5", "source", "gear box of spindle or axis",
        "power of speed 1.7 to 2.5 without load, little less when warm; ends at stop", "physics.md 1.10"});
   return effect;
 }

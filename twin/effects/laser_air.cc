@@ -4,7 +4,7 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double refraction_of_air = 0.955e-6;  // 1/K: how much longer a way seems through warmer air
+constexpr double refraction_of_air = -0.955e-6;  // 1/K: how much longer a way seems through warmer air
 
 struct LaserAir {
   std::string name, screw;

@@ -5,21 +5,27 @@
 #include "thermal/error.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/effects/feed_torque.h"
 
 namespace thermotwin::twin {
 namespace {
 
-/// Q = d k₀ w (w e^{B/(T − T_p)})^{k₂}. Ports: the two sides. c = {k₀, k₂, B, first share}, u = {w, d}.
+/// Q = k₀ w̄ (w e^{B/(T − T_p)})^{k₂}: w while moving, w̄ its mean over time. Ports: the two sides. c = {k₀, k₂, B, first
+/// share}, u as of torque_speed; of a guide {share of the time in motion, w}.
+template <bool of_guide>
 struct RollingContactHeat {
-  static constexpr std::string_view name = "friction of rolling contacts";
+  static constexpr std::string_view name = of_guide ? "friction of a guide's contacts" : "friction of rolling contacts";
   static constexpr int ports = 2, coefficients = 4, inputs = 2;
   static constexpr bool conservative = false;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    if (u[0] == 0.0) return;
+    double const speed = of_guide ? u[1] : torque_speed(u), mean = of_guide ? u[0] * u[1] : u[0];
+    if (mean == 0.0) return;
     using std::exp;
-    S const flow = std::log(u[0]) + c[2] / (0.5 * (T[0] + T[1]) - thermal::Vogel{}.pole);
-    S const heat = u[1] * c[0] * u[0] * exp(S(c[1] * flow));
+    S const temperature = 0.5 * (T[0] + T[1]);
+    thermal::within<S>(thermal::vogel_cameron_temperature, temperature);
+    S const flow = std::log(speed) + c[2] / (temperature - thermal::Vogel{}.pole);
+    S const heat = c[0] * mean * exp(S(c[1] * flow));
     q[0] = c[3] * heat;
     q[1] = (1.0 - c[3]) * heat;
   }
@@ -66,14 +72,16 @@ struct RollingContactPart {
 
   void add_to(Assembly& assembly) const {
     auto const contact = friction();
-    bool const guide = kind.starts_with("guide");
-    std::vector<int> const inputs =
-        kind == "bearing" ? std::vector{assembly.channel("spindle.speed"), assembly.channel("spindle.running")}
-        : guide           ? std::vector{assembly.channel(axis + ".feed"), assembly.channel(axis + ".duty")}
-                          : std::vector{assembly.channel(axis + ".speed"), assembly.channel(axis + ".running")};
-    assembly.network().add<RollingContactHeat>(
-        assembly.part(), {assembly.port(first), assembly.port(second)},
-        {factor * contact.factor, contact.exponent, contact.vogel_temperature, first_share}, inputs);
+    std::vector const sides = {assembly.port(first), assembly.port(second)};
+    std::vector<double> const numbers = {factor * contact.factor, contact.exponent, contact.vogel_temperature,
+                                         first_share};
+    if (kind.starts_with("guide"))
+      assembly.network().add<RollingContactHeat<true>>(
+          assembly.part(), sides, numbers, {assembly.channel(axis + ".duty"), assembly.channel(axis + ".feed")});
+    else
+      assembly.network().add<RollingContactHeat<false>>(
+          assembly.part(), sides, numbers,
+          assembly.friction_channels(kind == "bearing" ? "spindle.speed" : axis + ".speed"));
   }
 
  private:
@@ -106,7 +114,8 @@ struct RollingContactPart {
 Effect const& rolling_contact_effect() {
   static Effect const effect = make_effect<RollingContactPart>(
       {"rolling_contact", "friction of the lubricated contacts of a bearing, ball nut or linear guide",
-       "Q = k0 ω (ω e^(B/(T[°C] + 95)))^k2,  k0 = N a G^g W^w (ρAt/2E')^k2 F r,  k2 = 0.49…0.60;  of a guide the feed "
+       "Q = d k0 ω (ω e^(B/(T[°C] + 95)))^k2, ω while moving, for the share d of the time,  k0 = N a G^g W^w "
+       "(ρAt/2E')^k2 F r,  k2 = 0.49…0.60;  of a guide the feed "
        "stands "
        "for ω",
        "source", "bearing rings, screw and nut, rail and carriage",

@@ -3,15 +3,16 @@
 #include "thermal/skf_friction.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/effects/feed_torque.h"
 
 namespace thermotwin::twin {
 namespace {
 
-/// Ports: shaft, outer ring; the lubricant has their mean temperature. u = {ω}.
+/// Ports: shaft, outer ring; the lubricant has their mean temperature. u as of torque_speed.
 /// c = {count, A, B, F_r, F_a, d, D, K_rs, μ_bl, μ_EHL, centrifugal factor, inner share}.
 struct SkfHeat {
   static constexpr std::string_view name = "bearing friction after SKF";
-  static constexpr int ports = 2, coefficients = 12, inputs = 1;
+  static constexpr int ports = 2, coefficients = 12, inputs = 2;
   static constexpr bool conservative = false;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
@@ -25,7 +26,7 @@ struct SkfHeat {
     bearing.r3 *= c[10];
     bearing.s3 *= c[10];
     S const viscosity = thermal::vogel_cameron_viscosity<S>(c[1], c[2], 0.5 * (T[0] + T[1]));
-    S const torque = thermal::skf_torque<S>(bearing, c[3], c[4], viscosity, S(u[0]));
+    S const torque = thermal::skf_torque<S>(bearing, c[3], c[4], viscosity, S(torque_speed(u)));
     S const heat = c[0] * thermal::friction_heat<S>(torque, S(u[0]));
     q[0] = c[11] * heat;
     q[1] = (1.0 - c[11]) * heat;
@@ -76,7 +77,7 @@ struct SkfBearingPart {
         assembly.part(), {inner, outer},
         {count, viscosity.scale, viscosity.temperature, radial_load, axial_load, bore, outer_diameter, replenishment,
          boundary_friction, film_friction, centrifugal_factor, inner_share},
-        {assembly.channel(speed)});
+        assembly.friction_channels(speed));
     assembly.network().connect(assembly.part(), inner, outer, conductance);
   }
 };

@@ -51,7 +51,8 @@ struct SupportBearing {
     std::vector<double> torque = {drag_torque, viscosity.scale, viscosity.temperature, reference_speed};
     assembly.announce(name, {{inner, outer}, torque});
     torque.push_back(inner_share);
-    assembly.network().add<SupportHeat>(assembly.part(), {inner, outer}, torque, assembly.friction_channels(axis));
+    assembly.network().add<SupportHeat>(assembly.part(), {inner, outer}, torque,
+                                        assembly.friction_channels(axis + ".speed"));
     assembly.network().connect(assembly.part(), inner, outer, conductance);
   }
 };

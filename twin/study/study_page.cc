@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "output/csv.h"
+
 namespace thermotwin::twin {
 namespace {
 
@@ -156,14 +158,6 @@ std::string_view name_of(ClaimVerdict::Answer answer) {
   return "cannot be judged";
 }
 
-/// A field of a CSV file.
-std::string in_quotes(std::string const& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (char const c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : ""; }
 
 Json json_of(Figures const& figures) {
@@ -219,11 +213,13 @@ std::string study_csv(StudyReport const& report) {
   for (auto const& row : rows)
     for (auto const& [name, values] : row.figures) names.insert(name);
   std::string text = "world,selection,model,refused,sensors,remark";
-  for (auto const& name : names) text += fmt::format(",{0},{0} +-", name);
+  for (auto const& name : names) text += "," + output::csv_field(name) + "," + output::csv_field(name + " +-");
   text += "\n";
   for (auto const& row : rows) {
-    text += fmt::format("{},{},{},{},{},{}", in_quotes(row.world), in_quotes(row.selection), row.model,
-                        in_quotes(row.refused), fmt::join(row.sensors, " "), in_quotes(row.remark));
+    std::vector<std::string> fields = {
+        row.world, row.selection, row.model, row.refused, fmt::format("{}", fmt::join(row.sensors, " ")), row.remark};
+    for (auto& field : fields) field = output::csv_field(field);
+    text += fmt::format("{}", fmt::join(fields, ","));
     for (auto const& name : names) {
       auto const of = interval(values_of(row.figures, name));
       text += fmt::format(",{},{}", number(of.mean), of.values > 1 ? number(of.half) : "");

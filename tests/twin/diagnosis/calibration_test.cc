@@ -11,6 +11,7 @@
 #include "tests/output/temporary_directory.h"
 #include "tests/scenarios/refusal.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "tests/twin/only.h"
 #include "twin/diagnosis/estimate_text.h"
 
 /// A machine whose grease and whose motor's cooling are not what its file says.
@@ -89,10 +90,9 @@ TEST_F(CalibrationTest, RangesOfTheFileHold) {
                                                       "\n[[uncertain]]\nname = \"film.motor.coefficient\"\n"
                                                       "from = \"20 W/(m2 K)\"\nto = \"40 W/(m2 K)\"\n");
   auto const ranged = calibrate_files({*folder / "ranged.toml", {*folder / "run.h5"}, *folder / "ranged_fit.toml"});
-  for (auto const& number : ranged.numbers)
-    if (number.number.path == "film.motor.coefficient") {
-      EXPECT_NEAR(number.estimate(), 20.0, 0.01);
-    }
+  auto const film =
+      tests::only(ranged.numbers, [](auto const& n) { return n.number.path == "film.motor.coefficient"; });
+  EXPECT_NEAR(film.estimate(), 20.0, 0.01);
   EXPECT_NO_THROW((void)calibrate_files({*folder / "ranged_fit.toml", {*folder / "run.h5"}, *folder / "again.toml"}));
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "tests/twin/only.h"
 #include "twin/diagnosis/diagnosis.h"
 #include "twin/diagnosis/gap.h"
 #include "twin/file/document.h"
@@ -85,10 +86,10 @@ TEST(LoopGaps, AreNotMissing) {
   EXPECT_EQ(name_of(diagnosis.verdict), "nothing");
   for (auto const& [channel, times] : diagnosis.noise_heard) EXPECT_LT(times, 2.0) << channel;
   auto const left = gaps(Machine::build(tests::v450()), Machine::build(diagnosis.document), {bin(run, 300.0)}, nullptr);
-  for (auto const& gap : left)
-    if (gap.channel == "A" || gap.channel == "E_Y") {
-      EXPECT_LT(gap.after, 0.2 * gap.before) << gap.channel;
-    }
+  for (std::string const name : {"A", "E_Y"}) {
+    auto const gap = tests::only(left, [&](auto const& one) { return one.channel == name; });
+    EXPECT_LT(gap.after, 0.2 * gap.before) << name;
+  }
 }
 
 }  // namespace

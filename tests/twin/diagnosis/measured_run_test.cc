@@ -241,7 +241,7 @@ TEST(MeasuredRun, OfAnAxisOnlyWhatWasNotRecordedMayHaveBeenOtherwise) {
   ASSERT_EQ(run.alternatives.size(), 3U);  // the third is of the room
   EXPECT_EQ(run.alternatives[0].name, "z.duty from 0.57 h to 0.92 h, first half");
   EXPECT_EQ(run.alternatives[1].name, "z.duty from 0.57 h to 0.92 h, second half");
-  EXPECT_THAT(run.remarks, Contains(HasSubstr("not recorded from 0.57 h to 0.92 h: z.duty, z.speed, which a fit")));
+  EXPECT_THAT(run.remarks, Contains(HasSubstr("not recorded from 0.57 h to 0.92 h: z.duty, which a fit")));
   for (std::size_t half : {0U, 1U})
     for (double const minute : {33.0, 40.0, 50.0, 57.0}) {
       auto const& course = *run.alternatives[half].course;
@@ -300,6 +300,26 @@ TEST(MeasuredRun, AFeedWithoutItsDutyIsSaidToBeMotionAllTheTime) {
   data.inputs.push_back({"z.duty", "1", {0.0}, {0.8}});
   EXPECT_THAT(measured_run(data, vmc850, "duty").remarks,
               testing::Not(Contains(HasSubstr("axis z moves whenever it has a feed"))));
+}
+
+/// A feed every minute and a duty that is one number for all are in different tables.
+TEST(MeasuredRun, TheDutyCountsWhateverItsRows) {
+  Machine const vmc850 = Machine::read(machine_file("vmc850"));
+  MeasuredData data;
+  data.time = Eigen::VectorXd::LinSpaced(181, 0.0, 3 * 3600.0);
+  data.readings = {{"S1", "degC", "", data.time / 3600.0}};
+  data.inputs = {{"z.feed", "m/s", {0.0, 60.0, 3600.0, 7200.0, 10800.0}, {0.2, 0.2, 0.1, 0.2, 0.1}},
+                 {"z.duty", "1", {0.0}, {0.5}},
+                 {"ambient.temperature", "K", {0.0}, {293.0}}};
+  auto const run = measured_run(data, vmc850, "duty");
+  std::vector<double> values(run.course->channels().size());
+  run.course->evaluate(90.0, values);
+  auto const at = [&](std::string const& name) { return values[std::size_t(run.course->index_of(name))]; };
+  EXPECT_NEAR(at("z.speed"), 0.5 * at("z.moving_speed"), 1e-12);
+  EXPECT_GT(at("z.speed"), 0.0);
+  data.inputs[1].values = {50.0};
+  EXPECT_THAT(refusal([&] { (void)measured_run(data, vmc850, "percent"); }),
+              HasSubstr("input 'z.duty' reaches 50, and the most is 1; is its unit right?"));
 }
 
 /// A programme that is written down where it changes has no gap, nor has what never changes.

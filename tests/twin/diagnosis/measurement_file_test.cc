@@ -168,10 +168,13 @@ TEST_F(MeasurementFileTest, ReadsDegreesFahrenheit) {
         fmt::format("{},{},{}\n", 0.1 + 0.25 * i, i == 7 ? "" : fmt::format("{}", 68.0 + 0.18 * i), -293.0 - 0.2 * i);
   put(folder / "readings.csv", table);
   auto const run = read(with(whole, "unit = \"degC\"", "unit = \"degF\""));
-  for (Eigen::Index r = 0; r < run.time.size(); ++r)
-    if (std::isfinite(celsius.channels[0].values[r])) {
-      EXPECT_NEAR(run.channels[0].values[r], celsius.channels[0].values[r], 1e-9);
-    }
+  int read_there = 0;
+  for (Eigen::Index r = 0; r < run.time.size(); ++r) {
+    if (!std::isfinite(celsius.channels[0].values[r])) continue;
+    EXPECT_NEAR(run.channels[0].values[r], celsius.channels[0].values[r], 1e-9);
+    ++read_there;
+  }
+  EXPECT_GT(read_there, 30);
 }
 
 /// -127 degC is what a DS18B20 says that nobody hears.

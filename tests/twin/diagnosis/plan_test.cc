@@ -20,7 +20,7 @@ Hypothesis hypothesis(std::string const& label) {
 TEST(Schedules, OfASpindleTurnAndThoseOfAFeedAxisMove) {
   auto const names = [](char const* machine) {
     std::set<std::string> result;
-    for (auto const& schedule : separating_schedules(Machine::build(read_toml(machine_file(machine)))))
+    for (auto const& schedule : separating_schedules(Machine::build(read_toml(machine_file(machine))), {}))
       result.insert(schedule.name());
     return result;
   };
@@ -54,6 +54,34 @@ TEST(Remedies, NameAScheduleThatSeparates) {
   for (auto const& remedy : found) EXPECT_GE(remedy.distance, of(remedy.schedule, "") * (1.0 - 1e-6)) << remedy.sensor;
 }
 
+/// No schedule of the catalogue knows a pump's switch: it stays as the data have it.
+TEST(Schedules, HoldInputsOfTheMachinesOwn) {
+  Value const document = tests::with_table(tests::v450(), R"(
+    [[heat]]
+    name = "pump"
+    at = "bed"
+    power = "100 W"
+    while_on = "pump.on")");
+  auto const run = tests::measured(document, tests::experiment(R"(
+    duration = "3 h"
+    [spindle]
+    blocks = [{duration = "3 h", speed = "4000 rpm"}]
+    [[inputs]]
+    channel = "pump.on"
+    blocks = [{duration = "45 min", value = "1"}, {duration = "135 min", value = "0"}])"));
+  std::vector<BinnedRun> const data = {bin(run, 600.0)};
+  auto const schedules = separating_schedules(Machine::build(document), data);
+  ASSERT_FALSE(schedules.empty());
+  for (auto const& schedule : schedules) {
+    auto const& held = schedule.experiment.driven;
+    ASSERT_EQ(held.size(), 1U) << schedule.name();
+    EXPECT_EQ(held[0].channel.name, "pump.on");
+    EXPECT_NEAR(held[0].signal.at(0.0), 0.25, 0.03);
+  }
+  Rivals const rivals{{hypothesis("heat at motor"), hypothesis("copper_loss at motor")}, {0.3, 0.3}};
+  EXPECT_FALSE(remedies(document, data, {rivals})[0].empty());
+}
+
 TEST(Plan, SaysWhatASpindleTestWouldShow) {
   auto const schedule = read_schedule(experiment_file("spindle_standard"));
   auto const made = plan(tests::v450(), {schedule}, {.without = {}, .with_remedies = 0, .progress = {}});
@@ -66,6 +94,7 @@ TEST(Plan, SaysWhatASpindleTestWouldShow) {
   }
   EXPECT_TRUE(std::is_sorted(made.effects.begin(), made.effects.end(),
                              [](auto const& a, auto const& b) { return a.seen > b.seen; }));
+  ASSERT_FALSE(made.ambiguities.empty());
   for (auto const& ambiguity : made.ambiguities) {
     EXPECT_LT(ambiguity.distance, 6.0);
     EXPECT_GE(made.effects[ambiguity.effect].seen, 6.0);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "tests/twin/only.h"
 #include "twin/diagnosis/diagnosis.h"
 #include "twin/diagnosis/gap.h"
 #include "twin/file/document.h"
@@ -150,14 +151,12 @@ TEST(SensorPlaces, AreFoundAndWritten) {
   std::vector<BinnedRun> const data = {bin(run, 300.0)};
   auto diagnosis = diagnose(tests::v450(), data, {});
   EXPECT_EQ(name_of(diagnosis.verdict), "nothing");
-  for (auto const* table : tables_of(diagnosis.document, "temperature_sensor"))
-    if (name_in(*table) == "T3") {
-      EXPECT_LT(std::stod(texts_of(*table, "at").at(0).substr(std::string("cartridge[").size())), 47.0);
-    }
-  for (auto const& gap : gaps(Machine::build(tests::v450()), Machine::build(diagnosis.document), data, nullptr))
-    if (gap.channel == "T3") {
-      EXPECT_LT(gap.after, 0.1 * gap.before);
-    }
+  auto const* table = tests::only(tables_of(diagnosis.document, "temperature_sensor"),
+                                  [](auto const* one) { return name_in(*one) == "T3"; });
+  EXPECT_LT(std::stod(texts_of(*table, "at").at(0).substr(std::string("cartridge[").size())), 47.0);
+  auto const left = gaps(Machine::build(tests::v450()), Machine::build(diagnosis.document), data, nullptr);
+  auto const gap = tests::only(left, [](auto const& one) { return one.channel == "T3"; });
+  EXPECT_LT(gap.after, 0.1 * gap.before);
 }
 
 }  // namespace
