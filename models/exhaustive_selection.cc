@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include "models/candidates.h"
+#include "models/subsets.h"
 
 namespace thermotwin::models {
 
@@ -14,17 +14,6 @@ namespace {
 
 using Eigen::Index;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-/// The next set of that size in lexical order; false after the last.
-bool advance(std::vector<Index>& set, Index sensors) {
-  auto const size = static_cast<Index>(set.size());
-  for (Index i = size - 1; i >= 0; --i)
-    if (set[static_cast<std::size_t>(i)] < sensors - size + i) {
-      std::iota(set.begin() + i, set.end(), set[static_cast<std::size_t>(i)] + 1);
-      return true;
-    }
-  return false;
-}
 
 double rmse_without(SubsetValidation const& validation, std::vector<Index> set, Index sensor) {
   std::erase(set, sensor);
@@ -55,9 +44,7 @@ BestSubset best_subset(SubsetValidation const& validation, int count) {
         fmt::format("sets of {} among {} sensors; 1 to {} are possible", count, sensors, sensors));
   BestSubset best{{}, unbounded, {}};
   Eigen::VectorXd with = Eigen::VectorXd::Constant(sensors, unbounded), without = with;
-  std::vector<Index> set(static_cast<std::size_t>(count));
-  std::iota(set.begin(), set.end(), 0);
-  do {
+  for_each_subset(sensors, count, [&](std::vector<Index> const& set) {
     double const rmse = validation.rmse(set);
     Eigen::Array<bool, Eigen::Dynamic, 1> member = Eigen::Array<bool, Eigen::Dynamic, 1>::Zero(sensors);
     member(set) = true;
@@ -67,7 +54,7 @@ BestSubset best_subset(SubsetValidation const& validation, int count) {
       best.rmse = rmse;
       best.sensors = set;
     }
-  } while (advance(set, sensors));
+  });
   for (Index j = 0; j < sensors; ++j)
     if (count == sensors) without(j) = rmse_without(validation, best.sensors, j);
   best.margin = without - with;

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <functional>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+
+#include "models/subsets.h"
 
 namespace thermotwin::models {
 namespace {
@@ -18,19 +19,6 @@ constexpr Index most_starts = 200, fewest_starts = 40, most_polished = 24, fewes
 constexpr Index most_sites_for_pairs = 300;
 constexpr double least_progress = 1e-10;  // of an exchange, relative
 constexpr double intact_share = 1e-3;     // of the intact set's V in a robust objective: settles ties
-
-/// Calls `visit` with every set of `size` positions of a list of `of`.
-void for_each_subset(Index of, Index size, std::function<void(Set const&)> const& visit) {
-  Set chosen(static_cast<std::size_t>(size));
-  std::iota(chosen.begin(), chosen.end(), 0);
-  while (true) {
-    visit(chosen);
-    Index i = size - 1;
-    while (i >= 0 && chosen[std::size_t(i)] == of - size + i) --i;
-    if (i < 0) return;
-    for (Index next = ++chosen[std::size_t(i)]; ++i < size;) chosen[std::size_t(i)] = ++next;
-  }
-}
 
 Set without(Set const& set, Set const& positions) {
   Set rest;
@@ -231,8 +219,8 @@ void check(PlacementProblem const& problem, Index count, Index dead) {
     throw std::invalid_argument(fmt::format("the budget of {} buys no sensor at all", problem.budget));
 }
 
-Placement finished(PlacementProblem const& problem, Set const& set, Index dead) {
-  return {by_information(problem, set), remaining_variance(problem, set), worst_variance(problem, set, dead)};
+Placement finished(PlacementProblem const& problem, Set const& set) {
+  return {by_information(problem, set), remaining_variance(problem, set)};
 }
 
 /// Leaves the sets of smallest objective, each once, the best first.
@@ -333,12 +321,12 @@ Placement place(PlacementProblem const& problem, Index count, Index dead) {
     for (auto& set : sets) set = robust.exchanged(set);
   }
   keep_best(sets, robust, 1);
-  return finished(problem, sets.front(), dead);
+  return finished(problem, sets.front());
 }
 
 Placement exhaustive_placement(PlacementProblem const& problem, Index count) {
   check(problem, count, 0);
-  return finished(problem, Enumeration(problem, count)(), 0);
+  return finished(problem, Enumeration(problem, count)());
 }
 
 }  // namespace thermotwin::models

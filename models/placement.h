@@ -12,7 +12,6 @@ namespace thermotwin::models {
 struct Placement {
   std::vector<Eigen::Index> sensors;  ///< sites, that which tells most first, then that which adds most, …
   double variance = 0.0;              ///< V of the whole set
-  double worst = 0.0;                 ///< largest V when as many sensors are dead as was asked for; else V
 };
 
 /// At most `count` sensors within the budget, of small V, or, with `dead` > 0, of small V at worst when any `dead` of

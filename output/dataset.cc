@@ -79,6 +79,18 @@ void resize_rows(Dataset& dataset, Eigen::Index rows) {
   if (dataset.node_temperatures) dataset.node_temperatures->conservativeResize(rows, Eigen::NoChange);
 }
 
+Channel const* find_channel(std::vector<Channel> const& channels, std::string const& name) {
+  auto const it =
+      std::find_if(channels.begin(), channels.end(), [&](auto const& channel) { return channel.name == name; });
+  return it == channels.end() ? nullptr : &*it;
+}
+
+std::vector<std::string> names_of(std::vector<Channel> const& channels) {
+  std::vector<std::string> names;
+  for (auto const& channel : channels) names.push_back(channel.name);
+  return names;
+}
+
 Eigen::VectorXd at_times(Eigen::VectorXd const& course, Eigen::VectorXd const& own, Eigen::VectorXd const& times) {
   Eigen::VectorXd values = Eigen::VectorXd::Constant(times.size(), std::nan(""));
   for (Eigen::Index i = 0; i < times.size(); ++i) {

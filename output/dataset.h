@@ -53,6 +53,10 @@ struct Dataset {
 /// strictly increasing, names unique within their group, not empty, without '/' and not "time".
 void check(Dataset const& dataset);
 
+/// The channel of that name; null where there is none.
+[[nodiscard]] Channel const* find_channel(std::vector<Channel> const& channels, std::string const& name);
+[[nodiscard]] std::vector<std::string> names_of(std::vector<Channel> const& channels);
+
 /// Cuts or lengthens the time axis and every course along it; what is added is not set.
 void resize_rows(Dataset& dataset, Eigen::Index rows);
 

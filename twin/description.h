@@ -43,7 +43,7 @@ struct AxisDescription {
 
   template <class Fields>
   static void fields(Fields& f) {
-    f.name("name", &AxisDescription::name, "x, y or z");
+    f.name("name", &AxisDescription::name, "x, y, z or another");
     f("rapid_feed", &AxisDescription::rapid_feed, dimension::speed, "100 % of a feed programme", positive);
     f("lead", &AxisDescription::lead, dimension::length, "travel per revolution of the screw", positive);
     f("stroke_from", &AxisDescription::stroke_from, dimension::length, "first end of the nut's stroke on the screw",

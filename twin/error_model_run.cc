@@ -22,16 +22,10 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using thermal::InputError;
 
-output::Channel const* find_channel(std::vector<output::Channel> const& group, std::string const& name) {
-  auto const it = std::find_if(group.begin(), group.end(), [&](auto const& channel) { return channel.name == name; });
-  return it == group.end() ? nullptr : &*it;
-}
-
 output::Channel const& channel_named(std::vector<output::Channel> const& group, std::string const& name,
                                      std::string const& file, char const* kind) {
   if (auto const* channel = find_channel(group, name)) return *channel;
-  std::vector<std::string> known;
-  for (auto const& channel : group) known.push_back(channel.name);
+  auto const known = names_of(group);
   throw InputError(fmt::format("{} has no {} '{}'; {}", file, kind, name, thermal::did_you_mean(name, known)));
 }
 

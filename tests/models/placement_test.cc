@@ -151,7 +151,8 @@ TEST(Place, KeepsToTheBudget) {
 TEST(Place, WithDeadSensorsIsRobust) {
   auto const problem = random_placement(12, 30);
   auto const plain = place(problem, 6), robust = place(problem, 6, 2);
-  EXPECT_LE(robust.worst, worst_variance(problem, plain.sensors, 2));
+  double const at_worst = worst_variance(problem, robust.sensors, 2);
+  EXPECT_LE(at_worst, worst_variance(problem, plain.sensors, 2));
   EXPECT_GE(robust.variance, plain.variance * (1.0 - 1e-9));
   double worst = 0.0;
   for (std::size_t a = 0; a < 6; ++a)
@@ -161,7 +162,7 @@ TEST(Place, WithDeadSensorsIsRobust) {
         if (i != a && i != b) rest.push_back(robust.sensors[i]);
       worst = std::max(worst, by_definition(problem, rest));
     }
-  EXPECT_NEAR(robust.worst, worst, 1e-9 * problem.prior());
+  EXPECT_NEAR(at_worst, worst, 1e-9 * problem.prior());
 }
 
 TEST(Place, NamesSensorsByWhatTheyTell) {

@@ -250,16 +250,20 @@ TEST(FeedDrive, HasTheTorqueOfTheSpeedAtWhichItMoves) {
   }
 }
 
-/// A screw that moves half of the time is cooled, and conducts to its nut, as the mean of motion and rest does, not as
-/// at half its speed.
-TEST(FeedDrive, ConductsAsTheMeanOfMotionAndRest) {
-  auto const& effect = snippet("film", "of_a_screw");
-  auto const heat = [&](double mean, double moving) {
-    return heat_with(effect, 303.15, 303.15, {{"z.speed", mean}, {"z.moving_speed", moving}});
-  };
-  EXPECT_NEAR(heat(50.0, 100.0), 0.5 * (heat(100.0, 100.0) + heat(0.0, 0.0)), 1e-9 * std::abs(heat(100.0, 100.0)));
-  EXPECT_GT(std::abs(heat(50.0, 100.0) / heat(50.0, 50.0) - 1.0), 0.01);
-  EXPECT_EQ(heat(0.0, 100.0), heat(0.0, 0.0));
+/// A screw that moves half of the time is cooled, and its motor loses, as in the mean of motion and rest, not as at
+/// half the speed.
+TEST(FeedDrive, IsTheMeanOfMotionAndRest) {
+  std::vector<std::pair<std::string, std::string>> const parts = {{"film", "of_a_screw"}, {"loss_curve", "of_an_axis"}};
+  for (auto const& [name, of] : parts) {
+    auto const& effect = snippet(name, of);
+    auto const heat = [&](double mean, double moving) {
+      return heat_with(effect, 303.15, 303.15, {{"z.speed", mean}, {"z.moving_speed", moving}});
+    };
+    EXPECT_NEAR(heat(50.0, 100.0), 0.5 * (heat(100.0, 100.0) + heat(0.0, 0.0)), 1e-9 * std::abs(heat(100.0, 100.0)))
+        << name;
+    EXPECT_GT(std::abs(heat(50.0, 100.0) / heat(50.0, 50.0) - 1.0), 0.01) << name;
+    EXPECT_EQ(heat(0.0, 100.0), heat(0.0, 0.0)) << name;
+  }
 }
 
 TEST(Gear, ChurnsWithAPowerOfSpeedAndLosesUnderLoad) {

@@ -23,12 +23,6 @@ constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t figures = 4;                  // first, last, lowest, highest
 constexpr std::size_t rows_of_run = 2, failed = 3;  // variables of a part
 
-std::vector<std::string> names_of(std::vector<output::Channel> const& channels) {
-  std::vector<std::string> names;
-  for (auto const& channel : channels) names.push_back(channel.name);
-  return names;
-}
-
 /// The inputs that the machine's network asks for; a spindle's speed is always one.
 std::vector<output::Channel> used_inputs(Machine const& machine, scenarios::ExperimentCourse const& course) {
   std::vector<output::Channel> used;
@@ -46,9 +40,9 @@ std::vector<Eigen::VectorXd const*> find(std::vector<output::Channel> const& cha
                                          std::vector<std::string> const& names) {
   std::vector<Eigen::VectorXd const*> found;
   for (auto const& name : names) {
-    auto const it = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
-    if (it == channels.end()) throw thermal::InputError(fmt::format("the run has no channel '{}'", name));
-    found.push_back(&it->values);
+    auto const* channel = find_channel(channels, name);
+    if (!channel) throw thermal::InputError(fmt::format("the run has no channel '{}'", name));
+    found.push_back(&channel->values);
   }
   return found;
 }

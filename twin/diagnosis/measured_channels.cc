@@ -52,11 +52,6 @@ std::vector<Expected> all_channels(MeasuredData const& data) {
   return all;
 }
 
-output::Channel const* find(std::vector<output::Channel> const& channels, std::string const& name) {
-  auto const found = std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == name; });
-  return found == channels.end() ? nullptr : &*found;
-}
-
 bool is_impossible(double temperature) { return temperature < coldest || temperature > hottest; }
 
 /// What a broken sensor shows: one value throughout, which none shows that works. Missing, and told.
@@ -191,7 +186,7 @@ void remark_strangers(MeasuredData const& data, std::vector<Expected> const& exp
     return std::any_of(expected.begin(), expected.end(), [&](auto const& e) { return e.name == name; });
   };
   for (auto const& e : expected)
-    if (!find(e.displacement ? data.displacements : data.readings, e.name)) absent.push_back(e.name);
+    if (!find_channel(e.displacement ? data.displacements : data.readings, e.name)) absent.push_back(e.name);
   for (auto const* group : {&data.readings, &data.displacements})
     for (auto const& channel : *group) {
       if (known(channel.name)) continue;
@@ -234,9 +229,9 @@ std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const
   std::vector<MeasuredChannel> channels;
   for (auto const& e : expected)
     located(data.reading_tables, e.name, [&] {
-      if (auto const* channel = find(e.displacement ? data.displacements : data.readings, e.name))
+      if (auto const* channel = find_channel(e.displacement ? data.displacements : data.readings, e.name))
         channels.push_back(in_si(*channel, e, data, remarks));
-      else if (auto const* other = find(e.displacement ? data.readings : data.displacements, e.name))
+      else if (auto const* other = find_channel(e.displacement ? data.readings : data.displacements, e.name))
         contradicts(e, *other);
     });
   if (channels.empty()) no_channel(data, expected, machine);
@@ -249,7 +244,8 @@ std::vector<MeasuredChannel> channels_of(MeasuredData const& data, std::vector<s
   std::vector<MeasuredChannel> channels;
   for (auto const& e : all_channels(data))
     located(data.reading_tables, e.name, [&] {
-      channels.push_back(in_si(*find(e.displacement ? data.displacements : data.readings, e.name), e, data, remarks));
+      channels.push_back(
+          in_si(*find_channel(e.displacement ? data.displacements : data.readings, e.name), e, data, remarks));
     });
   return living_channels(data, std::move(channels), remarks);
 }

@@ -1,6 +1,9 @@
 #include "twin/diagnosis/verdict.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "models/quantile.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -17,9 +20,7 @@ bool errs(Diagnosis const& diagnosis, std::string const& channel) {
     else
       others.push_back(times);
   if (others.empty()) return false;
-  auto const middle = others.begin() + std::ptrdiff_t(others.size() / 2);
-  std::nth_element(others.begin(), middle, others.end());
-  return own >= most_of_a_fault * *middle;
+  return own >= most_of_a_fault * models::upper_median(std::move(others));
 }
 
 bool stands_in(Diagnosis const& diagnosis, Finding const& finding) {

@@ -3,20 +3,22 @@
 #include "thermal/laws.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/effects/feed_torque.h"
 
 namespace thermotwin::twin {
 namespace {
 
-/// q = G (ω/ω_r)^m (T_air − T). Ports: surface, air. c = {G, m, ω_r}, u = {ω}.
+/// q = G (ω/ω_r)^m (T_air − T). Ports: surface, air. c = {G, m, ω_r}, u as of torque_speed.
 struct FanConductance {
   static constexpr std::string_view name = "cooling by a rotating part's own draught";
-  static constexpr int ports = 2, coefficients = 3, inputs = 1;
+  static constexpr int ports = 2, coefficients = 3, inputs = 2;
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     if (u[0] == 0.0) return;
     using std::pow;
-    thermal::exchange<S>(c[0] * pow(S(u[0] / c[2]), c[1]) * (T[1] - T[0]), q);
+    double const speed = torque_speed(u);
+    thermal::exchange<S>(u[0] / speed * c[0] * pow(S(speed / c[2]), c[1]) * (T[1] - T[0]), q);
   }
 };
 
@@ -44,7 +46,8 @@ struct FanCooling {
     for (auto const& contact : place.site.contacts)
       assembly.network().add<FanConductance>(
           assembly.part(), {assembly.node(place, contact.node), assembly.air(contact.centre)},
-          {conductance * contact.share, exponent, assembly.rated_speed(rated_speed, speed)}, {assembly.channel(speed)});
+          {conductance * contact.share, exponent, assembly.rated_speed(rated_speed, speed)},
+          assembly.friction_channels(speed));
   }
 };
 

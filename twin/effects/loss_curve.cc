@@ -4,27 +4,38 @@
 #include "thermal/error.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/effects/feed_torque.h"
 
 namespace thermotwin::twin {
 namespace {
 
 constexpr int most_points = 8;
 
-/// P(ω) linear between points, constant beyond the last. c = {factor, ω₁…ω₈, P₁…P₈}, u = {ω, flag}.
+/// P(ω) linear between points, constant beyond the last; of a screw the mean over motion and rest. c = {factor, ω₁…ω₈,
+/// P₁…P₈}, u = {those of torque_speed, flag}.
 struct LossCurveHeat {
   static constexpr std::string_view name = "loss over speed";
-  static constexpr int ports = 1, coefficients = 1 + 2 * most_points, inputs = 2;
+  static constexpr int ports = 1, coefficients = 1 + 2 * most_points, inputs = 3;
   static constexpr bool conservative = false;
   template <class S>
   static void flows(S const*, S const* c, double const* u, S* q) {
+    double const moving = torque_speed(u), share = moving > 0.0 ? u[0] / moving : 1.0;
+    S power = loss_at(c, moving);
+    if (share < 1.0) power = share * power + (1.0 - share) * loss_at(c, 0.0);
+    q[0] = u[2] * c[0] * power;
+  }
+
+ private:
+  template <class S>
+  static S loss_at(S const* c, double at) {
     S const *speed = c + 1, *loss = speed + most_points;
     S power = loss[0];
     for (int i = 1; i < most_points; ++i) {
-      if (!(S(u[0]) > speed[i - 1])) break;
-      S const way = (u[0] - speed[i - 1]) / (speed[i] - speed[i - 1]);
+      if (!(S(at) > speed[i - 1])) break;
+      S const way = (at - speed[i - 1]) / (speed[i] - speed[i - 1]);
       power = way < S(1.0) ? S(loss[i - 1] + way * (loss[i] - loss[i - 1])) : loss[i];
     }
-    q[0] = u[1] * c[0] * power;
+    return power;
   }
 };
 
@@ -49,8 +60,9 @@ struct LossCurve {
     std::vector<double> numbers = {factor};
     for (int i = 0; i < most_points; ++i) numbers.push_back(at_point(speeds, i) + extra(i));
     for (int i = 0; i < most_points; ++i) numbers.push_back(at_point(losses, i));
-    assembly.network().add<LossCurveHeat>(assembly.part(), {assembly.port(at)}, numbers,
-                                          {assembly.channel(speed), assembly.share(while_on)});
+    auto inputs = assembly.friction_channels(speed);
+    inputs.push_back(assembly.share(while_on));
+    assembly.network().add<LossCurveHeat>(assembly.part(), {assembly.port(at)}, numbers, inputs);
   }
 
  private:

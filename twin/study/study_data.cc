@@ -17,17 +17,6 @@ using Eigen::Index;
 /// Of a run's readings: a sensor that lacks more is left out, and not the rows that lack it.
 constexpr double largest_missing_share = 0.1;
 
-output::Channel const* channel_of(std::vector<output::Channel> const& group, std::string const& name) {
-  auto const it = std::find_if(group.begin(), group.end(), [&](auto const& c) { return c.name == name; });
-  return it == group.end() ? nullptr : &*it;
-}
-
-std::vector<std::string> names_of(std::vector<output::Channel> const& group) {
-  std::vector<std::string> names;
-  for (auto const& channel : group) names.push_back(channel.name);
-  return names;
-}
-
 /// What of a data set models get to see: its readings and errors, or the true ones.
 struct View {
   std::vector<output::Channel> const& readings;
@@ -94,15 +83,15 @@ std::vector<std::string> WorldReader::run_names() const {
 Eigen::ArrayX<bool> WorldReader::rows_with_any(output::Dataset const& data) const {
   Eigen::ArrayX<bool> any = Eigen::ArrayX<bool>::Constant(data.time_s.size(), false);
   for (auto const& sensor : data_.sensors)
-    if (auto const* channel = channel_of(data.readings, sensor)) any = any || channel->values.array().isFinite();
-  if (auto const* error = channel_of(data.displacements, world_.error)) any = any && error->values.array().isFinite();
+    if (auto const* channel = find_channel(data.readings, sensor)) any = any || channel->values.array().isFinite();
+  if (auto const* error = find_channel(data.displacements, world_.error)) any = any && error->values.array().isFinite();
   return any;
 }
 
 /// Why no model of the world gets to see the sensor; empty: they do.
 std::string WorldReader::unusable(std::string const& sensor, output::Dataset const& data,
                                   std::string const& run) const {
-  auto const* channel = channel_of(data.readings, sensor);
+  auto const* channel = find_channel(data.readings, sensor);
   if (!channel) return fmt::format("{} does not have it", run);
   Eigen::ArrayX<bool> const missing = !channel->values.array().isFinite(), asked = rows_with_any(data);
   if (missing.all()) return fmt::format("it is dead in {}", run);
@@ -129,13 +118,13 @@ void WorldReader::check_sensors() {
 KeptRows WorldReader::complete(output::Dataset const& data, std::string const& name,
                                std::vector<std::string>& remarks) const {
   std::vector<output::Channel const*> channels;
-  for (auto const& sensor : data_.sensors) channels.push_back(channel_of(data.readings, sensor));
-  if (auto const* error = channel_of(data.displacements, world_.error)) channels.push_back(error);
+  for (auto const& sensor : data_.sensors) channels.push_back(find_channel(data.readings, sensor));
+  if (auto const* error = find_channel(data.displacements, world_.error)) channels.push_back(error);
   auto known = reader_remarks(name);
   auto const before = Index(known.size());
   auto const rows = complete_rows(channels, name, known);
   std::vector<Index> since;
-  for (auto const& sensor : data_.sensors) since.push_back(first_value(*channel_of(data.readings, sensor), known));
+  for (auto const& sensor : data_.sensors) since.push_back(first_value(*find_channel(data.readings, sensor), known));
   remarks.insert(remarks.end(), known.begin() + before, known.end());
   return {rows, since};
 }
@@ -213,7 +202,7 @@ std::vector<std::string> WorldReader::components() const {
 Eigen::MatrixXd WorldReader::rises(View const& view, KeptRows const& kept) const {
   Eigen::MatrixXd rise(Index(kept.rows.size()), Index(data_.sensors.size()));
   for (std::size_t j = 0; j < data_.sensors.size(); ++j) {
-    auto const& values = channel_of(view.readings, data_.sensors[j])->values;
+    auto const& values = find_channel(view.readings, data_.sensors[j])->values;
     rise.col(Index(j)) = values(kept.rows).array() - values[kept.since[j]];
   }
   return rise;
@@ -221,7 +210,7 @@ Eigen::MatrixXd WorldReader::rises(View const& view, KeptRows const& kept) const
 
 models::Batch WorldReader::batch(View const& view, Eigen::VectorXd const& time, KeptRows const& kept,
                                  std::string const& name) const {
-  auto const* error = channel_of(view.displacements, world_.error);
+  auto const* error = find_channel(view.displacements, world_.error);
   if (!error)
     throw thermal::InputError(fmt::format("{} has no displacement '{}'; {}", name, world_.error,
                                           thermal::did_you_mean(world_.error, names_of(view.displacements))));

@@ -98,8 +98,7 @@ auto in_world(StudyWorld const& world, Action action) {
 /// Before hours of runs.
 void check_error(StudyWorld const& world, Machine const& machine) {
   if (world.slope()) return;
-  std::vector<std::string> known;
-  for (auto const& channel : displacement_channels(machine)) known.push_back(channel.name);
+  auto const known = names_of(displacement_channels(machine));
   if (std::find(known.begin(), known.end(), world.error) == known.end())
     throw thermal::InputError(fmt::format("the machine has no displacement '{}'; {}", world.error,
                                           thermal::did_you_mean(world.error, known)));

@@ -38,16 +38,14 @@ class Instant {
 
   [[nodiscard]] double channel(std::string const& name, bool angle) const {
     auto const& all = channels();
-    auto const it = std::find_if(all.begin(), all.end(), [&](auto const& c) { return c.name == name; });
-    if (it == all.end()) {
-      std::vector<std::string> names;
-      for (auto const& c : all) names.push_back(c.name);
-      throw InputError(fmt::format("the run has no displacement '{}'; {}", name, thermal::did_you_mean(name, names)));
-    }
-    if ((it->unit == "urad") != angle)
-      throw InputError(fmt::format("'{}' of the run is in {}; {} is due for the element that it moves", name, it->unit,
-                                   angle ? "urad" : "um"));
-    return micro * (it->values[row_] - it->values[0]);
+    auto const* shown = find_channel(all, name);
+    if (!shown)
+      throw InputError(
+          fmt::format("the run has no displacement '{}'; {}", name, thermal::did_you_mean(name, names_of(all))));
+    if ((shown->unit == "urad") != angle)
+      throw InputError(fmt::format("'{}' of the run is in {}; {} is due for the element that it moves", name,
+                                   shown->unit, angle ? "urad" : "um"));
+    return micro * (shown->values[row_] - shown->values[0]);
   }
 
   /// Error of position by the nut's place on the screw: from channels "E_P_120mm", else from the laser.
