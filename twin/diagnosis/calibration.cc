@@ -19,9 +19,7 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double still_uncertain = 0.5;  // of the prior's deviation
-constexpr double tied = 0.95;            // correlation
-constexpr double large_share = 0.3;      // of a unit vector
+constexpr double large_share = 0.3;  // of a unit vector
 constexpr int iterations = 12;
 constexpr double more_than_noise = 2.0;  // misfit
 

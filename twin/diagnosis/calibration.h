@@ -11,13 +11,18 @@
 
 namespace thermotwin::twin {
 
+/// Posterior over prior deviation above which a number is not identified.
+inline constexpr double still_uncertain = 0.5;
+/// Correlation above which numbers are inseparable.
+inline constexpr double tied = 0.95;
+
 /// A number of the machine file after calibration. A priori ln(value/nominal) ~ N(0, number.deviation²).
 struct CalibratedNumber {
   UncertainNumber number;
   double logarithm = 0.0;  ///< ln(estimate/nominal); of either sign: estimate − nominal
   double deviation = 0.0;  ///< its posterior standard deviation
-  /// The data have at least halved what was uncertain: deviation ≤ 0.5 · number.deviation (physics.md 8.9). If not,
-  /// the estimate is mostly the prior's and the number keeps its nominal value.
+  /// The data have at least halved what was uncertain: deviation ≤ still_uncertain · number.deviation (physics.md 8.9).
+  /// If not, the estimate is mostly the prior's and the number keeps its nominal value.
   bool identified = false;
   /// ln(value/nominal) in the calibrated file: 0 if not identified; if so, the most probable value given that those are
   /// at 0, found by a fit of its own: a smaller gap than `logarithm` leaves beside numbers that did not move with it.

@@ -69,10 +69,11 @@ std::string number_table(Calibration const& calibration) {
                     written_value(number.estimate(), of.unit, 4), written_value(number.standard_error(), of.unit, 2),
                     100.0 * of.deviation, written_value(written, of.unit, 4), verdict_of(number));
   }
-  return text +
-         "prior: standard deviation of the logarithm before the data. Not identified: after them it is still above "
-         "half "
-         "of\nthat; such a number keeps its nominal value. In the file: what is most probable with those at nominal.\n";
+  return text + fmt::format(
+                    "prior: standard deviation of the logarithm before the data. Not identified: after them it is "
+                    "still above {:.0f} %\nof that; such a number keeps its nominal value. In the file: what is most "
+                    "probable with those at nominal.\n",
+                    100.0 * still_uncertain);
 }
 
 std::string instrument_table(Calibration const& calibration) {
@@ -88,7 +89,7 @@ std::string instrument_table(Calibration const& calibration) {
 std::string collinearity_text(Calibration const& calibration) {
   std::string text;
   for (auto const& group : calibration.inseparable)
-    text += fmt::format("inseparable (correlation above 0.95): {}\n", fmt::join(group, ", "));
+    text += fmt::format("inseparable (correlation above {:g}): {}\n", tied, fmt::join(group, ", "));
   if (calibration.collinearity == 0.0) return text + "These data identify no number.\n";
   text += fmt::format("collinearity index of the identified numbers: {:.1f}", calibration.collinearity);
   if (calibration.collinearity <= collinear) return text + "\n";

@@ -145,6 +145,20 @@ TEST_F(CalibrationTest, ZerosHaveTheUnitOfTheirChannel) {
   EXPECT_EQ(units.at("lag of T1"), "s");
 }
 
+/// A record that begins after 80 min of work.
+TEST_F(CalibrationTest, AWarmStartIsCountedInDeviationsOfItsFields) {
+  auto const whole_run = run(Machine::build(read_toml(machine_file("v450"))), tests::two_speeds(), {}).dataset;
+  output::write(tests::without_rows(whole_run, -1.0, 4800.0), *folder / "warm.h5");
+  auto const warm = calibrate_files({*folder / "mine.toml", {*folder / "warm.h5"}, *folder / "warm_fit.toml"});
+  int fields = 0;
+  for (auto const& instrument : warm.instruments) {
+    if (instrument.unknown.kind != Unknown::Kind::warmth) continue;
+    EXPECT_EQ(instrument.unit, "1") << instrument.unknown.name;
+    ++fields;
+  }
+  EXPECT_GT(fields, 0);
+}
+
 TEST_F(CalibrationTest, FileHasTheIdentifiedNumbersAndNoOthers) {
   Value const written = read_toml(*folder / "calibrated.toml");
   Value given = read_toml(*folder / "mine.toml");
