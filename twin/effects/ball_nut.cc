@@ -7,12 +7,13 @@
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/feed_torque.h"
+#include "twin/effects/part_time_motion.h"
 
 namespace thermotwin::twin {
 namespace {
 
 /// Port 0 nut, port 1 screw under the stroke. c = torque coefficients (feed_torque.h), nut share; u as
-/// of torque_speed.
+/// of part_time_motion.h.
 struct NutHeat {
   static constexpr std::string_view name = "friction of a ball nut";
   static constexpr int ports = 2, coefficients = NutTorque::coefficients + 1, inputs = 2;
@@ -20,22 +21,21 @@ struct NutHeat {
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     if (u[0] == 0.0) return;
-    S const heat = thermal::friction_heat<S>(NutTorque::at<S>(T[0], T[1], c, torque_speed(u)), S(u[0]));
+    S const heat = thermal::friction_heat<S>(NutTorque::at<S>(T[0], T[1], c, moving_speed(u)), S(u[0]));
     q[0] = c[NutTorque::coefficients] * heat;
     q[1] = (1.0 - c[NutTorque::coefficients]) * heat;
   }
 };
 
 /// q = w G (T₁ − T₀), G = G₀ + G₁ √(ω/ω_ref): port 0 nut, port 1 a cell of the screw, over which the nut stands for the
-/// share w of the time. While the nut rests G is G₀. c = {G₀, G₁, ω_ref}, u = {those of torque_speed, w}.
+/// share w of the time. While the nut rests G is G₀. c = {G₀, G₁, ω_ref}, u = {those of part_time_motion.h, w}.
 struct NutConductance {
   static constexpr std::string_view name = "conduction through the balls of a nut";
   static constexpr int ports = 2, coefficients = 3, inputs = 3;
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    double const speed = torque_speed(u), share = u[0] > 0.0 ? u[0] / speed : 0.0;
-    S const conductance = thermal::rolling_conductance<S>(c[0], share * c[1], c[2], speed);
+    S const conductance = thermal::rolling_conductance<S>(c[0], share_of_motion(u) * c[1], c[2], moving_speed(u));
     thermal::exchange<S>(u[2] * conductance * (T[1] - T[0]), q);
   }
 };

@@ -3,12 +3,12 @@
 #include "thermal/laws.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
-#include "twin/effects/feed_torque.h"
+#include "twin/effects/part_time_motion.h"
 
 namespace thermotwin::twin {
 namespace {
 
-/// q = G (ω/ω_r)^m (T_air − T). Ports: surface, air. c = {G, m, ω_r}, u as of torque_speed.
+/// q = G (ω/ω_r)^m (T_air − T). Ports: surface, air. c = {G, m, ω_r}, u as of part_time_motion.h.
 struct FanConductance {
   static constexpr std::string_view name = "cooling by a rotating part's own draught";
   static constexpr int ports = 2, coefficients = 3, inputs = 2;
@@ -17,8 +17,8 @@ struct FanConductance {
   static void flows(S const* T, S const* c, double const* u, S* q) {
     if (u[0] == 0.0) return;
     using std::pow;
-    double const speed = torque_speed(u);
-    thermal::exchange<S>(u[0] / speed * c[0] * pow(S(speed / c[2]), c[1]) * (T[1] - T[0]), q);
+    S const while_moving = c[0] * pow(S(moving_speed(u) / c[2]), c[1]);
+    thermal::exchange<S>(share_of_motion(u) * while_moving * (T[1] - T[0]), q);
   }
 };
 

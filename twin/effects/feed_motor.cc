@@ -3,11 +3,12 @@
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/feed_torque.h"
+#include "twin/effects/part_time_motion.h"
 
 namespace thermotwin::twin {
 namespace {
 
-/// Ports: motor, nut, screw, rings of two support bearings. u as of torque_speed.
+/// Ports: motor, nut, screw, rings of two support bearings. u as of part_time_motion.h.
 /// c = nut torque, two support torques, {resistance, peak factor, k_T, constant torque, P_h, P_e, ω_r}.
 struct FeedMotorLoss {
   static constexpr std::string_view name = "loss of a feed motor";
@@ -18,13 +19,13 @@ struct FeedMotorLoss {
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     if (u[0] == 0.0) return;
-    double const speed = torque_speed(u), share_of_time = u[0] / speed;
+    double const speed = moving_speed(u);
     S const torque = NutTorque::at<S>(T[1], T[2], c + nut, speed) + SupportTorque::at<S>(T[3], c + upper, speed) +
                      SupportTorque::at<S>(T[4], c + lower, speed) + c[own + 3];
     S const current = thermal::permanent_magnet_current<S>(torque, c[own + 2]);
     S const ratio = speed / c[own + 6];
-    q[0] = share_of_time * (c[own + 1] * thermal::copper_loss<S>(S(3.0), c[own], T[0], current) +
-                            thermal::iron_loss<S>(c[own + 4], c[own + 5], ratio));
+    q[0] = share_of_motion(u) * (c[own + 1] * thermal::copper_loss<S>(S(3.0), c[own], T[0], current) +
+                                 thermal::iron_loss<S>(c[own + 4], c[own + 5], ratio));
   }
 };
 

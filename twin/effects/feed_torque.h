@@ -35,10 +35,6 @@ struct NutTorque {
   }
 };
 
-/// At which the torques of a drive are taken. u = {mean ω, ω while moving}, the latter 0 where a record has no feed
-/// although the screw turns.
-inline double torque_speed(double const* u) { return u[1] > 0.0 ? u[1] : u[0]; }
-
 /// M of (1.15). c = {M_b, A, B, ω_r}.
 struct SupportTorque {
   static constexpr int coefficients = 4;

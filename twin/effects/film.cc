@@ -6,14 +6,14 @@
 #include "thermal/rotating_surface.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
-#include "twin/effects/feed_torque.h"
+#include "twin/effects/part_time_motion.h"
 #include "twin/effects/sized_surface.h"
 
 namespace thermotwin::twin {
 namespace {
 
 /// q = G (T_fluid − T_surface), G = A/(1/(f h) + r). Ports: surface cell, fluid. c = {A, r, size, coefficient,
-/// emissivity, f}, u = {ω}; of what turns, those of torque_speed, and G is the mean over motion and rest. The
+/// emissivity, f}, u = {ω}; of what turns, those of part_time_motion.h, and G is the mean over motion and rest. The
 /// correlation gives h from the temperatures, the speed and what else it needs.
 template <class Correlation>
 struct FilmLaw {
@@ -22,15 +22,11 @@ struct FilmLaw {
   static constexpr bool conservative = true, in_lanes = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    S mean;
-    if constexpr (Correlation::turns) {
-      double const speed = torque_speed(u), share = speed > 0.0 ? u[0] / speed : 1.0;
-      mean = conductance(T, c, speed);
-      if (share < 1.0) mean = share * mean + (1.0 - share) * conductance(T, c, 0.0);
-    } else {
-      mean = conductance(T, c, u[0]);
-    }
-    q[0] = mean * (T[1] - T[0]);
+    auto const at = [&](double speed) { return conductance(T, c, speed); };
+    if constexpr (Correlation::turns)
+      q[0] = mean_over_motion(u, at) * (T[1] - T[0]);
+    else
+      q[0] = at(u[0]) * (T[1] - T[0]);
     q[1] = -q[0];
   }
 

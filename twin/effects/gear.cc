@@ -2,12 +2,13 @@
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/feed_torque.h"
+#include "twin/effects/part_time_motion.h"
 
 namespace thermotwin::twin {
 namespace {
 
 /// P = d P_r (ω/ω_r)^m (ν(T)/ν₄₀)^0.2 + u (1 − η) P_t, ω while moving, for the share d of the time. Port: gear box.
-/// c = {P_r, m, ω_r, A, B, (1 − η) P_t}, u = {those of torque_speed, flag}.
+/// c = {P_r, m, ω_r, A, B, (1 − η) P_t}, u = {those of part_time_motion.h, flag}.
 struct GearHeat {
   static constexpr std::string_view name = "loss of a gear stage";
   static constexpr int ports = 1, coefficients = 6, inputs = 3;
@@ -17,9 +18,8 @@ struct GearHeat {
     q[0] = u[2] * c[5];
     if (u[0] == 0.0) return;
     using std::pow;
-    double const speed = torque_speed(u);
     S const viscosity = flow_ratio<S>(c[3], c[4], T[0], 1.0, S(1.0));
-    q[0] += u[0] / speed * c[0] * pow(S(speed / c[2]), c[1]) * pow(viscosity, 0.2);
+    q[0] += share_of_motion(u) * c[0] * pow(S(moving_speed(u) / c[2]), c[1]) * pow(viscosity, 0.2);
   }
 };
 

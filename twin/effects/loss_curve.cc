@@ -4,7 +4,7 @@
 #include "thermal/error.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
-#include "twin/effects/feed_torque.h"
+#include "twin/effects/part_time_motion.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -12,17 +12,14 @@ namespace {
 constexpr int most_points = 8;
 
 /// P(ω) linear between points, constant beyond the last; of a screw the mean over motion and rest. c = {factor, ω₁…ω₈,
-/// P₁…P₈}, u = {those of torque_speed, flag}.
+/// P₁…P₈}, u = {those of part_time_motion.h, flag}.
 struct LossCurveHeat {
   static constexpr std::string_view name = "loss over speed";
   static constexpr int ports = 1, coefficients = 1 + 2 * most_points, inputs = 3;
   static constexpr bool conservative = false;
   template <class S>
   static void flows(S const*, S const* c, double const* u, S* q) {
-    double const moving = torque_speed(u), share = moving > 0.0 ? u[0] / moving : 1.0;
-    S power = loss_at(c, moving);
-    if (share < 1.0) power = share * power + (1.0 - share) * loss_at(c, 0.0);
-    q[0] = u[2] * c[0] * power;
+    q[0] = u[2] * c[0] * mean_over_motion(u, [c](double speed) { return loss_at(c, speed); });
   }
 
  private:

@@ -5,13 +5,13 @@
 #include "thermal/error.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
-#include "twin/effects/feed_torque.h"
+#include "twin/effects/part_time_motion.h"
 
 namespace thermotwin::twin {
 namespace {
 
 /// Q = k₀ w̄ (w e^{B/(T − T_p)})^{k₂}: w while moving, w̄ its mean over time. Ports: the two sides. c = {k₀, k₂, B, first
-/// share}, u as of torque_speed; of a guide {share of the time in motion, w}.
+/// share}, u as of part_time_motion.h; of a guide {share of the time in motion, w}.
 template <bool of_guide>
 struct RollingContactHeat {
   static constexpr std::string_view name = of_guide ? "friction of a guide's contacts" : "friction of rolling contacts";
@@ -19,7 +19,7 @@ struct RollingContactHeat {
   static constexpr bool conservative = false;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    double const speed = of_guide ? u[1] : torque_speed(u), mean = of_guide ? u[0] * u[1] : u[0];
+    double const speed = of_guide ? u[1] : moving_speed(u), mean = of_guide ? u[0] * u[1] : u[0];
     if (mean == 0.0) return;
     using std::exp;
     S const temperature = 0.5 * (T[0] + T[1]);

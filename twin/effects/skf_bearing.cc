@@ -3,12 +3,12 @@
 #include "thermal/skf_friction.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
-#include "twin/effects/feed_torque.h"
+#include "twin/effects/part_time_motion.h"
 
 namespace thermotwin::twin {
 namespace {
 
-/// Ports: shaft, outer ring; the lubricant has their mean temperature. u as of torque_speed.
+/// Ports: shaft, outer ring; the lubricant has their mean temperature. u as of part_time_motion.h.
 /// c = {count, A, B, F_r, F_a, d, D, K_rs, μ_bl, μ_EHL, centrifugal factor, inner share}.
 struct SkfHeat {
   static constexpr std::string_view name = "bearing friction after SKF";
@@ -26,7 +26,7 @@ struct SkfHeat {
     bearing.r3 *= c[10];
     bearing.s3 *= c[10];
     S const viscosity = thermal::vogel_cameron_viscosity<S>(c[1], c[2], 0.5 * (T[0] + T[1]));
-    S const torque = thermal::skf_torque<S>(bearing, c[3], c[4], viscosity, S(torque_speed(u)));
+    S const torque = thermal::skf_torque<S>(bearing, c[3], c[4], viscosity, S(moving_speed(u)));
     S const heat = c[0] * thermal::friction_heat<S>(torque, S(u[0]));
     q[0] = c[11] * heat;
     q[1] = (1.0 - c[11]) * heat;

@@ -3,11 +3,12 @@
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/feed_torque.h"
+#include "twin/effects/part_time_motion.h"
 
 namespace thermotwin::twin {
 namespace {
 
-/// Port 0 shaft, port 1 outer ring. c = torque coefficients, inner share; u as of torque_speed.
+/// Port 0 shaft, port 1 outer ring. c = torque coefficients, inner share; u as of part_time_motion.h.
 struct SupportHeat {
   static constexpr std::string_view name = "friction of screw support bearings";
   static constexpr int ports = 2, coefficients = SupportTorque::coefficients + 1, inputs = 2;
@@ -15,7 +16,7 @@ struct SupportHeat {
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     if (u[0] == 0.0) return;
-    S const torque = SupportTorque::at<S>(0.5 * (T[0] + T[1]), c, torque_speed(u));
+    S const torque = SupportTorque::at<S>(0.5 * (T[0] + T[1]), c, moving_speed(u));
     S const heat = thermal::friction_heat<S>(torque, S(u[0]));
     q[0] = c[SupportTorque::coefficients] * heat;
     q[1] = (1.0 - c[SupportTorque::coefficients]) * heat;
