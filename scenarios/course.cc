@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "scenarios/motion_limit.h"
 #include "thermal/error.h"
 #include "thermal/machine_temperature.h"
 #include "thermal/nearest_name.h"
@@ -17,8 +18,6 @@ namespace {
 using thermal::InputError;
 
 constexpr double seconds_per_day = 86400.0;
-constexpr double overshoot = 1.2;   // of a record over what the machine can do
-constexpr double round_off = 1e-9;  // of a limit that is written in another unit
 
 void check_range(DrivenChannel const& driven, std::string const& place) {
   for (double const value : driven.signal.values())
@@ -45,20 +44,9 @@ void check_temperature(DrivenChannel const& driven) {
 
 /// `most`: times what the machine can do.
 void check_motion(DrivenChannel const& driven, MachineLimits const& machine, double most) {
-  auto const hold = [&](std::string const& channel, double limit, thermal::Dimension dimension,
-                        std::string const& maximum = "the machine's maximum") {
-    if (driven.channel.name != channel || limit <= 0.0) return;
-    double const largest = driven.signal.largest_magnitude();
-    if (largest > most * limit * (1.0 + round_off))
-      throw InputError("channel '" + channel + "': " + driven.channel.description + " reaches " +
-                       thermal::format_quantity(largest, dimension) + ", and " + maximum + " is " +
-                       thermal::format_quantity(limit, dimension) + "; is its unit right?");
-  };
-  hold("spindle.speed", machine.max_spindle_speed, thermal::dimension::angular_speed);
-  for (AxisLimits const& axis : machine.axes) {
-    hold(axis.name + ".feed", axis.rapid_feed, thermal::dimension::speed);
-    hold(axis.name + ".duty", 1.0, thermal::dimension::dimensionless, "the most");
-  }
+  auto const& [name, unit, description] = driven.channel;
+  if (auto const words = beyond_limit(name, driven.signal.largest_magnitude(), machine, most); !words.empty())
+    throw InputError("channel '" + name + "': " + description + " " + words);
 }
 
 /// Whether a channel of another dimension is driven is told by ExperimentCourse::replace_or_add.

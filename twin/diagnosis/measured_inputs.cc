@@ -8,6 +8,7 @@
 
 #include "models/quantile.h"
 #include "scenarios/course.h"
+#include "scenarios/motion_limit.h"
 #include "thermal/error.h"
 #include "thermal/machine_temperature.h"
 #include "thermal/nearest_name.h"
@@ -162,27 +163,15 @@ void check_needs(MeasuredData const& data, Machine const& machine) {
                                given.empty() ? "none" : fmt::format("{}", fmt::join(given, ", ")), hints));
 }
 
-/// `most`: "the machine's maximum" or the like.
-void check_largest(MeasuredData const& data, std::string const& name, double limit, std::string_view most) {
-  SampledInput const* input = find(data.inputs, name);
-  if (!input || limit <= 0.0) return;
-  double largest = 0.0;
-  for (double const value : input->values)
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  if (largest <= 1.2 * limit) return;
-  auto const text = [&](double value) { return thermal::format_quantity(value, thermal::dimension_of(input->unit)); };
-  located(data.input_tables, name, [&] {
-    throw InputError(
-        fmt::format("input '{}' reaches {}, and {} is {}; is its unit right?", name, text(largest), most, text(limit)));
-  });
-}
-
 void check_motion(MeasuredData const& data, Machine const& machine) {
-  constexpr std::string_view maximum = "the machine's maximum";
-  check_largest(data, "spindle.speed", machine.limits.max_spindle_speed, maximum);
-  for (auto const& axis : machine.limits.axes) {
-    check_largest(data, axis.name + ".feed", axis.rapid_feed, maximum);
-    check_largest(data, axis.name + ".duty", 1.0, "the most");
+  for (auto const& input : data.inputs) {
+    double largest = 0.0;
+    for (double const value : input.values)
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    auto const words = scenarios::beyond_limit(input.name, largest, machine.limits, scenarios::overshoot);
+    if (!words.empty())
+      located(data.input_tables, input.name,
+              [&] { throw InputError(fmt::format("input '{}' {}", input.name, words)); });
   }
 }
 
