@@ -21,10 +21,13 @@ S radiation_film(S const& emissivity, S const& temperature1, S const& temperatur
          (temperature1 + temperature2);
 }
 
-/// q = σ ε₁₂ A F₁₂ (T₂⁴ − T₁⁴) [W] into body 1; A its area [m²].
+/// q = σ ε₁₂ A F₁₂ (T₂⁴ − T₁⁴) [W] into body 1; A its area [m²]. With a resistance R [K/W] between its surface and the
+/// node of which T₁ is known: q = g (T₂ − T₁)/(1 + g R), g = A F₁₂ h(T₁, T₂), which is exact for R → 0.
 template <class S>
-S radiation_heat(S const& emissivity, S const& area, S const& view12, S const& temperature1, S const& temperature2) {
-  return area * view12 * radiation_film<S>(emissivity, temperature1, temperature2) * (temperature2 - temperature1);
+S radiation_heat(S const& emissivity, S const& area, S const& view12, S const& temperature1, S const& temperature2,
+                 S const& resistance = S(0.0)) {
+  S const g = area * view12 * radiation_film<S>(emissivity, temperature1, temperature2);
+  return g * (temperature2 - temperature1) / (1.0 + g * resistance);
 }
 
 /// h = 4σ ε 0.8 T_m³ [W/(m² K)]: a machine's surface of emissivity ε to the walls of a workshop, T_m mean of both [K].

@@ -17,6 +17,13 @@ struct Contact {
   double low = 0.0, high = 0.0;                   ///< interval along the body's axis [m]
   double inner_radius = 0.0, outer_radius = 0.0;  ///< of an end face [m]
   Eigen::AlignedBox3d box;                        ///< of a block: the part of the cell or of its face [m]
+
+  /// From the node to the surface [K/W].
+  [[nodiscard]] double resistance() const { return area > 0.0 ? half_resistance / area : 0.0; }
+  /// What the node has of a conductance to the site's surface, in series with the way there [W/K].
+  [[nodiscard]] double in_series(double conductance) const {
+    return conductance * share / (1.0 + conductance * share * resistance());
+  }
 };
 
 /// A place on or in a body where something acts or is measured: nodes with shares that add up to 1. A heat source, a

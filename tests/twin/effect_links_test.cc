@@ -103,6 +103,28 @@ TEST(FloodCoolant, FollowsItsFlagAndItsSupply) {
   EXPECT_NEAR(total_heat(circulating), 0.0, 1e-9);
 }
 
+/// Whatever takes heat at a surface takes it from there, and not from the middle of the outermost cell: half of its 75
+/// mm of steel are on the way.
+TEST(HalfCells, AreOnTheWayToASurface) {
+  double const area = M_PI / 4.0 * 0.04 * 0.04, way = 0.0375 / (42.0 * area), hot = 303.15;
+  auto const through = [&](double conductance) { return conductance / (1.0 + conductance * way); };
+  Changes const at_end = {{"at", "shaft.end"}};
+  EXPECT_NEAR(total_at(snippet("foundation", "constant"), hot, {}, at_end), -through(20.0) * 16.0, 1e-9);
+  double const air = 30e-3 / 60.0 * 1e5 / (287.06 * 293.15) * 1007.0;
+  EXPECT_NEAR(total_at(snippet("purge_air", "constant"), hot, {}, {{"through", "shaft.end"}}), -through(air) * 12.0,
+              1e-9);
+  double const film = thermal::radiation_film<double>(0.9, hot, 333.15);
+  EXPECT_NEAR(total_at(snippet("hot_neighbour", "constant"), hot, {}, {{"on", "shaft.end"}}),
+              (through(0.2 * 0.6 * film) + through(1.0)) * 30.0, 1e-9);
+  Snippet const& mass = snippet("extra_mass");
+  Machine const machine = Machine::build(bench(mass, at_end));
+  auto temperatures = uniform_temperatures(machine, 293.15);
+  auto const& shaft = machine.network().range("shaft");
+  auto const last = std::size_t(shaft.first + shaft.count - 1);
+  temperatures[last] = hot;
+  EXPECT_NEAR(heat_of(mass, machine, temperatures)[last], -through(4.0) * 10.0, 1e-9);
+}
+
 TEST(Foundation, LeadsIntoTheSoil) {
   EXPECT_NEAR(total_at(snippet("foundation", "constant"), 297.15), -20.0 * 10.0, 1e-9);
   EXPECT_NEAR(total_at(snippet("foundation", "following"), 300.0), -20.0 * 10.0, 1e-9);

@@ -21,7 +21,7 @@ struct ExtraMass {
     auto const mass = assembly.network().add_body("extra mass '" + name + "'", {heat_capacity});
     for (auto const& contact : place.site.contacts)
       assembly.network().connect(assembly.part(), assembly.node(place, contact.node), mass,
-                                 conductance * contact.share);
+                                 contact.in_series(conductance));
   }
 };
 

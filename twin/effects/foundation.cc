@@ -22,7 +22,7 @@ struct Foundation : GivenTemperature {
     auto const soil = port(assembly, "foundation '" + name + "'");
     for (auto const& contact : place.site.contacts)
       assembly.network().connect(assembly.part(), assembly.node(place, contact.node), soil,
-                                 conductance * contact.share);
+                                 contact.in_series(conductance));
   }
 };
 
@@ -32,7 +32,7 @@ Effect const& foundation_effect() {
   static Effect const effect =
       make_effect<Foundation>({"foundation",
                                "conduction through feet and foundation into soil of its own temperature",
-                               "q = G (T_soil − T)",
+                               "q = G (T_soil − T), in series with the half cell of a discretised body",
                                "boundary",
                                "underside of the bed",
                                "drift over days and weeks, bottom of the bed first; does not follow spindle or room",

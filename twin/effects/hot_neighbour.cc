@@ -7,14 +7,15 @@
 namespace thermotwin::twin {
 namespace {
 
-/// q = u [σ ε A F (T_n⁴ − T⁴) + G (T_n − T)]. Ports: surface, neighbour. c = {ε, A, F, G}, u = {flag}.
+/// q = u (q_r + G (T_n − T)), q_r = σ ε A F (T_n⁴ − T⁴) through the half cell. Ports: surface, neighbour. c = {ε, A, F,
+/// G, R of the half cell [K/W]}, u = {flag}.
 struct NeighbourHeat {
   static constexpr std::string_view name = "heat from a neighbour";
-  static constexpr int ports = 2, coefficients = 4, inputs = 1;
+  static constexpr int ports = 2, coefficients = 5, inputs = 1;
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
-    S const radiation = thermal::radiation_heat<S>(c[0], c[1], c[2], T[0], T[1]);
+    S const radiation = thermal::radiation_heat<S>(c[0], c[1], c[2], T[0], T[1], c[4]);
     thermal::exchange<S>(u[0] * (radiation + c[3] * (T[1] - T[0])), q);
   }
 };
@@ -42,9 +43,10 @@ struct HotNeighbour : GivenTemperature {
     Place const place = assembly.place(on);
     auto const neighbour = port(assembly, "hot_neighbour '" + name + "'");
     for (auto const& contact : place.site.contacts)
-      assembly.network().add<NeighbourHeat>(assembly.part(), {assembly.node(place, contact.node), neighbour},
-                                            {emissivity, area * contact.share, view, conductance * contact.share},
-                                            {assembly.share(while_on)});
+      assembly.network().add<NeighbourHeat>(
+          assembly.part(), {assembly.node(place, contact.node), neighbour},
+          {emissivity, area * contact.share, view, contact.in_series(conductance), contact.resistance()},
+          {assembly.share(while_on)});
   }
 };
 

@@ -30,7 +30,7 @@ struct PurgeAir : GivenTemperature {
     for (auto const& contact : place.site.contacts)
       assembly.network().add<thermal::SwitchedConductance>(
           assembly.part(), {assembly.node(place, contact.node), supply},
-          {flow * air.density * air.specific_heat * contact.share}, {assembly.share(while_on)});
+          {contact.in_series(flow * air.density * air.specific_heat)}, {assembly.share(while_on)});
   }
 };
 

@@ -8,14 +8,14 @@
 namespace thermotwin::twin {
 namespace {
 
-/// q = σ ε₁₂ A F₁₂ (T₂⁴ − T₁⁴) into port 0. c = {ε₁₂, A, F₁₂}.
+/// q = σ ε₁₂ A F₁₂ (T₂⁴ − T₁⁴) into port 0, through its half cell. c = {ε₁₂, A, F₁₂, R of the half cell [K/W]}.
 struct RadiationLaw {
   static constexpr std::string_view name = "radiation";
-  static constexpr int ports = 2, coefficients = 3, inputs = 0;
+  static constexpr int ports = 2, coefficients = 4, inputs = 0;
   static constexpr bool conservative = true;
   template <class S>
   static void flows(S const* T, S const* c, double const*, S* q) {
-    thermal::exchange<S>(thermal::radiation_heat<S>(c[0], c[1], c[2], T[0], T[1]), q);
+    thermal::exchange<S>(thermal::radiation_heat<S>(c[0], c[1], c[2], T[0], T[1], c[3]), q);
   }
 };
 
@@ -51,7 +51,7 @@ struct Radiation {
           assembly.part(),
           {assembly.node(place, contact.node),
            to == "ambient" ? assembly.air(contact.centre) : assembly.port(assembly.place(to, {"ambient"}))},
-          {both, contact.area, view});
+          {both, contact.area, view, contact.resistance()});
   }
 };
 
