@@ -117,20 +117,21 @@ TEST(GeneticSearch, IsTheSameForTheSameSeed) {
   EXPECT_NE(genetic_search(8, fitness, 5, few).best.back(), genetic_search(8, fitness, 6, few).best.back());
 }
 
-/// methods.md §11, C4, at equal epochs. Of twenty random starts as many descend lower than another random one as not;
-/// the mean share over 36 independent draws then lies below 0.42 once in twenty times. (At equal epochs the lead is
-/// gone after two thousand.)
-TEST(GeneticSearch, StartsADescentThatIsLowerThanOfRandomStarts) {
-  constexpr int epochs = 500, draws = 36;
-  double lower = 0;
+/// methods.md §11, C4, of the models as they are fitted: at or below the median of twenty random starts. A start that
+/// is no better than these is so in half of the draws, and in ten of twelve or more twice in a hundred times.
+TEST(NetworkModel, EndsLowerFromAGeneticSearchThanFromRandomStarts) {
+  constexpr int draws = 12;
+  int lower = 0;
   for (std::uint64_t draw = 1; draw <= draws; ++draw) {
-    auto loss = NetworkSamples(std::vector{duty(draw)}).loss();
-    auto const fitness = [&](VectorXd const& parameters) { return 1.0 / loss.rough(parameters); };
-    double const found = descend(loss, genetic_search(78, fitness, draw).best.back(), {.epochs = epochs}).loss;
+    std::vector const batches{duty(draw)};
+    auto const loss = [&](ErrorModel const& model) { return (model.predict(batches[0]) - batches[0].error).norm(); };
+    VectorXd random(20);
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
-      if (descend(loss, random_parameters(78, 100 * draw + seed), {.epochs = epochs}).loss < found) lower += 1.0 / 20;
+      random[Eigen::Index(seed) - 1] = loss(fit_back_propagation(batches, {.seed = 100 * draw + seed}));
+    std::sort(random.begin(), random.end());
+    if (loss(fit_genetic_back_propagation(batches, {.seed = draw})) <= 0.5 * (random[9] + random[10])) ++lower;
   }
-  EXPECT_LT(lower / draws, 0.42);
+  EXPECT_GE(lower, 10);
 }
 
 /// Only so do starts compare.
