@@ -40,7 +40,7 @@ struct World {
     design = draw_ensemble(document, sites, options);
     if (others == 0) return;
     options.members = others;
-    options.seed = 1'000'001;
+    options.first_member = 1'000'000;
     unseen = draw_ensemble(document, sites, options);
   }
   [[nodiscard]] SnapshotMoments moments(Teacher teacher = Teacher::family) const { return {design, noise, teacher}; }

@@ -49,6 +49,8 @@ struct Part {
   Eigen::MatrixXf node_rise;
 };
 
+constexpr std::uint64_t drawn_by_one_seed = std::uint64_t{1} << 32;
+
 class Draw {
  public:
   Draw(Value const& document, std::vector<CandidateSite> const& sites, EnsembleOptions const& options)
@@ -74,7 +76,8 @@ class Draw {
 
 std::vector<Part> Draw::member(int number) const {
   std::map<std::string, double> drawn;
-  std::uint64_t const seed = options_.seed + std::uint64_t(number);
+  std::uint64_t const seed =
+      1 + (options_.seed - 1) * drawn_by_one_seed + std::uint64_t(options_.first_member + number);
   Machine const machine = Machine::build(vary_parameters(document_, seed, 1.0, drawn));
   RunOptions run_options;
   run_options.integration.relative_tolerance = run_options.integration.absolute_tolerance = run_tolerance;

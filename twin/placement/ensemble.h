@@ -16,7 +16,8 @@ namespace thermotwin::twin {
 /// Which machines are put through what.
 struct EnsembleOptions {
   int members = 100;
-  std::uint64_t seed = 1;  ///< member m is drawn with seed + m
+  std::uint64_t seed = 1;  ///< no machine is drawn by two seeds
+  int first_member = 0;    ///< of all that a seed draws
   /// What every member is put through; none: two spectra drawn for each member anew, with a room of their own
   /// (challenge_runs: 16 h with blocks of 20 min, and about 13 h with blocks of 20 to 90 min).
   std::vector<scenarios::Experiment> experiments;

@@ -26,10 +26,10 @@ using Eigen::Index;
 using thermal::InputError;
 using Sites = std::vector<Index>;
 
-constexpr double idle_share = 0.01;               // of the error: what the loss of an idle sensor adds at most
-constexpr double most_sets = 1e6;                 // that are all looked at
-constexpr double most_angles = 2e7;               // likewise, of sets that shall tell effects apart
-constexpr std::uint64_t unseen_seed = 1'000'000;  // members of the design have smaller numbers
+constexpr double idle_share = 0.01;      // of the error: what the loss of an idle sensor adds at most
+constexpr double most_sets = 1e6;        // that are all looked at
+constexpr double most_angles = 2e7;      // likewise, of sets that shall tell effects apart
+constexpr int first_unseen = 1'000'000;  // members of the design have smaller numbers
 
 void check(PlacementOptions const& options, std::size_t candidates) {
   if (options.sensors < 1) throw InputError(fmt::format("{} sensors; at least 1 is due", options.sensors));
@@ -196,7 +196,7 @@ Judge::Judge(Value const& document, PlacementOptions const& options)
 EnsembleOptions Judge::unseen_options() const {
   EnsembleOptions unseen = options_.design;
   unseen.members = options_.unseen_members;
-  unseen.seed += unseen_seed;
+  unseen.first_member = first_unseen;
   unseen.experiments = options_.unseen;
   unseen.every_node = false;
   return unseen;

@@ -171,6 +171,21 @@ TEST(Ensemble, IsTheSameForTheSameSeed) {
   EXPECT_THAT(a.channels, testing::ElementsAre("E_X", "E_Y", "E_Z"));
 }
 
+/// Whoever draws again with the next seed sees other machines, all of them.
+TEST(Ensemble, OfAnotherSeedSharesNoMachine) {
+  EnsembleOptions options;
+  options.members = 2;
+  auto const document = v450();
+  std::vector<CandidateSite> const sites = {{"a", {"head_front"}}};
+  auto const first = draw_ensemble(document, sites, options);
+  options.seed = 2;
+  auto const second = draw_ensemble(document, sites, options);
+  for (auto const& one : first.runs)
+    for (auto const& other : second.runs)
+      EXPECT_NE(first.displacement.middleRows(one.first, one.rows),
+                second.displacement.middleRows(other.first, other.rows));
+}
+
 /// A sensor in every place that moves the tool leaves what the uncertain growth of the parts and its noise leave.
 TEST(SnapshotMoments, ForetellTheErrorOnMachinesThatTookNoPart) {
   RandomMachine const machine(5);
