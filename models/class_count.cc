@@ -88,6 +88,19 @@ std::vector<int> counts_by_ratio(VectorXd const& loss, std::vector<int> const& c
   return order;
 }
 
+Evidence evidence_of(ClassCountTrial const& trial) {
+  Evidence evidence{fmt::format("k = {}", trial.k), {}};
+  if (!trial.obstacle.empty()) return evidence;
+  auto const& fit = trial.regression;
+  evidence.figures = {{"p_F", fit.p_F},
+                      {"p_t", fit.p.maxCoeff()},
+                      {"p_t_autocorrelated", fit.hac_p.maxCoeff()},
+                      {"r_squared", fit.r_squared},
+                      {"residual_deviation", fit.residual_deviation},
+                      {"largest_residual", fit.largest_residual}};
+  return evidence;
+}
+
 ClassCountVerdict count_by_regression(std::vector<ClassCountTrial> const& trials, ImprovedRule const& rule) {
   auto const passes = [&](ClassCountTrial const& trial) { return significant(trial, rule); };
   auto const has_regression = [](ClassCountTrial const& trial) { return trial.obstacle.empty(); };

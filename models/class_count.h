@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "models/linear_regression.h"
+#include "models/selection.h"
 
 namespace thermotwin::models {
 
@@ -37,6 +38,10 @@ struct ClassCountTrial {
   LinearRegression regression;
   std::string obstacle;  ///< why there is no regression (collinear sensors, too few samples); empty if there is one
 };
+
+/// "k = 4": p of F, the largest p of a t and the same under autocorrelation, R², σ_res and e_max [µm]; none where there
+/// is no regression.
+Evidence evidence_of(ClassCountTrial const& trial);
 
 /// What a number of classes must do to replace a smaller one.
 struct ImprovedRule {

@@ -69,8 +69,8 @@ struct ModelMethod {
   std::string_view name;     ///< as written in files, snake_case
   std::string_view meaning;  ///< one line
   std::string_view source;   ///< paper and section, or literature
-  /// A model on all sensors of the batches (select columns before); refuses fewer samples than parameters and sensors
-  /// that do not move, by name (std::invalid_argument).
+  /// A model on all sensors of the batches (select columns before); refuses fewer samples than regressors, unless a
+  /// penalty binds them, and sensors that do not move, by name (std::invalid_argument).
   ErrorModel (*fit)(std::span<Batch const>, FitOptions const&);
 };
 

@@ -46,9 +46,9 @@ OrderedSensors ordered_sensors(std::span<Batch const> batches, SelectionOptions 
   auto from = candidates(batches, options);
   require_error_that_moves(from);
   auto const shared = shared_screen(options);
-  auto const& screen = shared->screen(from, options.seed);
+  auto const& screen = shared->screen(from, options);
   bool const enough = options.count.value_or(0) <= std::ssize(screen.kept);
-  auto const& [order, partitions] = shared->ordered(from, options.seed, !enough);
+  auto const& [order, partitions] = shared->ordered(from, options, !enough);
   auto counts = options.count ? std::vector{*options.count} : bends(partitions.loss());
   return {std::move(from), screen, order, partitions, std::move(counts)};
 }
@@ -80,9 +80,14 @@ std::vector<ClassCountTrial> trials(OrderedSensors const& ordered) {
   return tried;
 }
 
-Selection chosen(OrderedSensors const& ordered, std::vector<Index> const& sensors, std::string remark) {
+Selection chosen(OrderedSensors const& ordered, std::vector<Index> const& sensors, std::string remark,
+                 std::vector<ClassCountTrial> const& tried = {}) {
   if (!ordered.screen.remark.empty()) remark += "; " + ordered.screen.remark;
-  return selection(ordered.from, ranked(ordered.screen.information, sensors), ordered.screen.information, remark);
+  auto result =
+      selection(ordered.from, ranked(ordered.screen.information, sensors), ordered.screen.information, remark);
+  result.evidence = evidence_of(ordered.from, ordered.screen);
+  for (auto const& one : tried) result.evidence.push_back(evidence_of(one));
+  return result;
 }
 
 Selection as_asked(OrderedSensors const& ordered, int count) {
@@ -103,11 +108,11 @@ Selection select_by_ordered_clustering_improved(std::span<Batch const> batches, 
   auto const verdict = count_by_regression(tried);
   if (!verdict.trial)
     return chosen(ordered, {best(ordered.screen.information, ordered.order)},
-                  fmt::format("one sensor, since no number of classes has a regression ({})", verdict.reason));
+                  fmt::format("one sensor, since no number of classes has a regression ({})", verdict.reason), tried);
   auto const& taken = tried[*verdict.trial];
   std::string_view const rule =
       verdict.accepted ? "improved rule" : "improved rule without F and t, which every number fails,";
-  return chosen(ordered, taken.sensors, fmt::format("{} ({})", by(taken.k, rule, ordered), verdict.reason));
+  return chosen(ordered, taken.sensors, fmt::format("{} ({})", by(taken.k, rule, ordered), verdict.reason), tried);
 }
 
 Selection select_by_ordered_clustering_ratio(std::span<Batch const> batches, SelectionOptions const& options) {
@@ -122,7 +127,7 @@ Selection select_by_ordered_clustering_ratio(std::span<Batch const> batches, Sel
   auto const first = std::find_if(order.begin(), order.end(), significant);
   int const k = first == order.end() ? order.front() : *first;
   return chosen(ordered, ordered.sensors(k),
-                by(k, first == order.end() ? "ratio rule, though no F is significant," : "ratio rule", ordered));
+                by(k, first == order.end() ? "ratio rule, though no F is significant," : "ratio rule", ordered), tried);
 }
 
 Selection select_by_ordered_clustering_slope(std::span<Batch const> batches, SelectionOptions const& options) {

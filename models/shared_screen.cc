@@ -10,15 +10,15 @@ std::shared_ptr<SharedScreen> shared_screen(SelectionOptions const& options) {
   return options.shared ? options.shared : std::make_shared<SharedScreen>();
 }
 
-InformationScreen const& SharedScreen::screen(Candidates const& from, std::uint64_t seed) {
-  std::call_once(screened_, [&] { screen_ = screen_by_information(from, seed); });
+InformationScreen const& SharedScreen::screen(Candidates const& from, SelectionOptions const& options) {
+  std::call_once(screened_, [&] { screen_ = screen_by_information(from, options.seed, options.information); });
   return screen_;
 }
 
-OrderedCandidates const& SharedScreen::ordered(Candidates const& from, std::uint64_t seed, bool all) {
+OrderedCandidates const& SharedScreen::ordered(Candidates const& from, SelectionOptions const& options, bool all) {
   std::size_t const which = all ? 1 : 0;
   std::call_once(parted_[which], [&] {
-    auto const clustered = all ? first_numbers(from.count()) : screen(from, seed).kept;
+    auto const clustered = all ? first_numbers(from.count()) : screen(from, options).kept;
     std::vector<Index> order;
     for (Index const place : ascending(from.all.temperature_rise(Eigen::all, clustered)))
       order.push_back(clustered[static_cast<std::size_t>(place)]);

@@ -22,14 +22,14 @@ struct OrderedCandidates {
   OrderedPartitions partitions;
 };
 
-/// What the methods of papers 000 and 001 share when they are asked about the same batches with the same seed. Each
+/// What the methods of papers 000 and 001 share when they are asked about the same batches with the same options. Each
 /// part is made when it is first asked for, by whichever thread asks, and only once.
 class SharedScreen {
  public:
-  InformationScreen const& screen(Candidates const& from, std::uint64_t seed);
+  InformationScreen const& screen(Candidates const& from, SelectionOptions const& options);
 
   /// Of the candidates that the screen keeps, or of all.
-  OrderedCandidates const& ordered(Candidates const& from, std::uint64_t seed, bool all);
+  OrderedCandidates const& ordered(Candidates const& from, SelectionOptions const& options, bool all);
 
   /// Of the candidates' courses.
   FuzzyPartitions& fuzzy(Candidates const& from, std::uint64_t seed, ClusterScale scale);

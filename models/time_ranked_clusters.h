@@ -21,9 +21,10 @@ Eigen::MatrixXd course_points(Candidates const& from, ClusterScale scale);
 std::pair<int, std::string> count_or_clusters(Candidates const& from, SelectionOptions const& options,
                                               ClusterScale scale);
 
-/// Fuzzy c-means of the sensors' courses, and in each cluster the sensor that reaches its maximum first (patent CN
-/// 2019106849236, claims 1-4; methods.md §4.2-4.3). The error is never looked at. Where clusters stay empty (sensors
-/// that read the same) the best ranks among the rest fill the count, and the remark says so.
+/// Fuzzy c-means of the sensors' courses, and in each cluster the sensor that is longest at its maximum
+/// (TimeRank::at_maximum; patent CN 2019106849236, claims 1-4; methods.md §4.2-4.3). The error is never looked at.
+/// Where clusters stay empty (sensors that read the same) the best ranks among the rest fill the count, and the remark
+/// says so.
 Selection select_by_fuzzy_amplitude(std::span<Batch const> batches, SelectionOptions const& options);
 Selection select_by_fuzzy_shape(std::span<Batch const> batches, SelectionOptions const& options);
 

@@ -40,7 +40,8 @@ Eigen::MatrixXd with_lags(Batch const& batch, std::vector<int> const& lags);
 /// How many of the batch's first instants lack the readings `lag` instants before.
 Eigen::Index without_history(Batch const& batch, int lag);
 
-/// The time between samples [s]; refuses one instant and times whose steps differ from their mean by more than 1 %.
+/// The time between samples [s]; refuses one instant and times whose steps differ from their upper median by more than
+/// 1 %.
 double sample_period(Batch const& batch);
 
 /// "T3" or "T3, 2 samples ago": the regressors in order, for messages.

@@ -34,17 +34,10 @@ std::vector<Eigen::Index> complete_rows(std::vector<output::Channel const*> cons
   if (Eigen::Index(complete.size()) < rows)
     remarks.push_back(
         fmt::format("{} of {} rows are left out: {}", rows - Eigen::Index(complete.size()), rows, lacks(channels)));
+  if (complete.front() > 0)
+    remarks.push_back(
+        fmt::format("changes count from row {}, the first in which all have a value", complete.front() + 1));
   return complete;
-}
-
-Eigen::Index first_value(output::Channel const& channel, std::vector<std::string>& remarks) {
-  auto const& values = channel.values;
-  auto const first = std::find_if(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-  auto const row = first == values.end() ? 0 : first - values.begin();
-  if (row > 0)
-    remarks.push_back(fmt::format("changes of {} count from row {}, where its values begin, and not from the first",
-                                  channel.name, row + 1));
-  return row;
 }
 
 }  // namespace thermotwin::twin

@@ -68,18 +68,17 @@ MeasuredRun without_machine(MeasuredData const& data) {
   return run;
 }
 
-/// Their changes, of each sensor and last of the error since these rows.
+/// Changes of sensors and error since the first of these rows.
 void take_changes(output::Dataset const& data, std::string const& error, std::vector<Index> const& rows,
-                  std::vector<Index> const& since, models::Batch& batch) {
-  auto const change = [&](output::Channel const& channel, Index zero) {
-    return VectorXd(channel.values(rows).array() - channel.values[zero]);
+                  models::Batch& batch) {
+  auto const change = [&](output::Channel const& channel) {
+    return VectorXd(channel.values(rows).array() - channel.values[rows.front()]);
   };
   batch.temperature_rise.resize(Index(rows.size()), Index(batch.sensors.size()));
   for (std::size_t j = 0; j < batch.sensors.size(); ++j)
-    batch.temperature_rise.col(Index(j)) = change(sensor_named(data, batch.sensors[j], batch.name), since[j]);
+    batch.temperature_rise.col(Index(j)) = change(sensor_named(data, batch.sensors[j], batch.name));
   batch.error = VectorXd::Zero(Index(rows.size()));
-  if (find_channel(data.displacements, error))
-    batch.error = change(displacement_named(data, error, batch.name), since.back());
+  if (find_channel(data.displacements, error)) batch.error = change(displacement_named(data, error, batch.name));
 }
 
 }  // namespace
@@ -119,17 +118,15 @@ ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& 
   auto const* shown = slope ? nullptr : find_channel(data.displacements, error);
   if (!slope && (shown || must_show)) used.push_back(&displacement_named(data, error, run.file));
   auto const rows = complete_rows(used, run.file, run.remarks);
-  std::vector<Index> since;
-  for (auto const* channel : used) since.push_back(first_value(*channel, run.remarks));
   ErrorModelRun result;
   auto& batch = result.batch;
   batch = {run.file, data.time_s(rows), sensors, sensors, {}, {}};
-  take_changes(data, error, rows, since, batch);
+  take_changes(data, error, rows, batch);
   for (std::size_t j = 0; j < sensors.size(); ++j)
-    result.zero.push_back(std::round(1e3 * used[j]->values[since[j]]) / 1e3);
+    result.zero.push_back(std::round(1e3 * used[j]->values[rows.front()]) / 1e3);
   if (run.said) {
     result.said = batch;
-    take_changes(*run.said, error, rows, since, *result.said);
+    take_changes(*run.said, error, rows, *result.said);
   }
   if (slope) {
     result.axis = axis_record(batch, laser_of(data.positioning, axis, run.file));

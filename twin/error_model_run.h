@@ -27,7 +27,7 @@ struct RecordedRun {
 [[nodiscard]] RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<double> sampling,
                                             Machine const* twin = nullptr);
 
-/// A run as error models see it, temperatures and errors counted from the first value of each, mostly the first row.
+/// A run as error models see it, temperatures and errors counted from the first row that has all of them.
 struct ErrorModelRun {
   models::Batch batch;                     ///< as shown; error 0 where the run did not show it
   std::optional<models::Batch> said;       ///< by the twin, where there is one

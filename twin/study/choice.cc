@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <numeric>
 
-#include "thermal/nearest_name.h"
-
 namespace thermotwin::twin {
 namespace {
 
@@ -27,18 +25,18 @@ models::Selection given_sensors(std::vector<std::string> const& names, Question 
     auto const place = std::find(known.begin(), known.end(), name);
     if (place == known.end())
       throw std::invalid_argument(
-          fmt::format("there is no sensor '{}' here; {}", name, thermal::did_you_mean(name, known)));
+          fmt::format("there is no sensor '{}' here, or it is left out; known: {}", name, fmt::join(known, ", ")));
     given.sensors.push_back(place - known.begin());
   }
   return given;
 }
 
 models::Selection selected(NamedSelection const& method, Question const& question, WorldData const& data,
-                           std::uint64_t seed, std::shared_ptr<models::SharedScreen> shared) {
+                           models::SelectionOptions options) {
   auto const moving = Index(question.columns.size());
   if (method.name == "all") return every_sensor(moving);
   if (!method.sensors.empty()) return given_sensors(method.sensors, question, data);
-  models::SelectionOptions options{.count = method.count, .seed = seed, .shared = std::move(shared)};
+  options.count = method.count;
   if (method.name == "thermal_modes") {
     if (data.mode_shapes.size() == 0) throw std::invalid_argument(data.no_modes);
     options.mode_shapes = data.mode_shapes(question.columns, Eigen::all);
@@ -48,12 +46,13 @@ models::Selection selected(NamedSelection const& method, Question const& questio
 
 }  // namespace
 
-Choice choose(NamedSelection const& method, Question const& question, WorldData const& data, std::uint64_t seed,
-              std::shared_ptr<models::SharedScreen> shared) {
+Choice choose(NamedSelection const& method, Question const& question, WorldData const& data,
+              models::SelectionOptions options) {
   Choice choice;
   try {
-    auto const found = selected(method, question, data, seed, std::move(shared));
+    auto const found = selected(method, question, data, std::move(options));
     choice.selection.remark = found.remark;
+    choice.selection.evidence = found.evidence;
     choice.selection.score = Eigen::VectorXd::Zero(Index(data.sensors.size()));
     for (std::size_t j = 0; j < question.columns.size(); ++j)
       choice.selection.score[question.columns[j]] = found.score[Index(j)];

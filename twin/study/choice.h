@@ -24,9 +24,9 @@ struct Choice {
   std::string refused;                ///< empty if it chose
 };
 
-/// `shared`: by all methods that choose for this question with this seed.
+/// `options` but for the number of sensors; what they share, all methods share that choose for this question with them.
 [[nodiscard]] Choice choose(NamedSelection const& method, Question const& question, WorldData const& data,
-                            std::uint64_t seed, std::shared_ptr<models::SharedScreen> shared = {});
+                            models::SelectionOptions options);
 
 /// How good a choice is, by the truth of a world.
 struct ChoiceQuality {

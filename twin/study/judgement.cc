@@ -58,14 +58,16 @@ void put_spread(Named& figures, std::string const& name, VectorXd const& values)
 }
 
 /// Models of single runs.
-void put_statistics(Named& figures, std::vector<Answer> const& fits,
+void put_statistics(Judgement& judgement, std::vector<Answer> const& fits,
                     std::vector<std::vector<VectorXd>> const& predictions) {
   std::vector<VectorXd> errors;
   for (auto const& asked : fits.front().asked()) errors.push_back(asked.batch.error);
   std::vector<double> parameters;
   for (auto const& fit : fits) parameters.push_back(fit.parameters());
-  auto const s = models::batch_statistics(models::deviation_matrix(errors, predictions, parameters));
-  put_spread(figures, "S", s.S);
+  judgement.deviations = models::deviation_matrix(errors, predictions, parameters);
+  auto const s = models::batch_statistics(judgement.deviations);
+  auto& figures = judgement.figures;
+  if (!fits.front().has_twin()) put_spread(figures, "S", s.S);
   put_spread(figures, "Mn", s.Mn);
   put_spread(figures, "Sd", s.Sd);
   if (s.verification_Mn.size() == 0) return;
@@ -86,9 +88,10 @@ void put_statistics(Named& figures, Answer const& fit, std::vector<VectorXd> con
       tests.push_back(models::residual_deviation(measured, predictions[k]));
   }
   auto const n = Index(training.truth.size());
-  figures["S"] =
-      models::residual_deviation(Eigen::Map<VectorXd const>(training.truth.data(), n),
-                                 Eigen::Map<VectorXd const>(training.prediction.data(), n), fit.parameters());
+  if (!fit.has_twin())
+    figures["S"] =
+        models::residual_deviation(Eigen::Map<VectorXd const>(training.truth.data(), n),
+                                   Eigen::Map<VectorXd const>(training.prediction.data(), n), fit.parameters());
   if (tests.empty()) return;
   Eigen::Map<VectorXd const> const deviations(tests.data(), Index(tests.size()));
   figures["Mn"] = deviations.mean();
@@ -140,14 +143,22 @@ int Answer::unclaimed_instants() const {
   return most;
 }
 
+bool Answer::has_twin() const {
+  return std::any_of(parts.begin(), parts.end(), [](Part const& part) {
+    return part.observed || part.question->asked.front().said_by_twin.size() > 0;
+  });
+}
+
 double Answer::parameters() const {
   double sum = 0.0;
   for (auto const& part : parts) sum += part.model->parameters;
   return sum / double(parts.size());
 }
 
-Named judged(std::vector<Answer> const& fits, std::vector<Answer> const& validations, std::size_t train_runs) {
-  Named figures;
+Judgement judged(std::vector<Answer> const& fits, std::vector<Answer> const& validations, std::size_t train_runs,
+                 int unclaimed) {
+  Judgement judgement;
+  auto& figures = judgement.figures;
   std::map<Role, Pool> pools;
   std::vector<std::vector<VectorXd>> predictions;
   for (auto const* answers : {&fits, &validations})
@@ -155,8 +166,9 @@ Named judged(std::vector<Answer> const& fits, std::vector<Answer> const& validat
       auto& own = predictions.emplace_back();
       for (std::size_t k = 0; k < answer.asked().size(); ++k) {
         auto const& asked = answer.asked()[k];
-        own.push_back(claimed(answer.predict(k), asked, answer.unclaimed_instants()));
-        pools[asked.role].add(claimed(answer_to(asked), asked, answer.unclaimed_instants()), own.back());
+        VectorXd const prediction = answer.predict(k);
+        own.push_back(claimed(prediction, asked, answer.unclaimed_instants()));
+        pools[asked.role].add(claimed(answer_to(asked), asked, unclaimed), claimed(prediction, asked, unclaimed));
       }
     }
   predictions.resize(fits.size());
@@ -164,10 +176,10 @@ Named judged(std::vector<Answer> const& fits, std::vector<Answer> const& validat
   put(figures, "cross", pools[Role::cross]);
   put(figures, "validation", pools[Role::validation]);
   if (fits.size() > 1 && fits.size() == train_runs)
-    put_statistics(figures, fits, predictions);
+    put_statistics(judgement, fits, predictions);
   else
     put_statistics(figures, fits.front(), predictions.front());
-  return figures;
+  return judgement;
 }
 
 Named judged_instants(StudyWorld const& world, WorldData const& data, int repetition, models::ErrorModel const& slope) {

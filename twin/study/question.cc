@@ -30,7 +30,10 @@ bool moves(std::vector<Batch> const& batches, Index column) {
 class QuestionWriter {
  public:
   QuestionWriter(StudyWorld const& world, WorldData const& data, int repetition)
-      : world_(world), train_(data.train[std::size_t(repetition)]), test_(data.test[std::size_t(repetition)]) {}
+      : world_(world),
+        train_(data.train[std::size_t(repetition)]),
+        test_(data.test[std::size_t(repetition)]),
+        rows_are_means_(world.sampling && data.runs->measured.front()) {}
   Questions write(int folds);
 
  private:
@@ -46,6 +49,7 @@ class QuestionWriter {
   StudyWorld const& world_;
   std::vector<StudyRun> const& train_;
   std::vector<StudyRun> const& test_;
+  bool rows_are_means_;  ///< over what follows their time
   Questions questions_;
 };
 
@@ -68,7 +72,8 @@ void QuestionWriter::add(std::vector<Question>& to, std::string name, std::vecto
 
 Index QuestionWriter::split_row() const {
   auto const& time = train_.front().seen.time;
-  auto const row = std::lower_bound(time.begin(), time.end(), *world_.split - 1e-6) - time.begin();
+  double const last = rows_are_means_ ? *world_.split - *world_.sampling + 1e-6 : *world_.split - 1e-6;
+  auto const row = std::upper_bound(time.begin(), time.end(), last) - time.begin();
   if (row < 10 || time.size() - row < 10)
     throw thermal::InputError(
         fmt::format("'split' leaves {} rows to train on and {} to test on; ten are the least", row, time.size() - row));

@@ -18,6 +18,24 @@ namespace {
 
 using Columns = std::vector<Eigen::Index>;
 
+models::SelectionOptions selection_options(StudyScreening const& screening) {
+  using models::BiasCorrection, models::BinCount, models::BinEdges;
+  static std::map<std::string, BinCount> const counts = {{"cellucci", BinCount::cellucci},
+                                                         {"sturges", BinCount::sturges},
+                                                         {"square_root", BinCount::square_root},
+                                                         {"freedman_diaconis", BinCount::freedman_diaconis}};
+  static std::map<std::string, BiasCorrection> const biases = {{"shuffle_null", BiasCorrection::shuffle_null},
+                                                               {"miller_madow", BiasCorrection::miller_madow},
+                                                               {"none", BiasCorrection::none}};
+  models::SelectionOptions options;
+  options.resolution = screening.resolution;
+  options.information.count = counts.at(screening.bins);
+  options.information.bias = biases.at(screening.bias);
+  options.information.edges = screening.edges == "equal_width" ? BinEdges::equal_width : BinEdges::equal_frequency;
+  options.information.permutations = screening.permutations;
+  return options;
+}
+
 /// One repetition of one world: its questions, and what selections and models made of them.
 struct Repetition {
   std::size_t world;
@@ -67,6 +85,7 @@ class StudyRunner {
                                        std::vector<Answer>& fits, std::vector<Answer>& validations) const;
   [[nodiscard]] Combination combination(std::size_t world, std::size_t selection, std::size_t model) const;
   [[nodiscard]] SelectionFigures selection_figures(std::size_t world, std::size_t selection) const;
+  [[nodiscard]] int unclaimed_instants(std::size_t world) const;
   [[nodiscard]] std::uint64_t seed_of(Repetition const& repetition) const {
     return 1 + std::uint64_t(repetition.number);
   }
@@ -79,6 +98,7 @@ class StudyRunner {
   std::vector<std::vector<std::size_t>> members_;  ///< per model of the study: those whose mean it is
   std::vector<Repetition> repetitions_;
   std::vector<SelectionTruth> truths_;
+  std::vector<int> unclaimed_;  ///< per world: the first instants that none of its models is judged by
 };
 
 std::function<void(double)> StudyRunner::progress(std::string what) const {
@@ -117,8 +137,10 @@ void StudyRunner::choose_all() {
       for (std::size_t s = 0; s < selections_.size(); ++s) tasks.push_back({&repetition, q, s});
   in_parallel(tasks.size(), progress("selections"), options_.stop, [&](std::size_t i) {
     auto const& [repetition, q, s] = tasks[i];
-    repetition->choices[q][s] = choose(selections_[s], *repetition->all[q], worlds_[repetition->world],
-                                       seed_of(*repetition), repetition->screens[q]);
+    auto options = selection_options(study_.screening);
+    options.seed = seed_of(*repetition);
+    options.shared = repetition->screens[q];
+    repetition->choices[q][s] = choose(selections_[s], *repetition->all[q], worlds_[repetition->world], options);
   });
 }
 
@@ -185,6 +207,19 @@ void StudyRunner::fit_all() {
   });
 }
 
+/// The first instants of each run that one of the world's models does not claim: a model that skips the start of a run
+/// is compared with others on the rest alone.
+int StudyRunner::unclaimed_instants(std::size_t world) const {
+  int most = 0;
+  for (auto const& repetition : repetitions_)
+    if (repetition.world == world)
+      for (auto const& of_question : repetition.fits)
+        for (auto const& of_model : of_question)
+          for (auto const& [columns, fit] : of_model)
+            if (fit.refused.empty()) most = std::max(most, fit.model.unclaimed_instants());
+  return most;
+}
+
 /// The models of all questions; or why there are none.
 std::string StudyRunner::answers_of(Repetition const& repetition, std::size_t selection, std::size_t model,
                                     std::vector<Answer>& fits, std::vector<Answer>& validations) const {
@@ -205,14 +240,16 @@ std::string StudyRunner::answers_of(Repetition const& repetition, std::size_t se
 }
 
 Combination StudyRunner::combination(std::size_t world, std::size_t selection, std::size_t model) const {
-  Combination row{study_.worlds[world].name, study_.selections[selection], study_.models[model], {}, {}, {}, {}};
+  Combination row{study_.worlds[world].name, study_.selections[selection], study_.models[model], {}, {}, {}, {}, {}};
   for (auto const& repetition : repetitions_) {
     if (repetition.world != world) continue;
     std::vector<Answer> fits, validations;
     row.refused = answers_of(repetition, selection, model, fits, validations);
     if (!row.refused.empty()) break;
     try {
-      auto figures = judged(fits, validations, study_.worlds[world].train.size());
+      auto const judgement = judged(fits, validations, study_.worlds[world].train.size(), unclaimed_[world]);
+      auto figures = judgement.figures;
+      if (repetition.number == 0) row.deviations = judgement.deviations;
       bool const of_readings = members_[model].size() == 1 && !models_[members_[model].front()].twin;
       if (!study_.worlds[world].instants.empty() && fits.size() == 1 && of_readings)
         figures.merge(judged_instants(study_.worlds[world], worlds_[world], repetition.number,
@@ -235,6 +272,7 @@ Combination StudyRunner::combination(std::size_t world, std::size_t selection, s
 }
 
 void StudyRunner::judge_combinations(StudyReport& report) {
+  for (std::size_t w = 0; w < worlds_.size(); ++w) unclaimed_.push_back(unclaimed_instants(w));
   std::size_t const per_world = selections_.size() * members_.size();
   report.rows.resize(worlds_.size() * per_world);
   in_parallel(report.rows.size(), progress("judgement"), options_.stop, [&](std::size_t i) {
@@ -243,7 +281,7 @@ void StudyRunner::judge_combinations(StudyReport& report) {
 }
 
 SelectionFigures StudyRunner::selection_figures(std::size_t world, std::size_t selection) const {
-  SelectionFigures result{study_.worlds[world].name, study_.selections[selection], {}, {}};
+  SelectionFigures result{study_.worlds[world].name, study_.selections[selection], {}, {}, {}};
   for (auto const& repetition : repetitions_) {
     if (repetition.world != world) continue;
     std::map<std::string, std::vector<double>> values;
@@ -255,6 +293,7 @@ SelectionFigures StudyRunner::selection_figures(std::size_t world, std::size_t s
         continue;
       }
       if (result.remark.empty()) result.remark = choice.selection.remark;
+      if (result.evidence.empty()) result.evidence = choice.selection.evidence;
       choices.push_back(&choice);
       values["count"].push_back(double(choice.columns.size()));
       auto const quality = selections_[selection].name == "all" ? std::nullopt : truths_[world].quality(choice);
@@ -306,7 +345,7 @@ void StudyRunner::put_means(StudyReport& report) const {
   if (worlds_.size() < 2 || !alike) return;
   std::size_t const per_world = report.rows.size() / worlds_.size();
   for (std::size_t i = 0; i < per_world; ++i) {
-    Combination mean{std::string(mean_of_worlds), report.rows[i].selection, report.rows[i].model, {}, {}, {}, {}};
+    Combination mean{std::string(mean_of_worlds), report.rows[i].selection, report.rows[i].model, {}, {}, {}, {}, {}};
     for (auto const* figure : {"self.rmse", "cross.rmse", "validation.rmse"}) {
       std::vector<double> sum(std::size_t(worlds_.front().repetitions()), 0.0);
       bool everywhere = true;

@@ -8,6 +8,7 @@
 #include "thermal/nearest_name.h"
 #include "twin/axis_record.h"
 #include "twin/complete_rows.h"
+#include "twin/history.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -31,7 +32,7 @@ class WorldReader {
     data_.sensors = data.sensors;
   }
   WorldData read();
-  [[nodiscard]] models::Batch true_batch(output::Dataset const& data, KeptRows const& kept,
+  [[nodiscard]] models::Batch true_batch(output::Dataset const& data, std::vector<Index> const& kept,
                                          std::string const& name) const;
 
  private:
@@ -40,15 +41,15 @@ class WorldReader {
   [[nodiscard]] std::string unusable(std::string const& sensor, output::Dataset const& data,
                                      std::string const& run) const;
   void check_sensors();
-  [[nodiscard]] KeptRows complete(output::Dataset const& data, std::string const& name,
-                                  std::vector<std::string>& remarks) const;
+  [[nodiscard]] std::vector<Index> complete(output::Dataset const& data, std::string const& name,
+                                            std::vector<std::string>& remarks) const;
   [[nodiscard]] StudyRun run_of(output::Dataset const& data, std::string const& name,
                                 std::vector<std::string>& remarks) const;
-  [[nodiscard]] models::Batch batch(View const& view, Eigen::VectorXd const& time, KeptRows const& kept,
+  [[nodiscard]] models::Batch batch(View const& view, Eigen::VectorXd const& time, std::vector<Index> const& kept,
                                     std::string const& name) const;
   [[nodiscard]] models::AxisRecord record(View const& readings, View const& errors, Eigen::VectorXd const& time,
-                                          KeptRows const& kept, std::string const& name) const;
-  [[nodiscard]] Eigen::MatrixXd rises(View const& view, KeptRows const& kept) const;
+                                          std::vector<Index> const& kept, std::string const& name) const;
+  [[nodiscard]] Eigen::MatrixXd rises(View const& view, std::vector<Index> const& kept) const;
   [[nodiscard]] std::vector<std::string> components() const;
   void check_instants() const;
   void remark_measured();
@@ -115,18 +116,16 @@ void WorldReader::check_sensors() {
 }
 
 /// What is left out is remarked.
-KeptRows WorldReader::complete(output::Dataset const& data, std::string const& name,
-                               std::vector<std::string>& remarks) const {
+std::vector<Index> WorldReader::complete(output::Dataset const& data, std::string const& name,
+                                         std::vector<std::string>& remarks) const {
   std::vector<output::Channel const*> channels;
   for (auto const& sensor : data_.sensors) channels.push_back(find_channel(data.readings, sensor));
   if (auto const* error = find_channel(data.displacements, world_.error)) channels.push_back(error);
   auto known = reader_remarks(name);
   auto const before = Index(known.size());
   auto const rows = complete_rows(channels, name, known);
-  std::vector<Index> since;
-  for (auto const& sensor : data_.sensors) since.push_back(first_value(*find_channel(data.readings, sensor), known));
   remarks.insert(remarks.end(), known.begin() + before, known.end());
-  return {rows, since};
+  return rows;
 }
 
 /// What the reader of a measured run had to say of it.
@@ -199,28 +198,28 @@ std::vector<std::string> WorldReader::components() const {
   return result;
 }
 
-Eigen::MatrixXd WorldReader::rises(View const& view, KeptRows const& kept) const {
-  Eigen::MatrixXd rise(Index(kept.rows.size()), Index(data_.sensors.size()));
+Eigen::MatrixXd WorldReader::rises(View const& view, std::vector<Index> const& kept) const {
+  Eigen::MatrixXd rise(Index(kept.size()), Index(data_.sensors.size()));
   for (std::size_t j = 0; j < data_.sensors.size(); ++j) {
     auto const& values = find_channel(view.readings, data_.sensors[j])->values;
-    rise.col(Index(j)) = values(kept.rows).array() - values[kept.since[j]];
+    rise.col(Index(j)) = values(kept).array() - values[kept.front()];
   }
   return rise;
 }
 
-models::Batch WorldReader::batch(View const& view, Eigen::VectorXd const& time, KeptRows const& kept,
+models::Batch WorldReader::batch(View const& view, Eigen::VectorXd const& time, std::vector<Index> const& kept,
                                  std::string const& name) const {
   auto const* error = find_channel(view.displacements, world_.error);
   if (!error)
     throw thermal::InputError(fmt::format("{} has no displacement '{}'; {}", name, world_.error,
                                           thermal::did_you_mean(world_.error, names_of(view.displacements))));
-  return {name, time(kept.rows), data_.sensors, components(), rises(view, kept), error->values(kept.rows)};
+  return {name, time(kept), data_.sensors, components(), rises(view, kept), error->values(kept)};
 }
 
 models::AxisRecord WorldReader::record(View const& readings, View const& errors, Eigen::VectorXd const& time,
-                                       KeptRows const& kept, std::string const& name) const {
+                                       std::vector<Index> const& kept, std::string const& name) const {
   auto const axis = world_.error.substr(slope_prefix.size());
-  return axis_record({name, time(kept.rows), data_.sensors, components(), rises(readings, kept), {}},
+  return axis_record({name, time(kept), data_.sensors, components(), rises(readings, kept), {}},
                      laser_of(errors.positioning, axis, name), world_.from, world_.to);
 }
 
@@ -230,7 +229,7 @@ View truth_of(output::Dataset const& data) {
   return {data.truth_readings, data.truth_displacements, data.truth_positioning};
 }
 
-models::Batch WorldReader::true_batch(output::Dataset const& data, KeptRows const& kept,
+models::Batch WorldReader::true_batch(output::Dataset const& data, std::vector<Index> const& kept,
                                       std::string const& name) const {
   auto const truth = truth_of(data);
   return world_.slope() ? models::slope_batch(record(truth, truth, data.time_s, kept, name))
@@ -243,7 +242,11 @@ StudyRun WorldReader::run_of(output::Dataset const& data, std::string const& nam
   auto const seen = seen_of(data);
   bool const known = !data.truth_readings.empty();
   auto const truth = known ? std::optional(true_batch(data, kept, name)) : std::nullopt;
-  if (!world_.slope()) return {batch(seen, data.time_s, kept, name), truth, {}, {}, kept};
+  if (!world_.slope()) {
+    auto shown = batch(seen, data.time_s, kept, name);
+    if (!known) shown.error.array() -= shown.error[0];
+    return {shown, truth, {}, {}, kept};
+  }
   auto const axis = record(seen, seen, data.time_s, kept, name);
   return {models::slope_batch(axis), truth, axis, record(seen, known ? truth_of(data) : seen, data.time_s, kept, name),
           kept};
@@ -252,7 +255,8 @@ StudyRun WorldReader::run_of(output::Dataset const& data, std::string const& nam
 WorldData WorldReader::read() {
   data_.sensors = candidates();
   check_sensors();
-  if (world_.slope()) data_.unit = "um/m";
+  auto const displacements = displacement_channels(runs_.machine);
+  data_.unit = world_.slope() ? "um/m" : find_channel(displacements, world_.error)->unit;
   auto const names = run_names();
   for (auto const& repetition : runs_.runs) {
     bool const first = data_.train.empty();
@@ -281,7 +285,7 @@ WorldData WorldReader::read() {
 }  // namespace
 
 models::Batch true_batch(StudyWorld const& world, WorldData const& data, output::Dataset const& dataset,
-                         KeptRows const& kept) {
+                         std::vector<Index> const& kept) {
   return WorldReader(world, data).true_batch(dataset, kept, "the twin");
 }
 

@@ -15,31 +15,26 @@
 
 namespace thermotwin::twin {
 
-/// Rows of a run's data set that models get to see.
-struct KeptRows {
-  std::vector<Eigen::Index> rows;
-  std::vector<Eigen::Index> since;  ///< of each sensor, the row that its rise counts from
-};
-
 /// One run of a world as models see it.
 struct StudyRun {
   models::Batch seen;                             ///< as the instruments showed it
   std::optional<models::Batch> truth;             ///< without noise, of a simulated run
   std::optional<models::AxisRecord> axis;         ///< where the error is a slope: as the instruments showed it
   std::optional<models::AxisRecord> judged_axis;  ///< the same, with true errors where these are known
-  KeptRows kept{};                                ///< that all of these are of
+  std::vector<Eigen::Index> kept{};               ///< rows of its data set that all of these are of
 };
 
 /// The runs of a world, once for each time that instruments are drawn: once in all where all runs were measured.
 ///
-/// Temperatures count from the first value of each sensor in a run; rows that lack any are left out. Errors are what
-/// their instrument shows. A sensor that a run lacks, or of which it lacks more than a tenth of the readings, is left
+/// Rows that lack a sensor or the error are left out. Temperatures count from the first row that is left, and so do
+/// measured displacements, whose zero is another one in each run; simulated errors are what their instrument shows. A
+/// sensor that a run lacks, or of which it lacks more than a tenth of the readings, is left
 /// out of the whole world. `remarks` say so, and of the first repetition which rows are left out. They also say what
 /// the reader of measured data remarked, and which readings the means over `sampling` lack.
 struct WorldData {
   std::vector<std::vector<StudyRun>> train, test;  ///< per repetition, per run, as the file lists them
   std::vector<std::string> sensors;                ///< candidates
-  std::string unit = "um";                         ///< of the error
+  std::string unit;                                ///< of the error
   Eigen::MatrixXd mode_shapes;                     ///< of the sensors, for "thermal_modes"; empty: `no_modes` says why
   std::string no_modes;
   std::vector<std::string> remarks;
@@ -51,7 +46,7 @@ struct WorldData {
 
 /// What models get to see of these rows of a simulated data set, without noise: the world's sensors, and its error.
 [[nodiscard]] models::Batch true_batch(StudyWorld const& world, WorldData const& data, output::Dataset const& dataset,
-                                       KeptRows const& kept);
+                                       std::vector<Eigen::Index> const& kept);
 
 /// Simulates or reads every run of the study, each data set once, however many worlds use it. Repetition r of the d-th
 /// of D different runs has the seed 1 + d + D r: independent noise everywhere, the same in every world.

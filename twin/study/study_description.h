@@ -101,12 +101,31 @@ struct StudyClaim {
   }
 };
 
+/// `[screening]`: how methods of selection look at readings (methods.md §3.2, §4.2).
+struct StudyScreening {
+  std::string bins = "cellucci", edges = "equal_width", bias = "shuffle_null";
+  int permutations = 199;
+  double resolution = 0.0625;  ///< [K]
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f.choice("bins", &StudyScreening::bins, {"cellucci", "sturges", "square_root", "freedman_diaconis"},
+             "how many, on each axis, mutual information is counted in");
+    f.choice("edges", &StudyScreening::edges, {"equal_width", "equal_frequency"}, "of these bins");
+    f.choice("bias", &StudyScreening::bias, {"shuffle_null", "miller_madow", "none"}, "that is taken off");
+    f("permutations", &StudyScreening::permutations, "that p values are of", Range{19, 100'000});
+    f("resolution", &StudyScreening::resolution, thermal::dimension::temperature_difference,
+      "of the readings: what a maximum or a pivot must be above", Range{0.0, 5.0});
+  }
+};
+
 /// A study file: worlds × selections × models.
 struct StudyDescription {
   std::string title, metric = "rmse", reference;
   std::vector<StudyWorld> worlds;
   std::vector<std::string> selections, models;
   int seeds = 5, folds = 0;
+  StudyScreening screening;
   std::vector<StudyClaim> claims;
 
   template <class Fields>
@@ -123,6 +142,7 @@ struct StudyDescription {
       "predict");
     f("seeds", &StudyDescription::seeds, "how many times instruments and starts are drawn anew", Range{5, 1000});
     f("folds", &StudyDescription::folds, "of the blocked cross-validation within 'train'; 0: none", Range{0, 20});
+    f("screening", &StudyDescription::screening, "how methods of selection look at readings");
     f.choice("metric", &StudyDescription::metric, {"rmse", "mae", "max"}, "that improvements are of");
     f("reference", &StudyDescription::reference, "combination that improvements are over; default: the first");
     f("claim", &StudyDescription::claims, "what figures shall decide");

@@ -52,6 +52,7 @@ Location place_of_key(Value const& table, std::string const& key) {
 
 void check_world(Value const& table, StudyWorld const& world) {
   check_items(table, "train", world.train, [](auto const&) {});
+  if (!world.sensors.empty()) check_items(table, "sensors", world.sensors, [](auto const&) {});
   if (world.split && (world.train.size() != 1 || !world.test.empty()))
     throw FileError(place_of_key(table, "split"),
                     fmt::format("'split' cuts one run; here are {} in 'train' and {} in 'test'", world.train.size(),

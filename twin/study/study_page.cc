@@ -169,14 +169,32 @@ Json json_of(Figures const& figures) {
   return json;
 }
 
+Json json_of(std::vector<models::Evidence> const& evidence) {
+  Json json = Json::array();
+  for (auto const& one : evidence) {
+    Json figures = {{"of", one.of}};
+    for (auto const& [name, value] : one.figures) figures[name] = value;
+    json.push_back(figures);
+  }
+  return json;
+}
+
+Json json_of(Eigen::MatrixXd const& matrix) {
+  Json json = Json::array();
+  for (auto const& row : matrix.rowwise()) json.push_back(std::vector<double>(row.begin(), row.end()));
+  return json;
+}
+
 Json json_of(Combination const& row) {
-  return {{"world", row.world},
-          {"selection", row.selection},
-          {"model", row.model},
-          {"sensors", row.sensors},
-          {"refused", row.refused.empty() ? Json() : Json(row.refused)},
-          {"remark", row.remark},
-          {"figures", json_of(row.figures)}};
+  Json json = {{"world", row.world},
+               {"selection", row.selection},
+               {"model", row.model},
+               {"sensors", row.sensors},
+               {"refused", row.refused.empty() ? Json() : Json(row.refused)},
+               {"remark", row.remark},
+               {"figures", json_of(row.figures)}};
+  if (row.deviations.size() > 0) json["deviations"] = json_of(row.deviations);
+  return json;
 }
 
 }  // namespace
@@ -244,13 +262,16 @@ std::string study_json(StudyReport const& report) {
                               {"machine", report.description.worlds[w].machine},
                               {"error", report.description.worlds[w].error},
                               {"unit", report.units[w]},
+                              {"train", report.description.worlds[w].train},
+                              {"test", report.description.worlds[w].test},
                               {"repetitions", report.repetitions[w]}});
   json["selections"] = Json::array();
   for (auto const& row : report.selections)
     json["selections"].push_back({{"world", row.world},
                                   {"selection", row.selection},
                                   {"remark", row.remark},
-                                  {"figures", json_of(row.figures)}});
+                                  {"figures", json_of(row.figures)},
+                                  {"evidence", json_of(row.evidence)}});
   json["combinations"] = Json::array();
   for (auto const* rows : {&report.rows, &report.means})
     for (auto const& row : *rows) json["combinations"].push_back(json_of(row));

@@ -104,16 +104,29 @@ output::Dataset said_of(Machine const& twin, MeasuredRun const& run, std::option
   return said;
 }
 
-/// What a run's displacement shows beyond the twin's, in the mean of the rows trained on; where there are none, at
-/// first.
-double zero_of(Question const& question, Asked const& asked, models::Batch const& said) {
+StudyRun const& run_of(WorldData const& data, int repetition, std::size_t run) {
+  auto const& train = data.train[std::size_t(repetition)];
+  return run < train.size() ? train[run] : data.test[std::size_t(repetition)][run - train.size()];
+}
+
+/// Those that a question trains on or asks about.
+std::set<std::size_t> runs_of(Question const& question) {
+  std::set<std::size_t> runs;
+  for (auto const& part : question.parts) runs.insert(part.run);
+  for (auto const& asked : question.asked) runs.insert(asked.run);
+  return runs;
+}
+
+/// What a run's displacement shows beyond what is said of it, in the mean of the rows trained on; where there are none,
+/// at first.
+double zero_of(Question const& question, std::size_t run, VectorXd const& shown, VectorXd const& said) {
   double sum = 0.0, rows = 0.0;
-  for (std::size_t k = 0; k < question.parts.size(); ++k) {
-    if (question.parts[k].run != asked.run) continue;
-    sum += (question.training[k].error - rows_of(said, question.parts[k]).error).sum();
-    rows += double(question.parts[k].count);
+  for (auto const& part : question.parts) {
+    if (part.run != run) continue;
+    sum += (shown - said).segment(part.first, part.count).sum();
+    rows += double(part.count);
   }
-  return rows > 0.0 ? sum / rows : asked.batch.error[0] - said.error[0];
+  return rows > 0.0 ? sum / rows : shown[0] - said[0];
 }
 
 /// What the observer says at every row of a run's data set [µm]. Between rows it is told the inputs every 30 s.
@@ -155,11 +168,12 @@ VectorXd followed(WorldData const& data, int repetition, std::size_t run, TwinOb
 }
 
 /// Σ (measured − said)² over the rows trained on.
-double missed(Question const& question, std::map<std::size_t, models::Batch> const& said) {
+double missed(Question const& question, std::map<std::size_t, VectorXd> const& said) {
   double sum = 0.0;
-  for (std::size_t k = 0; k < question.parts.size(); ++k)
-    if (auto const own = said.find(question.parts[k].run); own != said.end())
-      sum += (question.training[k].error - rows_of(own->second, question.parts[k]).error).squaredNorm();
+  for (std::size_t k = 0; k < question.parts.size(); ++k) {
+    auto const& part = question.parts[k];
+    sum += (question.training[k].error - said.at(part.run).segment(part.first, part.count)).squaredNorm();
+  }
   return sum;
 }
 
@@ -195,19 +209,21 @@ std::string twin_key(StudyWorld const& world, WorldData const& data, int repetit
 
 Question less_twin(Question question, StudyWorld const& world, WorldData const& data, int repetition,
                    TwinRuns const& twin) {
-  std::vector<models::Batch> said;
-  for (auto const* list : {&data.train[std::size_t(repetition)], &data.test[std::size_t(repetition)]})
-    for (auto const& run : *list) said.push_back(true_batch(world, data, twin.runs[said.size()], run.kept));
-  for (auto const& asked : question.asked)
-    if (data.runs->measured[asked.run]) said[asked.run].error.array() += zero_of(question, asked, said[asked.run]);
+  std::map<std::size_t, models::Batch> said;
+  for (auto const run : runs_of(question)) {
+    auto const& shown = run_of(data, repetition, run);
+    auto own = true_batch(world, data, twin.runs[run], shown.kept);
+    if (data.runs->measured[run]) own.error.array() += zero_of(question, run, shown.seen.error, own.error);
+    said.emplace(run, std::move(own));
+  }
   for (std::size_t k = 0; k < question.training.size(); ++k) {
-    auto const own = rows_of(said[question.parts[k].run], question.parts[k]);
+    auto const own = rows_of(said.at(question.parts[k].run), question.parts[k]);
     question.training[k].temperature_rise -= own.temperature_rise(Eigen::all, question.columns);
     question.training[k].before -= own.before(Eigen::all, question.columns);
     question.training[k].error -= own.error;
   }
   for (auto& asked : question.asked) {
-    auto const own = rows_of(said[asked.run], 0, asked.batch.time.size());
+    auto const own = rows_of(said.at(asked.run), 0, asked.batch.time.size());
     asked.batch.temperature_rise -= own.temperature_rise;
     asked.said_by_twin = own.error;
   }
@@ -228,22 +244,19 @@ FittedModel observed(StudyWorld const& world, WorldData const& data, int repetit
           .sensor_noise = reading_noise * std::sqrt(std::min(longest_step, time[1] - time[0])),
           .longest_step = longest_step};
       TwinObserver const observer(twin, world.error, options);
-      std::map<std::size_t, models::Batch> said;
-      for (auto const& asked : question.asked) {
-        if (said.contains(asked.run)) continue;
-        auto own = asked.batch;
-        auto const& runs = asked.run < data.train[std::size_t(repetition)].size() ? data.train : data.test;
-        auto const place = asked.run - (&runs == &data.test ? data.train[std::size_t(repetition)].size() : 0);
-        own.error =
-            followed(data, repetition, asked.run, observer, chosen)(runs[std::size_t(repetition)][place].kept.rows);
-        if (data.runs->measured[asked.run]) own.error.array() += zero_of(question, asked, own);
-        said.emplace(asked.run, std::move(own));
+      std::map<std::size_t, VectorXd> said;
+      for (auto const run : runs_of(question)) {
+        auto const& shown = run_of(data, repetition, run);
+        VectorXd own = followed(data, repetition, run, observer, chosen)(shown.kept);
+        if (data.runs->measured[run]) own.array() += zero_of(question, run, shown.seen.error, own);
+        said.emplace(run, std::move(own));
       }
       double const sum = missed(question, said);
       if (!(sum < least)) continue;
       least = sum;
       result.observed.clear();
-      for (auto const& asked : question.asked) result.observed.push_back(said.at(asked.run).error);
+      for (auto const& asked : question.asked)
+        result.observed.push_back(said.at(asked.run).head(asked.batch.time.size()));
       result.model.remark = fmt::format("extended Kalman filter, nodes err by {:g} K in a second", heat_noise);
     }
   } catch (InputError const& error) {

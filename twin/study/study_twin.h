@@ -37,7 +37,8 @@ struct TwinRuns {
 
 /// The question for a model that has a twin to help it: readings and errors to learn from are what the machine shows
 /// less what the twin says; what it predicts is added to what the twin says. A measured displacement has a zero of its
-/// own in each run: it is that of the training rows, or of the first instant where a run has none.
+/// own in each run, of those trained on too: it is that of the training rows, or of the first instant where a run has
+/// none.
 [[nodiscard]] Question less_twin(Question question, StudyWorld const& world, WorldData const& data, int repetition,
                                  TwinRuns const& twin);
 

@@ -57,7 +57,7 @@ TEST(StudyJudgement, LeavesOutStretchesOfWhichAModelClaimsNothing) {
     folds[k].asked.push_back({Role::validation, run, run.error, Index(k), 1});
     validations.push_back({{{&folds[k], &model}}});
   }
-  auto const figures = judged({Answer{{{&whole, &model}}}}, validations, 1);
+  auto const figures = judged({Answer{{{&whole, &model}}}}, validations, 1, 2).figures;
   EXPECT_NEAR(figures.at("self.mae"), 5.5, 1e-12);
   EXPECT_NEAR(figures.at("validation.mae"), 5.5, 1e-12);
   EXPECT_EQ(figures.at("validation.max"), 9.0);
@@ -76,7 +76,7 @@ TEST(StudyJudgement, ValidatesAgainstWhatWasMeasured) {
   whole.asked.push_back({Role::self, run, truth, 0, 4});
   whole.asked.push_back({Role::cross, run, truth, 0, 4});
   fold.asked.push_back({Role::validation, run, truth, 0, 4});
-  auto const figures = judged({Answer{{{&whole, &model}}}}, {Answer{{{&fold, &model}}}}, 1);
+  auto const figures = judged({Answer{{{&whole, &model}}}}, {Answer{{{&fold, &model}}}}, 1, 0).figures;
   EXPECT_NEAR(figures.at("self.mae"), 1.5, 1e-12);
   EXPECT_NEAR(figures.at("cross.mae"), 1.5, 1e-12);
   EXPECT_NEAR(figures.at("validation.mae"), 4.5, 1e-12);
@@ -93,7 +93,19 @@ TEST(StudyJudgement, AnswersAreTheMeanOfTheirModels) {
   EXPECT_TRUE(answer.predict(0).isApprox(Eigen::Vector4d(4.0, 5.0, 6.0, 7.0), 1e-15));
   EXPECT_EQ(answer.unclaimed_instants(), 2);
   EXPECT_EQ(answer.parameters(), 2.5);
-  EXPECT_NEAR(judged({answer}, {}, 1).at("self.rmse"), 4.0, 1e-12);
+  auto const figures = judged({answer}, {}, 1, 2).figures;
+  EXPECT_NEAR(figures.at("self.rmse"), 4.0, 1e-12);
+  EXPECT_FALSE(figures.contains("S"));  // nobody has counted the twin's numbers
+}
+
+/// Beside a model that claims all but two instants, one that claims all is judged without them, too.
+TEST(StudyJudgement, OfAllModelsIsOverTheSameInstants) {
+  auto const run = growing(6);
+  auto const model = constant(0.0, 1);
+  Question whole;
+  whole.asked.push_back({Role::self, run, run.error, 0, 6});
+  EXPECT_NEAR(judged({Answer{{{&whole, &model}}}}, {}, 1, 0).figures.at("self.mae"), 2.5, 1e-12);
+  EXPECT_NEAR(judged({Answer{{{&whole, &model}}}}, {}, 1, 2).figures.at("self.mae"), 3.5, 1e-12);
 }
 
 }  // namespace

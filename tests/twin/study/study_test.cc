@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/twin/study/small_study.h"
 #include "twin/experiment_file.h"
@@ -96,7 +97,8 @@ TEST(Study, JudgesTheSensorsThatItIsGiven) {
   auto const& quality = report.selections.at(1).figures;
   EXPECT_GE(quality.at("regret")[0], 0.0);
   EXPECT_FALSE(quality.contains("rank_correlation"));  // it has no score
-  EXPECT_THAT(row(report, "sensors T1, T4 + linear").refused, testing::StartsWith("there is no sensor 'T4' here; "));
+  EXPECT_EQ(row(report, "sensors T1, T4 + linear").refused,
+            "there is no sensor 'T4' here, or it is left out; known: T1, T8, T9");
   text.replace(text.find("T1, T4\""), 6, "T1, T18");
   EXPECT_THAT(SmallStudy(text).complaint(),
               HasSubstr("small.toml:4:40: 'sensors T1, T18': no machine of the study has a "
@@ -134,6 +136,35 @@ test = ["batch_004_V1", "batch_004_V2"]
   EXPECT_LT(figures.at("S")[0], figures.at("Mn")[0]);
   EXPECT_LE(figures.at("Mn.least")[0], figures.at("Mn.most")[0]);
   EXPECT_EQ(report.selections.at(0).figures.at("switches")[0], 0.0);  // all sensors, always
+  auto const& deviations = row(report, "forward 2 + linear").deviations;
+  ASSERT_EQ(deviations.rows(), 3);
+  ASSERT_EQ(deviations.cols(), 5);
+  EXPECT_NEAR((deviations.leftCols(3).sum() - deviations.diagonal().sum()) / 6.0, figures.at("Mn")[0], 1e-12);
+  EXPECT_NEAR(deviations.rightCols(2).mean(), figures.at("verification.Mn")[0], 1e-12);
+}
+
+/// What the information screen and the numbers of classes were judged by stands in the report, and the study says how
+/// it is counted.
+TEST(Study, ReportsWhatSelectionsWentBy) {
+  auto const evidence = [&](std::string const& screening) {
+    auto text = head + screening + world;
+    text.replace(text.find("\"forward 2\""), 11, "\"mutual_information\", \"ordered_improved\"");
+    text.replace(text.find("sensors = "), 29, "");  // all ten
+    auto const report = SmallStudy(text).report();
+    return std::vector{nlohmann::json::parse(study_json(report))["selections"][1]["evidence"],
+                       nlohmann::json::parse(study_json(report))["selections"][2]["evidence"]};
+  };
+  auto const usual = evidence(""), other = evidence("[screening]\nbins = \"sturges\"\npermutations = 49\n");
+  ASSERT_EQ(usual[0].size(), 10U);
+  EXPECT_EQ(usual[0][0]["of"], "T1");
+  EXPECT_EQ(usual[0][0]["samples"], 31);
+  EXPECT_EQ(usual[0][0]["bins"], 2);  // ⌊√(31/5)⌋
+  EXPECT_EQ(other[0][0]["bins"], 6);  // ⌈log2 31⌉ + 1
+  EXPECT_GE(double(other[0][0]["p"]), 1.0 / 50.0);
+  auto const& classes = usual[1].back();
+  EXPECT_THAT(std::string(classes["of"]), testing::StartsWith("k = "));
+  EXPECT_GE(double(classes["r_squared"]), 0.0);
+  for (auto const* p : {"p_F", "p_t", "p_t_autocorrelated"}) EXPECT_LE(double(classes[p]), 1.0) << p;
 }
 
 TEST(Study, JudgesAFeedAxisByTheSlopeOfItsError) {
