@@ -10,6 +10,7 @@
 #include "twin/error_model_file.h"
 #include "twin/error_prediction.h"
 #include "twin/file/output_path.h"
+#include "twin/file_kind.h"
 #include "twin/fit_error_model.h"
 
 namespace thermotwin::twin {
@@ -44,6 +45,7 @@ void FitCommand::operator()() {
   check_suffix(output, "an error model", {".toml"});
   if (!twin.empty()) fit.twin = machine_file(twin);
   refuse_to_overwrite(output, fit.twin.value_or(""), fit.runs);
+  refuse_to_replace(output, FileKind::error_model);
   if (!sampling.empty()) {
     fit.sampling = thermal::parse_value(sampling, thermal::dimension::time);
     if (*fit.sampling <= 0.0) throw thermal::InputError(fmt::format("--sampling {}: a time above 0 is due", sampling));

@@ -10,6 +10,7 @@
 #include "thermal/units.h"
 #include "twin/experiment_file.h"
 #include "twin/file/output_path.h"
+#include "twin/file_kind.h"
 #include "twin/machine.h"
 #include "twin/placement/sensor_placement.h"
 #include "twin/progress.h"
@@ -104,6 +105,7 @@ void PlaceCommand::check_outputs() const {
   for (auto const* names : {&experiments, &unseen})
     for (auto const& name : *names) read.push_back(experiment_file(name));
   refuse_to_overwrite(output, machine_file(machine), read);
+  refuse_to_replace(output, FileKind::sensors);
   refuse_to_overwrite(picture, machine_file(machine), read, fields);  // written after them
   check_picture(picture);
 }

@@ -214,6 +214,7 @@ void FileChecker::read(std::filesystem::path const& file, std::size_t i) {
       candidates_.emplace_back(i, read_candidate_rules(file));
       return;
     case FileKind::machine:
+    case FileKind::sensors:
       return read_machine(file, document, check);
   }
 }

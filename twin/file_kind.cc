@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scenarios/experiment.h"
+#include "thermal/error.h"
 #include "twin/campaign/campaign_description.h"
 #include "twin/diagnosis/measurement_file.h"
 #include "twin/error_model_file.h"
@@ -29,17 +30,20 @@ std::set<std::string> keys_among(std::vector<FieldRecord> const& fields) {
   return keys;
 }
 
-/// The tables of a machine, and what stands above them.
+constexpr char const* sensor_table = "temperature_sensor";
+
+/// The tables of a machine, and what stands above them. Sensors alone make none.
 std::set<std::string> keys_of_machine() {
   auto const tables = describe_machine();
   auto keys = keys_among(tables.front().fields);
   for (std::size_t t = 1; t < tables.size(); ++t) keys.insert(tables[t].name);
+  keys.erase(sensor_table);
   return keys;
 }
 
 /// In the order of FileKind.
-std::array<KindOfFile, 7> const& kinds_of_file() {
-  static std::array<KindOfFile, 7> const kinds = {{
+std::array<KindOfFile, 8> const& kinds_of_file() {
+  static std::array<KindOfFile, 8> const kinds = {{
       {FileKind::experiment, "an experiment", keys_among(list_fields<scenarios::Experiment>())},
       {FileKind::campaign, "a campaign", keys_among(list_fields<CampaignDescription>())},
       {FileKind::error_model, "an error model", keys_among(error_model_fields())},
@@ -47,6 +51,7 @@ std::array<KindOfFile, 7> const& kinds_of_file() {
       {FileKind::measurement, "a measurement file", keys_among(list_fields<MeasurementFile>())},
       {FileKind::candidates, "a file of candidates", keys_among(list_fields<CandidateRules>())},
       {FileKind::machine, "a machine file", keys_of_machine()},
+      {FileKind::sensors, "a list of sensors", {sensor_table}},
   }};
   return kinds;
 }
@@ -61,7 +66,17 @@ KindOfFile const& most_likely_kind(Value const& document) {
   auto const most = std::max_element(kinds.begin(), kinds.end(), [&](auto const& a, auto const& b) {
     return known_keys_in(document, a) < known_keys_in(document, b);
   });
-  return known_keys_in(document, *most) > 0 ? *most : kinds.back();
+  return known_keys_in(document, *most) > 0 ? *most : kinds[std::size_t(FileKind::machine)];
+}
+
+std::string_view name_of_kind(std::filesystem::path const& file) {
+  try {
+    Value const document = read_toml(file);
+    auto const& kind = most_likely_kind(document);
+    if (known_keys_in(document, kind) > 0) return kind.name;
+  } catch (FileError const&) {  // no TOML
+  }
+  return "something else";
 }
 
 }  // namespace
@@ -77,6 +92,14 @@ void refuse_other_kind(Value const& document, FileKind due) {
   if (kind.kind == due || as_many > 1) return;
   throw FileError({document.where.file, 0, 0},
                   fmt::format("is {}; {} is due", kind.name, kinds[std::size_t(due)].name));
+}
+
+void refuse_to_replace(std::filesystem::path const& output, FileKind written) {
+  if (!std::filesystem::is_regular_file(output) || std::filesystem::is_empty(output)) return;
+  auto const there = name_of_kind(output), due = kinds_of_file()[std::size_t(written)].name;
+  if (there != due)
+    throw thermal::InputError(
+        fmt::format("{}: is {}, whose place {} does not take; name another output", output.string(), there, due));
 }
 
 }  // namespace thermotwin::twin

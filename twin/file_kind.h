@@ -1,13 +1,14 @@
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 #include "twin/file/schema.h"
 
 namespace thermotwin::twin {
 
-/// The text files (TOML) that the program reads.
-enum class FileKind { experiment, campaign, error_model, study, measurement, candidates, machine };
+/// The text files (TOML) that the program reads, and the list of sensors that `place` writes.
+enum class FileKind { experiment, campaign, error_model, study, measurement, candidates, machine, sensors };
 
 /// The kind that knows most of the keys at the top of a document; among equals the first, and a machine where none
 /// knows any.
@@ -16,6 +17,10 @@ enum class FileKind { experiment, campaign, error_model, study, measurement, can
 /// FileError "is a machine file; an experiment is due" where one other kind knows more of the document's keys than all
 /// the rest.
 void refuse_other_kind(Value const& document, FileKind due);
+
+/// InputError where a file of kind `written` would take the place of one of another kind, or of any other text; an
+/// empty file may go. Every command that writes a text file (TOML) asks this before any work.
+void refuse_to_replace(std::filesystem::path const& output, FileKind written);
 
 /// read_fields of a whole file: what is wrong with one of another kind is that.
 template <class T>

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <utility>
 
+#include "tests/output/temporary_directory.h"
 #include "tests/scenarios/refusal.h"
 
 namespace thermotwin::twin {
@@ -23,6 +24,8 @@ TEST(FileKind, IsTheOneThatKnowsMostKeys) {
   EXPECT_EQ(kind_of_text("most = 3\n"), FileKind::candidates);
   EXPECT_EQ(kind_of_text("name = \"a\"\nduration = \"1 h\"\n[[lump]]\n"), FileKind::machine);  // one key is astray
   EXPECT_EQ(kind_of_text("nonsense = 1\n"), FileKind::machine);
+  EXPECT_EQ(kind_of_text("[[temperature_sensor]]\n"), FileKind::sensors);
+  EXPECT_EQ(kind_of_text("name = \"a\"\n[[temperature_sensor]]\n"), FileKind::machine);
 }
 
 TEST(FileKind, OfWhatIsShipped) {
@@ -43,6 +46,27 @@ TEST(FileKind, RefusesOnlyWhatIsSurelyAnother) {
   EXPECT_EQ(said("most = 3\n", FileKind::error_model), "some.toml: is a file of candidates; an error model is due");
   EXPECT_EQ(said(machine, FileKind::machine), "accepted");
   EXPECT_EQ(said("title = \"a\"\n", FileKind::error_model), "accepted");  // most kinds have one
+}
+
+TEST(FileKind, TakesThePlaceOfItsOwnOnly) {
+  tests::TemporaryDirectory const directory;
+  auto const file = directory / "file.toml";
+  auto const said = [&](std::string const& text, FileKind written) {
+    tests::put(file, text);
+    return refusal([&] { refuse_to_replace(file, written); });
+  };
+  std::string const machine = "name = \"a\"\n[spindle]\n[[lump]]\n", sensors = "[[temperature_sensor]]\n";
+  for (auto const& [text, kind] : {std::pair{machine, FileKind::machine}, {sensors, FileKind::sensors}})
+    for (auto const written : {FileKind::machine, FileKind::sensors, FileKind::error_model})
+      EXPECT_EQ(said(text, written) == "accepted", kind == written) << text << int(written);
+  EXPECT_EQ(said(machine, FileKind::error_model),
+            file.string() + ": is a machine file, whose place an error model does not take; name another output");
+  for (std::string const text : {"what the user wrote", "[tool]\n", "# a note\n"})
+    EXPECT_EQ(said(text, FileKind::machine),
+              file.string() + ": is something else, whose place a machine file does not take; name another output");
+  EXPECT_EQ(said("", FileKind::machine), "accepted");
+  EXPECT_EQ(refusal([&] { refuse_to_replace(directory / "none.toml", FileKind::machine); }), "accepted");
+  EXPECT_EQ(refusal([&] { refuse_to_replace(directory.path(), FileKind::machine); }), "accepted");  // told elsewhere
 }
 
 }  // namespace

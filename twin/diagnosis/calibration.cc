@@ -15,6 +15,7 @@
 #include "twin/diagnosis/start.h"
 #include "twin/file/output_path.h"
 #include "twin/file/text_file.h"
+#include "twin/file_kind.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -182,6 +183,7 @@ Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) 
 
 Calibration calibrate_files(CalibrateFiles const& files) {
   refuse_to_overwrite(files.output, files.machine, files.data);
+  refuse_to_replace(files.output, FileKind::machine);
   std::string const text = text_of_file(files.machine);
   Value const document = parse_toml(text, files.machine.string());
   std::vector<std::string> remarks;

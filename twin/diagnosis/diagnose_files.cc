@@ -8,6 +8,7 @@
 #include "twin/diagnosis/run_files.h"
 #include "twin/file/output_path.h"
 #include "twin/file/text_file.h"
+#include "twin/file_kind.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -69,6 +70,7 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   RunFiles every = files.data;
   every.insert(every.end(), files.held_out.begin(), files.held_out.end());
   refuse_to_overwrite(files.output, files.machine, every);
+  refuse_to_replace(files.output, FileKind::machine);
   DiagnosisReport report;
   Value const document = read_toml(files.machine);
   Machine const machine = Machine::build(document);
