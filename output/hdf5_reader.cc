@@ -163,4 +163,13 @@ Dataset read(std::filesystem::path const& path) {
   }
 }
 
+std::string title_in(std::filesystem::path const& path) {
+  hdf5::Silence const silence;
+  try {
+    return text_attribute(open_file(path), "title");
+  } catch (hdf5::Failure const&) {
+    return {};
+  }
+}
+
 }  // namespace thermotwin::output

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
+#include "output/dataset_file.h"
 #include "tests/end_to_end/program.h"
 #include "tests/output/temporary_directory.h"
 
@@ -31,6 +32,24 @@ TEST(OutputPlace, OfAnotherKindIsKept) {
   auto const said = tests::answer(
       "cd " + directory.path().string() + " && " + program + " calibrate v450 none.h5 -o machine.toml", 2);
   EXPECT_NE(said.find("none.h5"), std::string::npos) << said;  // it went on to its data
+}
+
+TEST(OutputPlace, OfARecordIsKept) {
+  tests::TemporaryDirectory const directory;
+  auto const run = (directory / "run.h5").string(), live = (directory / "live.h5").string();
+  tests::answer(program + " run golden_b_2000 -q -o " + run);
+  tests::answer(program + " run golden_b_2000 -q -o " + run);  // over another run
+  output::Dataset record;
+  record.title = "Compensation of X";
+  record.time_s = Eigen::Vector2d(0.0, 10.0);
+  output::write(record, live);
+  auto const before = tests::contents(live);
+  for (auto const& command :
+       {std::string("run golden_b_2000"), std::string("run golden_b_2000 --reduced"), "replay " + run}) {
+    auto const said = tests::answer(program + " " + command + " -o " + live, 2);
+    EXPECT_NE(said.find("live.h5' is a record of `compensate`"), std::string::npos) << command << "\n" << said;
+    EXPECT_TRUE(tests::contents(live) == before) << command;
+  }
 }
 
 }  // namespace
