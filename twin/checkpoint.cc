@@ -1,11 +1,13 @@
 #include "twin/checkpoint.h"
 
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "thermal/error.h"
 #include "thermal/evaluation.h"
+#include "thermal/units.h"
 #include "twin/packed.h"
 
 namespace thermotwin::twin {
@@ -18,11 +20,33 @@ std::string record_of(Checkpoint::Identity const& identity) {
   return record;
 }
 
-/// The first thing in which two runs differ.
-std::string difference(Checkpoint::Identity const& a, Checkpoint::Identity const& b) {
-  for (auto const& [key, text] : a)
-    if (auto const other = b.find(key); other == b.end() || other->second != text) return key;
-  return "number of settings";
+/// Of the lines in a provenance.
+std::string typed_settings(std::string text) {
+  if (text.empty()) return "no --set";
+  for (auto at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) text.replace(at, 1, "' --set '");
+  return fmt::format("--set '{}'", text);
+}
+
+/// As a user asks for it.
+std::string asked_for(std::string const& key, std::string const& text) {
+  if (key == "checkpoint_s")
+    return fmt::format("--checkpoint \"{}\"", thermal::format_quantity(std::stod(text), thermal::dimension::time));
+  if (key == "nodes") return text == "yes" ? "--nodes" : "no --nodes";
+  if (key == "settings") return typed_settings(text);
+  if (key == "seed") return "experiment.seed = " + text;
+  if (key.starts_with("tolerance.")) return "--tolerance " + text;
+  if (key == "version" || key == "commit") return fmt::format("{} {} of the program", key, text);
+  if (key.starts_with("recorded.")) return "other recorded tables";
+  return fmt::format("another {}, or another text in its file", key.substr(0, key.find('.')));
+}
+
+/// How a run was asked for, where not as now.
+std::set<std::string> asked_differently(Checkpoint::Identity const& then, Checkpoint::Identity now) {
+  std::set<std::string> asked;
+  for (auto const& [key, text] : then)
+    if (auto const same = now.extract(key); same.empty() || same.mapped() != text) asked.insert(asked_for(key, text));
+  for (auto const& [key, text] : now) asked.insert(asked_for(key, ""));
+  return asked;
 }
 
 Checkpoint::Identity identity_in(std::string const& record, std::filesystem::path const& path) {
@@ -43,8 +67,9 @@ Checkpoint::Checkpoint(std::filesystem::path const& path, Identity const& identi
     throw thermal::InputError(
         fmt::format("'{}' holds a run that was not finished; go on with --resume, or delete it", path.string()));
   if (records_.front() != record_of(identity))
-    throw thermal::InputError(fmt::format("'{}' is of another run: '{}' is not the same", path.string(),
-                                          difference(identity, identity_in(records_.front(), path))));
+    throw thermal::InputError(
+        fmt::format("'{}' is of another run, with {}; ask for the same, or delete it to begin anew", path.string(),
+                    fmt::join(asked_differently(identity_in(records_.front(), path), identity), " and ")));
   records_.erase(records_.begin());
 }
 

@@ -19,8 +19,9 @@ class Checkpoint {
  public:
   using Identity = std::map<std::string, std::string>;
 
-  /// Opens or makes the file. InputError when it is of a run of another `identity`, and says in what; when it holds a
-  /// run and `resume` is not asked for; or when it is no journal (output/journal.h), and is left as it is.
+  /// Opens or makes the file. InputError when it is of a run of another `identity`, and says what was asked for then;
+  /// when it holds a run and `resume` is not asked for; or when it is no journal (output/journal.h), and is left as it
+  /// is.
   Checkpoint(std::filesystem::path const& path, Identity const& identity, bool resume);
 
   /// Shows every sample that is in the file and sets the state to the last; returns how many they were.

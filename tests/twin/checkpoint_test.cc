@@ -5,6 +5,7 @@
 
 #include "output/dataset_file.h"
 #include "tests/output/temporary_directory.h"
+#include "tests/scenarios/refusal.h"
 #include "thermal/error.h"
 #include "twin/experiment_file.h"
 #include "twin/file/text_file.h"
@@ -110,13 +111,54 @@ TEST(Checkpoint, OfAnotherRunOrUnasked) {
                thermal::InputError);
   auto other = options(path, 300.0, 2.0);
   other.resume = true;
-  try {
-    static_cast<void>(run(bench().machine, bench().experiment, other));
-    FAIL();
-  } catch (thermal::InputError const& error) {
-    EXPECT_NE(std::string(error.what()).find("'checkpoint_s' is not the same"), std::string::npos) << error.what();
-  }
+  EXPECT_EQ(tests::refusal([&] { static_cast<void>(run(bench().machine, bench().experiment, other)); }),
+            "'" + path.string() +
+                "' is of another run, with --checkpoint \"10 min\"; ask for the same, or delete it to begin anew");
   EXPECT_THROW(static_cast<void>(checkpoint_interval(directory / "none")), thermal::InputError);
+}
+
+/// What a user would have to type, not what the file calls it.
+TEST(Checkpoint, SaysHowTheOtherRunWasAskedFor) {
+  tests::TemporaryDirectory const directory;
+  Checkpoint::Identity const run = {{"checkpoint_s", "90000"},
+                                    {"experiment.file", "a"},
+                                    {"machine.file", "b"},
+                                    {"machine.weights", "c"},
+                                    {"nodes", "no"},
+                                    {"recorded.0", "d"},
+                                    {"seed", "1"},
+                                    {"settings", "x=1\ny=2"},
+                                    {"version", "0.1.0"},
+                                    {"tolerance.absolute_K", "1e-06"},
+                                    {"tolerance.relative", "1e-06"}};
+  Checkpoint(directory / "run", run, false);
+  auto const said = [&](std::string const& key, std::string const& now) {
+    auto other = run;
+    if (now.empty())
+      other.erase(key);
+    else
+      other[key] = now;
+    auto const text = tests::refusal([&] { Checkpoint(directory / "run", other, true); });
+    auto const begin = text.find(", with ") + 7;
+    return text.substr(begin, text.find("; ask for") - begin);
+  };
+  EXPECT_EQ(said("checkpoint_s", "3600"), "--checkpoint \"25 h\"");
+  EXPECT_EQ(said("experiment.file", "A"), "another experiment, or another text in its file");
+  for (std::string const key : {"machine.file", "machine.weights"})
+    EXPECT_EQ(said(key, "B"), "another machine, or another text in its file");
+  EXPECT_EQ(said("nodes", "yes"), "no --nodes");
+  for (auto const& [key, now] : {std::pair{"recorded.0", ""}, {"recorded.0", "D"}, {"recorded.1", "more"}})
+    EXPECT_EQ(said(key, now), "other recorded tables");
+  EXPECT_EQ(said("seed", "2"), "experiment.seed = 1");
+  EXPECT_EQ(said("settings", "x=2"), "--set 'x=1' --set 'y=2'");
+  EXPECT_EQ(said("tolerance.absolute_K", "1e-05"), "--tolerance 1e-06");
+  EXPECT_EQ(said("version", "0.2.0"), "version 0.1.0 of the program");
+  auto two = run;
+  two["seed"] = two["machine.file"] = "2";
+  EXPECT_NE(tests::refusal([&] {
+              Checkpoint(directory / "run", two, true);
+            }).find("with another machine, or another text in its file and experiment.seed = 1; ask"),
+            std::string::npos);
 }
 
 /// A recorded table stands in the identity as it is.
