@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "output/error.h"
 #include "thermal/error.h"
 #include "thermal/evaluation.h"
 #include "thermal/units.h"
@@ -131,12 +132,39 @@ std::vector<std::size_t> stretches(std::span<double const> times, double interva
   return ends;
 }
 
+std::filesystem::path checkpoint_of(std::filesystem::path dataset) { return dataset += ".checkpoint"; }
+
 double checkpoint_interval(std::filesystem::path const& path) {
   if (!std::filesystem::exists(path))
-    throw thermal::InputError(fmt::format("there is no checkpoint '{}' to go on from", path.string()));
+    throw thermal::InputError(
+        fmt::format("there is no checkpoint '{}' to go on from: the run was never begun, or not with --checkpoint; "
+                    "give it, \"2 h\" "
+                    "for example, to begin it",
+                    path.string()));
   auto const records = output::Journal::read(path);
   if (records.empty()) throw thermal::InputError(fmt::format("'{}' holds no run", path.string()));
   return std::stod(identity_in(records.front(), path)["checkpoint_s"]);
+}
+
+void refuse_to_resume_finished(std::filesystem::path const& dataset) {
+  auto const checkpoint = checkpoint_of(dataset);
+  if (!std::filesystem::exists(dataset) || std::filesystem::exists(checkpoint)) return;
+  throw thermal::InputError(
+      fmt::format("'{}' is finished: it is there, and no checkpoint '{}' to go on from; leave out --resume to make it "
+                  "anew",
+                  dataset.string(), checkpoint.string()));
+}
+
+void remove_stale_checkpoint(std::filesystem::path const& dataset) {
+  auto const path = checkpoint_of(dataset);
+  if (!std::filesystem::exists(path)) return;
+  try {
+    output::Journal journal(path);
+    auto const records = journal.take_records();
+    if (!records.empty() && !identity_in(records.front(), path).empty()) journal.remove();
+  } catch (thermal::InputError const&) {  // something else
+  } catch (output::OutputError const&) {  // in use
+  }
 }
 
 }  // namespace thermotwin::twin

@@ -45,7 +45,18 @@ class Checkpoint {
 /// the first time at or after a multiple of `interval` (0: one stretch). The last is all of them.
 [[nodiscard]] std::vector<std::size_t> stretches(std::span<double const> times, double interval);
 
+/// Beside the data set of its run.
+[[nodiscard]] std::filesystem::path checkpoint_of(std::filesystem::path dataset);
+
 /// The interval of the run that a checkpoint is of [s]; it is read only. InputError when there is none.
 [[nodiscard]] double checkpoint_interval(std::filesystem::path const& path);
+
+/// For a run that is to go on, if it was begun. InputError when its data set is there and no checkpoint: it is done,
+/// or another one is.
+void refuse_to_resume_finished(std::filesystem::path const& dataset);
+
+/// Removes what a stopped run left whose data set another one has made. No checkpoint, or one that another process
+/// writes, stays.
+void remove_stale_checkpoint(std::filesystem::path const& dataset);
 
 }  // namespace thermotwin::twin

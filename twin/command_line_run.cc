@@ -79,7 +79,8 @@ void RunCommand::check_outputs(std::filesystem::path const& machine_path, std::f
 void RunCommand::set_checkpoint(RunOptions& options) const {
   if (checkpoint.empty() && !resume) return;
   if (dataset.empty()) throw thermal::InputError("--checkpoint and --resume stand beside the output; give --output");
-  options.checkpoint = dataset + ".checkpoint";
+  if (resume) refuse_to_resume_finished(dataset);
+  options.checkpoint = checkpoint_of(dataset);
   options.resume = resume;
   options.checkpoint_interval = checkpoint.empty() ? checkpoint_interval(*options.checkpoint)
                                                    : thermal::parse_value(checkpoint, thermal::dimension::time);
@@ -96,6 +97,7 @@ void RunCommand::run_reduced(Machine const& machine, scenarios::Experiment const
   auto result = twin.run(programme);
   for (auto const& [key, text] : options.provenance) result.dataset.provenance[key] = text;
   if (options.dataset) output::write(result.dataset, *options.dataset);
+  if (options.dataset) remove_stale_checkpoint(*options.dataset);
   if (json)
     fmt::print("{}", reduced_json(twin, result));
   else if (!quiet)
@@ -162,6 +164,7 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   }
   auto const result = in_files([&] { return run(built, programme, options); });
   progress.reset();
+  if (options.dataset) remove_stale_checkpoint(*options.dataset);
   if (json)
     fmt::print("{}", summary_json(built, result));
   else if (!quiet)

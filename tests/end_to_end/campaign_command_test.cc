@@ -279,6 +279,48 @@ TEST(RunCommand, KilledAndResumedGivesTheSameBytes) {
   EXPECT_FALSE(fs::exists(directory / "killed.h5.checkpoint"));
 }
 
+/// As a job script does that always gives both options.
+TEST(RunCommand, ResumesOnlyWhatIsNotFinished) {
+  TemporaryDirectory const directory;
+  auto const run = (directory / "run.h5").string();
+  std::string const resume = program + " run golden_b_2000 -q --resume -o " + run;
+  auto const begun = answer(resume, 2);
+  EXPECT_NE(begun.find("there is no checkpoint '" + run + ".checkpoint' to go on from: the run was never begun"),
+            std::string::npos)
+      << begun;
+  answer(resume + " --checkpoint '2 h'");
+  auto const before = contents(run);
+  for (std::string const again : {"", " --checkpoint '2 h'", " --checkpoint '3 h' --set experiment.seed=2"}) {
+    auto const said = answer(resume + again, 2);
+    EXPECT_NE(said.find("'" + run + "' is finished"), std::string::npos) << said;
+    EXPECT_TRUE(contents(run) == before) << again;
+    EXPECT_EQ(directory.files(), std::vector<std::string>{"run.h5"}) << again;
+  }
+}
+
+/// What a stopped run left goes with the next one that ends, however that one was asked for.
+TEST(RunCommand, LeavesNoCheckpointOfAnEarlierOne) {
+  TemporaryDirectory const directory;
+  auto const run = (directory / "run.h5").string();
+  pid_t const child = start({"sh", "-c",
+                             "exec " + program + " run golden_b_4000 --set experiment.duration='20000 h' " +
+                                 "--checkpoint '20 h' -o " + run + " 2> " + (directory / "said").string()});
+  for (int i = 0; i < 10000 && !fs::exists(run + ".checkpoint"); ++i) wait(0.001);
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_NE(contents(directory / "said").find("the same command with --resume goes on from the last checkpoint"),
+            std::string::npos);
+  fs::remove(directory / "said");
+  auto const left = contents(run + ".checkpoint");
+  for (std::string const option : {"", " --reduced"}) {
+    tests::put(run + ".checkpoint", left);
+    answer(program + " run golden_b_2000 -q -o " + run + option);
+    EXPECT_EQ(directory.files(), std::vector<std::string>{"run.h5"}) << option;
+  }
+}
+
 TEST(ReplayCommand, MakesARunAnewFromItsOutputAlone) {
   TemporaryDirectory const directory;
   fs::create_directory(directory / "gone");

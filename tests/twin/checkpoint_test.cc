@@ -161,6 +161,25 @@ TEST(Checkpoint, SaysHowTheOtherRunWasAskedFor) {
             std::string::npos);
 }
 
+TEST(Checkpoint, GoesWithTheRunThatTookItsPlace) {
+  tests::TemporaryDirectory const directory;
+  auto const dataset = directory / "run.h5", path = checkpoint_of(dataset);
+  EXPECT_NO_THROW(remove_stale_checkpoint(dataset));
+  {
+    Checkpoint const running(path, {{"seed", "1"}}, false);
+    remove_stale_checkpoint(dataset);
+    EXPECT_TRUE(std::filesystem::exists(path));
+  }
+  remove_stale_checkpoint(dataset);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  for (std::string const text : {"", "what the user wrote"}) {
+    tests::put(path, text);
+    remove_stale_checkpoint(dataset);
+    EXPECT_EQ(tests::contents(path), text);
+    EXPECT_TRUE(std::filesystem::exists(path));
+  }
+}
+
 /// A recorded table stands in the identity as it is.
 TEST(Checkpoint, TellsTablesInAnyEncodingApart) {
   tests::TemporaryDirectory const directory;
