@@ -31,6 +31,10 @@ std::string content_of(std::filesystem::path const& file) {
   std::string text = content.str();
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw InputError(file.string() + ": is written in UTF-16; UTF-8 is due");
+  if (text.find('\n') == nowhere && text.find('\r') < text.size() - 1)
+    throw InputError(file.string() +
+                     ": its lines end with CR alone, as on old Macs; LF, or CR and LF, are due: tr '\\r' '\\n' < " +
+                     file.filename().string() + " > lines.csv");
   return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
 }
 

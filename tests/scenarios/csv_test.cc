@@ -89,6 +89,15 @@ TEST_F(Csv, RefusesUtf16) {
   EXPECT_EQ(refused("\xFF\xFEt\0,\0"s, {"t"}), "data.csv: is written in UTF-16; UTF-8 is due");
 }
 
+TEST_F(Csv, RefusesLinesThatEndWithCarriageReturnsAlone) {
+  EXPECT_EQ(refused("t,a\r0,1\r5,2\r", {"a"}),
+            "data.csv: its lines end with CR alone, as on old Macs; LF, or CR and LF, are due: "
+            "tr '\\r' '\\n' < data.csv > lines.csv");
+  EXPECT_EQ(refused("t,a\r\n0,1\r\n", {"a"}), "accepted");
+  EXPECT_EQ(refused("t,a\r", {"a"}), "data.csv: has no rows under its header");
+  EXPECT_EQ(refused("t,a", {"a"}), "data.csv: has no rows under its header");
+}
+
 TEST_F(Csv, NamesTheFileThatIsLatin1) {
   std::string const latin =
       "t,T [\xB0"
