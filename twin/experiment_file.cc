@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "thermal/nearest_name.h"
+#include "twin/file/document.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/temperature_limits.h"
 #include "twin/file_kind.h"
@@ -34,6 +35,19 @@ std::string path_in(std::string const& message) {
   return path.find_first_of("/: ") != std::string::npos || !begins_with_field(path) ? "" : path;
 }
 
+/// The entry of a list that a path means: by its number, or, of axes, by the axis that is the path's next part.
+Value const* entry_of(Value::List const& list, int index, std::string& path) {
+  if (index >= 0) return std::size_t(index) < list.size() ? &list[std::size_t(index)] : nullptr;
+  auto const meant = take_step(path).first;
+  auto const is_meant = [&](Value const& table) {
+    if (!table.is_table()) return false;
+    auto const axis = texts_of(table, "axis");
+    return (axis.empty() ? scenarios::FeedProgram().axis : axis[0]) == meant;
+  };
+  auto const found = std::find_if(list.begin(), list.end(), is_meant);
+  return found == list.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 thermal::InputError located_in(Value const& document, thermal::InputError const& error) {
@@ -44,8 +58,10 @@ thermal::InputError located_in(Value const& document, thermal::InputError const&
   while (!path.empty() && here->is_table()) {
     auto const [key, index] = take_step(path);
     Value const* next = here->find(key);
-    if (next && index >= 0 && next->is_list() && std::size_t(index) < std::get<Value::List>(next->content).size())
-      next = &std::get<Value::List>(next->content)[std::size_t(index)];
+    if (!next) break;
+    here = next;
+    if (!here->is_list() || (index < 0 && path.empty())) continue;
+    next = entry_of(std::get<Value::List>(here->content), index, path);
     if (!next) break;
     here = next;
   }

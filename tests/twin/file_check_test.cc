@@ -265,6 +265,23 @@ TEST(FileCheck, LeavesAComplaintThatNamesItsOwnFile) {
               HasSubstr("experiment.toml:2:12: duration: 0 s"));
 }
 
+/// A complaint about an axis names it by its name; the default is z.
+TEST(FileCheck, AComplaintAboutAnAxisPointsToItsKey) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& axes) {
+    put(folder / "experiment.toml", "machine = \"vmc850\"\nduration = \"1 h\"\n" + axes);
+    return check_files({folder / "experiment.toml"})[0].mistake;
+  };
+  std::string const blocks = "blocks = [{duration = \"1 h\", feed = \"8 m/min\"}]\n";
+  EXPECT_THAT(mistake("[[axes]]\n" + blocks + "duty = 2\n"),
+              HasSubstr("experiment.toml:5:8: axes.z.duty: 2 must be above 0 and at most 1"));
+  EXPECT_THAT(mistake("[[axes]]\naxis = \"z\"\nblocks = [{duration = \"10 min\"},\n  {duration = \"1 h\", feed = "
+                      "\"80 m/min\"}]\n"),
+              HasSubstr("experiment.toml:6:29: axes.z.blocks[1].feed: 80000 mm/min is above"));
+  EXPECT_THAT(mistake("[[axes]]\n" + blocks + "stroke_to = \"100 mm\"\n"),
+              HasSubstr("experiment.toml:5:13: axes.z.stroke_to: 100 mm must be beyond stroke_from, 120 mm"));
+}
+
 TEST(FileCheck, LooksAtCandidatesAndMachineTogether) {
   TemporaryDirectory const folder;
   put(folder / "sites.toml", "forbidden = [\"rotr\"]\n");
