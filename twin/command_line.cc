@@ -77,6 +77,18 @@ void print_checks(std::vector<std::string> const& names) {
   if (!right) throw CLI::RuntimeError(2);
 }
 
+/// Where to look for a name that has no page of its own: an effect's, a table's of a machine, a key's of a file.
+std::string page_with(std::string const& name, std::vector<TableRecord> const& files) {
+  for (auto const& effect : effect_catalogue())
+    if (effect.name == name) return fmt::format("it is an effect: thermotwin effects {}", name);
+  for (auto const& table : describe_machine())
+    if (table.name == name) return "it is a table of a machine: thermotwin describe machine";
+  for (auto const& file : files)
+    for (auto const& field : file.fields)
+      if (field.key == name) return fmt::format("it is a key of {0}: thermotwin describe {0}", file.name);
+  return "";
+}
+
 void describe(std::string const& what) {
   std::vector<TableRecord> const files = {
       {"experiment", "what a machine is put through; the keys of its file", list_fields<scenarios::Experiment>()},
@@ -95,8 +107,11 @@ void describe(std::string const& what) {
     }
     known.push_back(file.name);
   }
-  if (what != "machine")
-    throw thermal::InputError(fmt::format("describe: there is no '{}'; {}", what, thermal::did_you_mean(what, known)));
+  if (what != "machine") {
+    auto const page = page_with(what, files);
+    throw thermal::InputError(
+        fmt::format("describe: there is no '{}'; {}", what, page.empty() ? thermal::did_you_mean(what, known) : page));
+  }
   for (auto const& table : describe_machine()) fmt::print("{}\n", table_page(table));
 }
 

@@ -265,7 +265,11 @@ TEST(BadInput, NamesThatDoNotExist) {
         Row{"run golden_b_2000 v450", "run: 'v450' is an argument too many"},
         Row{"diagnose v450 a.h5 --without radiation,hot_neighbor", "did you mean 'hot_neighbour'?"},
         Row{"effects bering", "did you mean 'bearing'?"}, Row{"describe machin", "machine"},
-        Row{"describe studdy", "did you mean 'study'?"}, Row{"rnu", "unknown command 'rnu'; did you mean 'run'?"}}) {
+        Row{"describe studdy", "did you mean 'study'?"},
+        Row{"describe film", "describe: there is no 'film'; it is an effect: thermotwin effects film"},
+        Row{"describe ball_screw", "'ball_screw'; it is a table of a machine: thermotwin describe machine"},
+        Row{"describe duration", "'duration'; it is a key of experiment: thermotwin describe experiment"},
+        Row{"rnu", "unknown command 'rnu'; did you mean 'run'?"}}) {
     auto const answer = program(arguments);
     EXPECT_EQ(answer.code, 2) << arguments;
     EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
