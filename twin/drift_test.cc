@@ -4,6 +4,10 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+
+#include "thermal/units.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -12,6 +16,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double sixty_minutes = 3600.0;
+constexpr double same_time = 1e-6;      ///< [s]
+constexpr double longest_lead = 120.0;  ///< of the sample that is read before the stop [s]
 
 /// A course with a time axis of its own: the laser passes when it likes.
 struct Course {
@@ -35,10 +41,10 @@ std::vector<Course> courses_of(output::Dataset const& dataset) {
   return courses;
 }
 
-/// When something moves; the first sample at which it does, and the first at which it does no more.
+/// When something moves: the first sample at which it does, and the last.
 struct Motion {
   bool known = false;  ///< the data set has such an input
-  Index first = -1, stop = -1;
+  Index first = -1, last = -1;
 };
 
 Motion motion_of(output::Dataset const& dataset, std::string const& ending) {
@@ -49,26 +55,48 @@ Motion motion_of(output::Dataset const& dataset, std::string const& ending) {
     for (Index r = 0; r < input.values.size(); ++r) {
       if (!(std::abs(input.values[r]) > 0.0)) continue;
       if (motion.first < 0 || r < motion.first) motion.first = r;
-      motion.stop = std::max(motion.stop, std::min(r + 1, input.values.size() - 1));
+      motion.last = std::max(motion.last, r);
     }
   }
   return motion;
 }
 
+/// The last of the jumps after one time and not after another, or the first; without any the later time.
+double jump_between(double after, double until, std::vector<double> const& jumps, bool last) {
+  auto const begin = std::upper_bound(jumps.begin(), jumps.end(), after + same_time);
+  auto const end = std::upper_bound(begin, jumps.end(), until + same_time);
+  return begin == end ? until : last ? *(end - 1) : *begin;
+}
+
+/// Start and stop, where the inputs jump between two samples; of what moves from the first sample or to the last, that.
+std::pair<double, double> ends_of(Motion const& motion, VectorXd const& time, std::vector<double> const& jumps) {
+  bool const starts = motion.first > 0, stops = motion.last + 1 < time.size();
+  return {starts ? jump_between(time[motion.first - 1], time[motion.first], jumps, false) : time[0],
+          stops ? jump_between(time[motion.last], time[motion.last + 1], jumps, true) : time[motion.last]};
+}
+
+/// The last sample that is not after a time, else the first.
+Index sample_at(VectorXd const& time, double t) {
+  Index const next = std::upper_bound(time.begin(), time.end(), t + same_time) - time.begin();
+  return std::max<Index>(next - 1, 0);
+}
+
 ChannelDrift drift_of(Course const& course, double from, double to) {
-  double const first = course.time[0], end = course.time[course.time.size() - 1], stop = std::min(to, end);
-  VectorXd const instants =
-      (VectorXd(5) << std::max(from, first), from + sixty_minutes, stop - sixty_minutes, stop, end).finished();
-  auto const at = output::at_times(course.values, course.time, instants);
-  bool const long_enough = stop - from >= sixty_minutes;
+  double const end = course.time[course.time.size() - 1];
+  Index const start = sample_at(course.time, from), stop = sample_at(course.time, to);
   ChannelDrift drift;
+  drift.read_at = course.time[stop];
+  VectorXd const instants = (VectorXd(3) << from + sixty_minutes, drift.read_at - sixty_minutes, end).finished();
+  auto const at = output::at_times(course.values, course.time, instants);
+  double const at_start = course.values[start], at_stop = course.values[stop];
+  bool const long_enough = drift.read_at - from >= sixty_minutes - same_time;
   drift.name = course.name;
   drift.unit = course.unit;
   drift.range = course.values.maxCoeff<Eigen::PropagateNumbers>() - course.values.minCoeff<Eigen::PropagateNumbers>();
-  drift.first_hour = long_enough ? at[1] - at[0] : NAN;
-  drift.last_hour = long_enough ? at[3] - at[2] : NAN;
-  drift.at_stop = at[3] - at[0];
-  drift.at_end = end > to ? at[4] - at[0] : NAN;
+  drift.first_hour = long_enough ? at[0] - at_start : NAN;
+  drift.last_hour = long_enough ? at_stop - at[1] : NAN;
+  drift.at_stop = at_stop - at_start;
+  drift.at_end = end > to ? at[2] - at_start : NAN;
   return drift;
 }
 
@@ -87,9 +115,25 @@ std::string heading_of(DriftTest const& test) {
   return "";
 }
 
+/// When the values 'at stop' were read, where that was before the stop.
+std::string samples_before_stop(DriftTest const& test) {
+  std::set<double> times;
+  for (auto const& drift : test.drifts) times.insert(drift.read_at);
+  std::string text;
+  for (double const t : times) {
+    double const lead = test.to - t;
+    if (lead <= same_time) continue;
+    auto const minutes = [](double s) { return thermal::format_quantity(s, thermal::dimension::time); };
+    text += fmt::format(
+        "  'at stop' and 'last 60' are read at {}, {} before the stop{}\n", minutes(t), minutes(lead),
+        lead > longest_lead ? "; that is too early for the figures: sample more often, or at the stop" : "");
+  }
+  return text;
+}
+
 }  // namespace
 
-std::optional<DriftTest> drift_test(output::Dataset const& dataset) {
+std::optional<DriftTest> drift_test(output::Dataset const& dataset, std::vector<double> const& jumps) {
   auto const courses = courses_of(dataset);
   Motion const spindle = motion_of(dataset, "spindle.speed"), axes = motion_of(dataset, ".feed");
   if (courses.empty() || dataset.time_s.size() < 2 || !(spindle.known || axes.known)) return std::nullopt;
@@ -97,8 +141,9 @@ std::optional<DriftTest> drift_test(output::Dataset const& dataset) {
   Motion const& motion = spindle.first >= 0 ? spindle : axes;
   bool const moves = motion.first >= 0;
   if (moves) test.kind = spindle.first >= 0 ? DriftTest::Kind::spindle : DriftTest::Kind::axis;
-  test.from = dataset.time_s[moves ? motion.first : 0];
-  test.to = dataset.time_s[moves ? motion.stop : dataset.time_s.size() - 1];
+  test.from = dataset.time_s[0];
+  test.to = dataset.time_s[dataset.time_s.size() - 1];
+  if (moves) std::tie(test.from, test.to) = ends_of(motion, dataset.time_s, jumps);
   for (auto const& course : courses) test.drifts.push_back(drift_of(course, test.from, test.to));
   return test;
 }
@@ -118,7 +163,7 @@ std::string drift_table(DriftTest const& test) {
       text += fmt::format("  {:<26} {:>10} {:>10} {:>10} {:>10} {}\n", drift.name, shown(drift.first_hour),
                           shown(drift.last_hour), shown(drift.at_stop), shown(drift.at_end), unit);
   }
-  return text;
+  return at_rest ? text : text + samples_before_stop(test);
 }
 
 nlohmann::ordered_json drift_json(DriftTest const& test) {
@@ -132,6 +177,7 @@ nlohmann::ordered_json drift_json(DriftTest const& test) {
                               {"first_hour", drift.first_hour},
                               {"last_hour", drift.last_hour},
                               {"at_stop", drift.at_stop},
+                              {"read_at_s", drift.read_at},
                               {"at_end", drift.at_end}});
   return json;
 }

@@ -274,11 +274,18 @@ std::map<std::string, std::string> solver_provenance(thermal::IntegrationSummary
           {"energy.imbalance", thermal::format_number(summary.energy_imbalance())}};
 }
 
+std::vector<double> jumps_of(thermal::Course const& course, double duration) {
+  std::vector<double> jumps;
+  for (double t = course.next_jump(0.0); t <= duration; t = course.next_jump(t)) jumps.push_back(t);
+  return jumps;
+}
+
 RunResult run_in_modes(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options) {
   scenarios::ExperimentCourse const course(experiment, machine.limits);
   check_laser(machine, experiment);
   Recorder recorder(machine, experiment, course, options);
   RunResult result;
+  result.jumps = jumps_of(course, experiment.duration);
   result.summary = thermal::integrate_in_modes(
       machine.network(), course, initial_temperatures(machine, experiment, course), recorder.looks(),
       options.integration, [&](thermal::Sample const& sample) { recorder(sample); });
@@ -352,6 +359,7 @@ RunResult run(Machine const& machine, scenarios::Experiment const& experiment, R
     throw thermal::IntegrationError(error.what() + recorder.rows_so_far());
   }
   RunResult result;
+  result.jumps = jumps_of(course, experiment.duration);
   result.summary = state.summary;
   result.dataset = recorder.finish(solver_provenance(result.summary));
   result.extrapolated = recorder.watch().found(result.summary.moved());

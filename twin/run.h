@@ -61,6 +61,7 @@ struct RunOptions {
 struct RunResult {
   output::Dataset dataset;
   thermal::IntegrationSummary summary;
+  std::vector<double> jumps;               ///< of the inputs, in order [s]
   std::vector<Extrapolated> extrapolated;  ///< if it was asked for
 };
 

@@ -83,7 +83,7 @@ std::string summary_table(Machine const& machine, RunResult const& result) {
                         displacements.title, in_table(e.last, 9), in_table(e.lowest, 9), in_table(e.highest, 9),
                         channel.unit == "um" ? "µm" : "µrad");
   }
-  if (auto const test = drift_test(data)) text += "\n" + drift_table(*test);
+  if (auto const test = drift_test(data, result.jumps)) text += "\n" + drift_table(*test);
   text += fmt::format(
       "\n  energy     {:.4g} kJ supplied = {:.4g} stored + {:.4g} to the air and coolant + {:.4g} withdrawn; balance "
       "to {:.1e}\n",
@@ -104,7 +104,7 @@ std::string summary_json(Machine const& machine, RunResult const& result) {
   json["duration_s"] = data.time_s[data.time_s.size() - 1];
   json["readings"] = extremes_json(data.readings);
   json["displacements"] = extremes_json(data.displacements);
-  if (auto const test = drift_test(data)) json["drift_test"] = drift_json(*test);
+  if (auto const test = drift_test(data, result.jumps)) json["drift_test"] = drift_json(*test);
   json["energy"] = {{"supplied_J", s.energy.supplied},
                     {"withdrawn_J", s.energy.withdrawn},
                     {"lost_J", s.energy.lost},

@@ -87,6 +87,59 @@ TEST(DriftTest, FiguresAreThoseOfTheClosedForm) {
   EXPECT_NEAR(drift.range, warm(to - from), 1e-12);
 }
 
+/// The same motion in rows 7 min apart: start and stop are where the spindle's speed jumps, their readings those of the
+/// last row before; no straight line leads over the bends.
+TEST(DriftTest, CoarseRowsAreReadBeforeTheStop) {
+  constexpr double tau = 2400.0, from = 600.0, to = 15000.0, interval = 420.0;
+  auto const warm = [](double t) { return 8.0 * (1.0 - std::exp(-t / tau)); };
+  output::Dataset dataset;
+  dataset.time_s = Eigen::VectorXd::LinSpaced(45, 0.0, 44.0 * interval);
+  Eigen::VectorXd speed(45), growth(45);
+  for (Eigen::Index r = 0; r < 45; ++r) {
+    double const t = dataset.time_s[r];
+    speed[r] = t >= from && t < to ? 4000.0 : 0.0;
+    growth[r] = t < from ? 0.0 : t < to ? warm(t - from) : warm(to - from) * std::exp(-(t - to) / tau);
+  }
+  dataset.inputs = {{"spindle.speed", "rpm", "", speed}};
+  dataset.displacements = {{"E_Z", "um", "", growth}};
+  auto const test = drift_test(dataset, {from, 12345.0, to, 16000.0});
+  ASSERT_TRUE(test);
+  EXPECT_EQ(test->from, from);
+  EXPECT_EQ(test->to, to);
+  auto const& drift = test->drifts.at(0);
+  double const read = 35.0 * interval;  // 245 min, 5 min before the stop
+  EXPECT_EQ(drift.read_at, read);
+  EXPECT_NEAR(drift.at_stop, warm(read - from), 1e-12);
+  EXPECT_NEAR(drift.first_hour, warm(3600.0), 0.02);  // along a straight line
+  EXPECT_NEAR(drift.last_hour, warm(read - from) - warm(read - from - 3600.0), 0.02);
+  EXPECT_THAT(drift_table(*test), testing::HasSubstr("spindle, 10 to 250 min"));
+  EXPECT_THAT(drift_table(*test),
+              testing::HasSubstr("  'at stop' and 'last 60' are read at 245 min, 5 min before the stop; that is too "
+                                 "early for the figures: sample more often, or at the stop\n"));
+}
+
+/// Rows of 1 and of 7 min of one run differ by what the last 2 min of 240 min add, not by what the rest takes away.
+TEST(DriftTest, OneRunDriftsAlikeInCoarseRows) {
+  auto const machine = Machine::build(read_toml(machine_file("v450")));
+  auto const file = experiment_file("golden_b_4000");
+  auto experiment = read_experiment(read_toml(file), file);
+  auto const drift = [&](double sampling) {
+    experiment.sampling = sampling;
+    auto const made = run(machine, experiment, {});
+    auto const test = drift_test(made.dataset, made.jumps).value();
+    EXPECT_EQ(test.to, 14400.0) << sampling;
+    for (auto const& channel : test.drifts)
+      if (channel.name == "E_Z") return channel;
+    return ChannelDrift();
+  };
+  auto const fine = drift(60.0), coarse = drift(420.0);
+  EXPECT_EQ(fine.read_at, 14400.0);
+  EXPECT_EQ(coarse.read_at, 34.0 * 420.0);
+  EXPECT_GT(fine.at_stop, 10.0);
+  EXPECT_NEAR(coarse.at_stop, fine.at_stop, 0.05);
+  EXPECT_NEAR(coarse.last_hour, fine.last_hour, 0.05);
+}
+
 TEST(DriftTest, AShortRunHasNoFirstHour) {
   output::Dataset dataset;
   dataset.time_s = Eigen::Vector3d(0.0, 600.0, 1200.0);
