@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "scenarios/course.h"
+#include "scenarios/recorded.h"
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
 #include "twin/experiment_file.h"
@@ -37,6 +38,8 @@ class OddityFinder {
       : experiment_(experiment), machine_(machine), read_(channels_read(experiment, machine)) {}
 
   std::vector<std::string> operator()() {
+    look_at_sampling();
+    look_at_ends_of_records();
     auto const& recorded = experiment_.recorded;
     for (std::size_t r = 0; r < recorded.size(); ++r)
       for (std::size_t c = 0; c < recorded[r].columns.size(); ++c)
@@ -50,6 +53,31 @@ class OddityFinder {
   }
 
  private:
+  static std::string text(double seconds) { return thermal::format_quantity(seconds, thermal::dimension::time); }
+
+  void look_at_sampling() {
+    double const last = scenarios::sample_times(experiment_).back();
+    if (last < experiment_.duration)
+      found_.push_back(
+          fmt::format("sampling: the last row is at {}, and the run ends at {}; what comes later is left out",
+                      text(last), text(experiment_.duration)));
+  }
+
+  /// A row stands for as long as it is from the row before.
+  void look_at_ends_of_records() {
+    auto const driven = scenarios::read_recordings(experiment_.recorded, experiment_.directory, experiment_.duration);
+    std::size_t first_column = 0;
+    for (std::size_t r = 0; r < experiment_.recorded.size(); ++r) {
+      auto const& times = driven[first_column].signal.times();
+      double const last = times.back(), row = times.size() > 1 ? last - times[times.size() - 2] : 0.0;
+      if (experiment_.duration - last > row * (1.0 + rounding_of_sum))
+        found_.push_back(
+            fmt::format("recorded[{}].file: it ends at {}, and the run at {}; until then its last values hold", r,
+                        text(last), text(experiment_.duration)));
+      first_column += experiment_.recorded[r].columns.size();
+    }
+  }
+
   void look_at_channel(std::string const& path, std::string const& channel) {
     if (std::binary_search(read_.begin(), read_.end(), channel)) return;
     found_.push_back(fmt::format("{}: nothing on '{}' reads '{}'; {}", path, machine_.name, channel,
@@ -61,7 +89,6 @@ class OddityFinder {
     double length = 0.0;
     for (auto const& block : blocks) length += cycles * block.duration;
     if (length <= experiment_.duration * (1.0 + rounding_of_sum)) return;
-    auto const text = [](double seconds) { return thermal::format_quantity(seconds, thermal::dimension::time); };
     found_.push_back(fmt::format("{}: they last {} in all, and the run {}; what comes later is left out", path,
                                  text(length), text(experiment_.duration)));
   }

@@ -357,6 +357,34 @@ TEST(FileCheck, WarnsOfSpectraLongerThanTheRun) {
                                     "what comes later is left out")));
 }
 
+/// A record of rows 10 min apart, the last at 60 min, stands for 10 min more.
+TEST(FileCheck, WarnsOfARecordThatEndsBeforeTheRun) {
+  TemporaryDirectory const folder;
+  put(folder / "air.csv", air);
+  auto const warnings = [&](std::string const& duration) {
+    put(folder / "experiment.toml", "machine = \"v450\"\nduration = \"" + duration + "\"\n" +
+                                        recorded("ambient.temperature") + "max_gap = \"1 h\"\n");
+    return check_files({folder / "experiment.toml"})[0].warnings;
+  };
+  EXPECT_THAT(warnings("1 h"), SizeIs(0));
+  EXPECT_THAT(warnings("70 min"), SizeIs(0));
+  EXPECT_THAT(warnings("90 min"),
+              ElementsAre(HasSubstr("experiment.toml:4:8: recorded[0].file: it ends at 1 h, and the run at 90 min; "
+                                    "until then its last values hold")));
+}
+
+TEST(FileCheck, WarnsOfAnEndOfTheRunWithoutARow) {
+  TemporaryDirectory const folder;
+  auto const warnings = [&](std::string const& sampling) {
+    put(folder / "experiment.toml", "machine = \"v450\"\nduration = \"4 h\"\nsampling = \"" + sampling + "\"\n");
+    return check_files({folder / "experiment.toml"})[0].warnings;
+  };
+  EXPECT_THAT(warnings("8 min"), SizeIs(0));
+  EXPECT_THAT(warnings("7 min"),
+              ElementsAre(HasSubstr("experiment.toml:3:12: sampling: the last row is at 238 min, and "
+                                    "the run ends at 4 h; what comes later is left out")));
+}
+
 TEST(FileCheck, LooksAtTheExperimentsOfAStudy) {
   TemporaryDirectory const folder;
   put(folder / "air.csv", air);
