@@ -15,7 +15,7 @@ using thermal::InputError;
 namespace dimension = thermal::dimension;
 
 constexpr double most_passes = 1e6;                            ///< of a nut that is followed to and fro
-constexpr double rounding = 1e-9;                              ///< of a number of pitches or intervals
+constexpr double rounding = 1e-9;                              ///< of a number of pitches or intervals, of a place [m]
 constexpr double most_targets = 1e5, most_measurements = 1e6;  ///< of a laser
 
 struct Stroke {
@@ -30,6 +30,8 @@ Stroke stroke_of(FeedProgram const& program, AxisLimits const& axis) {
     throw InputError("axes." + axis.name + ".stroke_to: " + format_quantity(stroke.to, dimension::length) +
                      " must be beyond stroke_from, " + format_quantity(stroke.from, dimension::length));
   }
+  require_on_screw(stroke.from, axis, "axes." + axis.name + ".stroke_from: ");
+  require_on_screw(stroke.to, axis, "axes." + axis.name + ".stroke_to: ");
   return stroke;
 }
 
@@ -160,6 +162,12 @@ AxisMotion resolved_motion(FeedProgram const& program, Stroke const& stroke, dou
 }
 
 }  // namespace
+
+void require_on_screw(double x, AxisLimits const& axis, std::string const& place) {
+  if (!std::isfinite(axis.screw_length) || (x >= -rounding && x <= axis.screw_length + rounding)) return;
+  throw InputError(place + format_quantity(x, dimension::length) + " is not on the screw of axis '" + axis.name +
+                   "', which reaches from 0 mm to " + format_quantity(axis.screw_length, dimension::length));
+}
 
 std::vector<double> targets(LaserMeasurement const& laser) {
   if (laser.pitch <= 0.0 || laser.to < laser.from) {

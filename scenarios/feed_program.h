@@ -80,6 +80,10 @@ struct LaserMeasurement {
   }
 };
 
+/// InputError for a place of the nut, x from the start of the screw [m], beyond the screw's ends; `place`: of the
+/// number.
+void require_on_screw(double x, AxisLimits const& axis, std::string const& place);
+
 /// 0, interval, 2 interval, … up to the duration [s], which is the last if it is a whole number of intervals but for
 /// rounding.
 std::vector<double> times_every(double interval, double duration);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ struct AxisLimits {
   double lead = 0.01;        ///< of the screw: travel per revolution [m]
   double stroke_from = 0.0;  ///< ends of the nut's stroke, where a programme names none [m]
   double stroke_to = 0.0;
+  /// Beyond which no stroke goes; infinite: the machine has no screw on it [m]
+  double screw_length = std::numeric_limits<double>::infinity();
 };
 
 /// What an experiment must know of the machine.

@@ -252,9 +252,20 @@ std::vector<output::Channel> displacement_channels(Machine const& machine) {
 
 void check_laser(Machine const& machine, scenarios::Experiment const& experiment) {
   if (!experiment.laser) return;
-  static_cast<void>(screw_of_laser(machine, *experiment.laser));
-  static_cast<void>(scenarios::targets(*experiment.laser));
-  static_cast<void>(scenarios::measurement_times(*experiment.laser, experiment.duration));
+  auto const& laser = *experiment.laser;
+  static_cast<void>(screw_of_laser(machine, laser));
+  auto const targets = scenarios::targets(laser);
+  for (auto const& axis : machine.limits.axes) {
+    if (axis.name != laser.axis) continue;
+    auto const length = [](double x) { return thermal::format_quantity(x, thermal::dimension::length); };
+    auto const on_screw = [&](std::string const& key, double target) {
+      scenarios::require_on_screw(axis.stroke_from + target, axis,
+                                  fmt::format("laser.{}: {} from the start of the stroke, ", key, length(target)));
+    };
+    on_screw("from", targets.front());
+    on_screw("to", targets.back());
+  }
+  static_cast<void>(scenarios::measurement_times(laser, experiment.duration));
 }
 
 void measure(History const& history, scenarios::Experiment const& experiment, output::Dataset& dataset) {

@@ -113,6 +113,13 @@ void check_channel_name(Value const& table, std::string const& name) {
       fmt::format("'{}' cannot be the name of a channel: no '/', nor the whole '.', 'time' or empty", name));
 }
 
+constexpr double same_place = 1e-9;  ///< on a screw, of lengths in other units [m]
+
+/// Length without what the sum of its cells rounds [m].
+double length_of(thermal::Body const& bar) { return std::round(1e9 * bar.edges[0].back()) / 1e9; }
+
+std::string length_text(double x) { return thermal::format_quantity(x, dimension::length); }
+
 /// Keys of the two places between which a part carries heat.
 constexpr std::pair<char const*, char const*> ends[] = {{"from", "to"},   {"inner", "outer"},  {"shaft", "ring"},
                                                         {"nut", "screw"}, {"rotor", "stator"}, {"first", "second"}};
@@ -155,6 +162,9 @@ class MachineBuilder {
   void read_sensors();
   void read_displacements();
   void check_moves(DisplacementDescription const& description) const;
+  [[nodiscard]] std::vector<std::string> bars_of_nuts(std::string const& axis) const;
+  void check_positions(Value const& table, BallScrewDescription const& screw) const;
+  void check_strokes();
   void read_screws();
   void read_reading_terms();
   void read_displacement_instruments();
@@ -202,6 +212,10 @@ void MachineBuilder::read_head() {
   machine_.up = head_.upwards();
   machine_.limits.max_spindle_speed = assembly_.maximum_spindle_speed();
   for (auto const& [axis, table] : tables_.read<AxisDescription>("axis")) {
+    if (!(axis.stroke_to > axis.stroke_from))
+      throw FileError(table->find("stroke_to")->where,
+                      fmt::format("the stroke of axis '{}' ends at {}; it must end beyond stroke_from, {}", axis.name,
+                                  length_text(axis.stroke_to), length_text(axis.stroke_from)));
     machine_.limits.axes.push_back({axis.name, axis.rapid_feed, axis.lead, axis.stroke_from, axis.stroke_to});
     if (axis.friction_at == "moving speed") assembly_.take_friction_while_moving(axis.name);
   }
@@ -324,12 +338,57 @@ void MachineBuilder::check_moves(DisplacementDescription const& d) const {
                   d.name));
 }
 
+/// The bars on which the ball nuts of an axis run.
+std::vector<std::string> MachineBuilder::bars_of_nuts(std::string const& axis) const {
+  std::vector<std::string> bars;
+  for (auto const& table : tables_.of("ball_nut")) {
+    auto const own = texts_of(table, "axis"), screw = texts_of(table, "screw");
+    if ((own.empty() ? BallScrewDescription().axis : own[0]) == axis)
+      bars.insert(bars.end(), screw.begin(), screw.end());
+  }
+  return bars;
+}
+
+void MachineBuilder::check_positions(Value const& table, BallScrewDescription const& screw) const {
+  double const length = length_of(assembly_.body(screw.body));
+  for (std::size_t i = 0; i < screw.positions.size(); ++i) {
+    if (screw.positions[i] >= -same_place && screw.positions[i] <= length + same_place) continue;
+    Value const& given = *table.find("positions");
+    throw FileError(given.is_list() ? std::get<Value::List>(given.content)[i].where : given.where,
+                    fmt::format("'positions' has {}; the screw reaches from 0 mm to {}",
+                                length_text(screw.positions[i]), length_text(length)));
+  }
+}
+
+/// FileError for a stroke beyond the ends of its screw: the shortest bar of the axis' nuts and ball screws.
+void MachineBuilder::check_strokes() {
+  for (std::size_t a = 0; a < machine_.limits.axes.size(); ++a) {
+    auto& axis = machine_.limits.axes[a];
+    auto bars = bars_of_nuts(axis.name);
+    for (auto const& screw : machine_.screws)
+      if (screw.description.axis == axis.name) bars.push_back(screw.description.body);
+    for (auto const& bar : bars) axis.screw_length = std::min(axis.screw_length, length_of(assembly_.body(bar)));
+    for (auto const& [key, x] : {std::pair("stroke_from", axis.stroke_from), std::pair("stroke_to", axis.stroke_to)})
+      if (Value const* given = tables_.of("axis")[a].find(key)) try {
+          scenarios::require_on_screw(x, axis, fmt::format("'{}': ", key));
+        } catch (InputError const& error) {
+          throw FileError(given->where, error.what());
+        }
+  }
+}
+
 void MachineBuilder::read_screws() {
   for (auto const& [description, table] : tables_.read<BallScrewDescription>("ball_screw"))
     located(*table, [&, &d = description, &table = *table] {
       check_channel_name(table, d.name);
       thermal::Body const& body = assembly_.body(d.body);
       if (body.shape != thermal::Body::Shape::axial) throw InputError(fmt::format("'{}' is not a bar", d.body));
+      if (auto const bars = bars_of_nuts(d.axis);
+          !bars.empty() && std::find(bars.begin(), bars.end(), d.body) == bars.end())
+        throw FileError(table.find("body")->where,
+                        fmt::format("'{}' is no screw of axis '{}', whose ball_nut runs on '{}'", d.body, d.axis,
+                                    fmt::join(bars, "', '")));
+      check_positions(table, d);
       thermal::Material const& metal = bodies_.metal_of(d.body);
       using Support = thermal::BallScrew::Support;
       thermal::BallScrew screw;
@@ -490,6 +549,7 @@ Machine MachineBuilder::operator()() {
   read_sensors();
   read_displacements();
   read_screws();
+  check_strokes();
   read_displacement_instruments();
   check_volumetric();
   static_cast<void>(tables_.read<UncertainRange>("uncertain"));  // the keys; what they say is for ranged_numbers()

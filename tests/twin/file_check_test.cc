@@ -265,6 +265,62 @@ TEST(FileCheck, LeavesAComplaintThatNamesItsOwnFile) {
               HasSubstr("experiment.toml:2:12: duration: 0 s"));
 }
 
+/// vmc850 with one text in place of another, its first.
+std::string milling_centre(std::string const& old, std::string const& fresh) {
+  auto text = contents(machine_file("vmc850"));
+  return text.replace(text.find(old), old.size(), fresh);
+}
+
+/// The screw is 840 mm long; the stroke goes from 120 to 720 mm.
+TEST(FileCheck, RefusesWhatLiesBeyondTheScrew) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& old, std::string const& fresh) {
+    put(folder / "mine.toml", milling_centre(old, fresh));
+    return check_files({folder / "mine.toml"})[0].mistake;
+  };
+  EXPECT_EQ(mistake("stroke_to = \"720 mm\"", "stroke_to = \"84 cm\""), "");
+  EXPECT_THAT(mistake("stroke_to = \"720 mm\"", "stroke_to = \"5 m\""),
+              HasSubstr("mine.toml:11:13: 'stroke_to': 5 m is not on the screw of axis 'z', which reaches from 0 mm "
+                        "to 840 mm"));
+  EXPECT_THAT(mistake("stroke_to = \"720 mm\"", "stroke_to = \"100 mm\""),
+              HasSubstr("mine.toml:11:13: the stroke of axis 'z' ends at 100 mm; it must end beyond stroke_from, "
+                        "120 mm"));
+  std::string const positions = "positions = [\"120 mm\", \"420 mm\", \"720 mm\"]";
+  EXPECT_EQ(mistake(positions, "positions = [\"0 mm\", \"840 mm\"]"), "");
+  EXPECT_THAT(mistake(positions, "positions = [\"120 mm\", \"4 m\"]"),
+              HasSubstr("mine.toml:372:24: 'positions' has 4 m; the screw reaches from 0 mm to 840 mm"));
+}
+
+/// The same of experiments; a laser's targets count from the start of the stroke.
+TEST(FileCheck, RefusesAProgrammeBeyondTheScrew) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& more) {
+    put(folder / "experiment.toml", "machine = \"vmc850\"\nduration = \"1 h\"\n" + more);
+    return check_files({folder / "experiment.toml"})[0].mistake;
+  };
+  std::string const axes = "[[axes]]\nblocks = [{duration = \"1 h\", feed = \"8 m/min\"}]\n";
+  EXPECT_EQ(mistake(axes + "stroke_to = \"840 mm\"\n"), "");
+  EXPECT_THAT(mistake(axes + "stroke_to = \"1600 mm\"\n"),
+              HasSubstr("experiment.toml:5:13: axes.z.stroke_to: 1.6 m is not on the screw of axis 'z', which reaches "
+                        "from 0 mm to 840 mm"));
+  EXPECT_THAT(mistake(axes + "stroke_from = \"-10 mm\"\n"),
+              HasSubstr("experiment.toml:5:15: axes.z.stroke_from: -10 mm is not on the screw"));
+  EXPECT_EQ(mistake("laser.to = \"700 mm\"\n"), "");
+  EXPECT_THAT(mistake("laser.to = \"750 mm\"\n"),
+              HasSubstr("experiment.toml:3:12: laser.to: 750 mm from the start of the stroke, 870 mm is not on the "
+                        "screw of axis 'z'"));
+}
+
+TEST(FileCheck, ABallScrewIsTheBarOnWhichItsNutRuns) {
+  TemporaryDirectory const folder;
+  put(folder / "mine.toml", contents(machine_file("vmc850")) +
+                                "[[bar]]\nname = \"shaft\"\nmaterial = \"screw steel\"\norigin = [\"0 mm\", \"0 mm\", "
+                                "\"0 mm\"]\ndirection = \"z\"\nlength = \"2 m\"\nouter_diameter = \"40 mm\"\n"
+                                "[[ball_screw]]\nname = \"E_S\"\naxis = \"z\"\nbody = \"shaft\"\n");
+  EXPECT_THAT(check_files({folder / "mine.toml"})[0].mistake,
+              MatchesRegex(".*mine.toml:[0-9]+:8: 'shaft' is no screw of axis 'z', whose ball_nut runs on 'screw'"));
+}
+
 /// A complaint about an axis names it by its name; the default is z.
 TEST(FileCheck, AComplaintAboutAnAxisPointsToItsKey) {
   TemporaryDirectory const folder;
