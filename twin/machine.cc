@@ -120,6 +120,23 @@ double length_of(thermal::Body const& bar) { return std::round(1e9 * bar.edges[0
 
 std::string length_text(double x) { return thermal::format_quantity(x, dimension::length); }
 
+std::vector<std::string> axis_names(scenarios::MachineLimits const& limits) {
+  std::vector<std::string> names;
+  for (auto const& axis : limits.axes) names.push_back(axis.name);
+  return names;
+}
+
+/// "w" of "w.stroke_from"; empty for what is no input of an axis.
+std::string axis_of_input(std::string const& input) {
+  auto const dot = input.rfind('.');
+  if (dot == std::string::npos || input.starts_with("spindle.")) return {};
+  scenarios::AxisLimits any;
+  any.name = "any";
+  for (auto const& channel : scenarios::own_channels({0.0, {any}}))
+    if (channel.name == any.name + input.substr(dot)) return input.substr(0, dot);
+  return {};
+}
+
 /// Keys of the two places between which a part carries heat.
 constexpr std::pair<char const*, char const*> ends[] = {{"from", "to"},   {"inner", "outer"},  {"shaft", "ring"},
                                                         {"nut", "screw"}, {"rotor", "stator"}, {"first", "second"}};
@@ -162,6 +179,9 @@ class MachineBuilder {
   void read_sensors();
   void read_displacements();
   void check_moves(DisplacementDescription const& description) const;
+  void check_axis(Value const& table) const;
+  void check_axes_of_inputs() const;
+  [[nodiscard]] Location place_without_axis() const;
   [[nodiscard]] std::vector<std::string> bars_of_nuts(std::string const& axis) const;
   void check_positions(Value const& table, BallScrewDescription const& screw) const;
   void check_strokes();
@@ -250,6 +270,7 @@ void MachineBuilder::read_parts() {
     tables_.claim(*table, entry->name, part->name());
     check_channel_name(*table, entry->name + "." + part->name());
     assembly_.begin_part(entry->name + "." + part->name());
+    check_axis(*table);
     located(*table, [&, &table = *table] {
       check_ends(table);
       part->add_to(assembly_);
@@ -338,6 +359,45 @@ void MachineBuilder::check_moves(DisplacementDescription const& d) const {
                   d.name));
 }
 
+/// FileError where a table names an axis that the machine has not, though it states others.
+void MachineBuilder::check_axis(Value const& table) const {
+  Value const* given = table.find("axis");
+  auto const names = axis_names(machine_.limits);
+  if (!given || !given->is_text() || names.empty()) return;
+  auto const& name = std::get<std::string>(given->content);
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw FileError(given->where,
+                    fmt::format("the machine has no axis '{}'; {}", name, thermal::did_you_mean(name, names)));
+}
+
+/// The same of inputs: "X.speed" where the axis is 'x', and those of the axis that a part has where none is given. Any
+/// other may be an experiment's own.
+void MachineBuilder::check_axes_of_inputs() const {
+  auto const names = axis_names(machine_.limits);
+  auto const& inputs = machine_.network_->channel_names();
+  for (int i = 0; i < machine_.network_->external_channels(); ++i) {
+    auto const& input = inputs[std::size_t(i)];
+    auto const axis = axis_of_input(input);
+    if (names.empty() || axis.empty() || std::find(names.begin(), names.end(), axis) != names.end()) continue;
+    auto const what = fmt::format("the machine has no axis '{}'; {}", axis, thermal::did_you_mean(axis, names));
+    auto const place = place_of(document_, "'" + input + "'");
+    bool const is_written = place.line != document_.where.line || place.column != document_.where.column;
+    if (!is_written) throw FileError(place_without_axis(), fmt::format("'axis' is not given: {}", what));
+    if (!thermal::meant_name(axis, names).empty()) throw FileError(place, fmt::format("'{}': {}", input, what));
+  }
+}
+
+/// Of the first part that takes the axis it has by default.
+Location MachineBuilder::place_without_axis() const {
+  for (auto const& entry : effect_catalogue()) {
+    bool const has_axis = std::any_of(entry.parameters.begin(), entry.parameters.end(),
+                                      [](auto const& parameter) { return parameter.key == "axis"; });
+    for (auto const& table : tables_.of(entry.name))
+      if (has_axis && !table.find("axis")) return table.where;
+  }
+  return document_.where;
+}
+
 /// The bars on which the ball nuts of an axis run.
 std::vector<std::string> MachineBuilder::bars_of_nuts(std::string const& axis) const {
   std::vector<std::string> bars;
@@ -381,6 +441,7 @@ void MachineBuilder::read_screws() {
   for (auto const& [description, table] : tables_.read<BallScrewDescription>("ball_screw"))
     located(*table, [&, &d = description, &table = *table] {
       check_channel_name(table, d.name);
+      check_axis(table);
       thermal::Body const& body = assembly_.body(d.body);
       if (body.shape != thermal::Body::Shape::axial) throw InputError(fmt::format("'{}' is not a bar", d.body));
       if (auto const bars = bars_of_nuts(d.axis);
@@ -556,6 +617,7 @@ Machine MachineBuilder::operator()() {
   read_reading_terms();
   assembly_.add_air_terms();
   build_network();
+  check_axes_of_inputs();
   refuse_names_of_inputs();
   hang_bodies();
   return std::move(machine_);

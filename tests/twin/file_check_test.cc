@@ -321,6 +321,31 @@ TEST(FileCheck, ABallScrewIsTheBarOnWhichItsNutRuns) {
               MatchesRegex(".*mine.toml:[0-9]+:8: 'shaft' is no screw of axis 'z', whose ball_nut runs on 'screw'"));
 }
 
+/// Where a machine states its axes, there is no other.
+TEST(FileCheck, RefusesAnAxisThatTheMachineHasNot) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& text) {
+    put(folder / "mine.toml", text);
+    return check_files({folder / "mine.toml"})[0].mistake;
+  };
+  for (std::string const part : {"ball_nut", "support_bearing", "feed_motor"})
+    EXPECT_THAT(mistake(milling_centre("[[" + part + "]]", "[[" + part + "]]\naxis = \"Z\"")),
+                MatchesRegex(".*mine.toml:[0-9]+:8: the machine has no axis 'Z'; did you mean 'z'\\?"))
+        << part;
+  EXPECT_THAT(mistake(milling_centre("axis = \"z\"", "axis = \"Z\"")),
+              HasSubstr("mine.toml:369:8: the machine has no axis 'Z'; did you mean 'z'?"));
+  EXPECT_THAT(mistake(milling_centre("[[ball_nut]]", "[[ball_nut]]\naxis = \"w\"")),
+              HasSubstr("mine.toml:159:8: the machine has no axis 'w'; known: 'z'"));
+  auto text = contents(machine_file("mill200"));
+  std::string const with_axis = "screw = \"x_screw\"\naxis = \"x\"\n";
+  text.replace(text.find(with_axis), with_axis.size(), "screw = \"x_screw\"\n");
+  EXPECT_THAT(mistake(text),
+              HasSubstr("mine.toml:178:1: 'axis' is not given: the machine has no axis 'z'; known: 'x'"));
+  EXPECT_THAT(mistake(milling_centre("speed = \"z.speed\"", "speed = \"Z.speed\"")),
+              HasSubstr("mine.toml:294:9: 'Z.speed': the machine has no axis 'Z'; did you mean 'z'?"));
+  EXPECT_EQ(mistake(milling_centre("speed = \"z.speed\"", "speed = \"pump.speed\"")), "");
+}
+
 /// A complaint about an axis names it by its name; the default is z.
 TEST(FileCheck, AComplaintAboutAnAxisPointsToItsKey) {
   TemporaryDirectory const folder;
