@@ -13,15 +13,19 @@ struct Dimension {
   int time = 0;
   int temperature = 0;
   int current = 0;
+  bool turning = false;  ///< an angle: equal to a number, and called by its name where one is due
 
-  bool operator==(Dimension const&) const = default;
+  constexpr bool operator==(Dimension const& other) const {
+    return length == other.length && mass == other.mass && time == other.time && temperature == other.temperature &&
+           current == other.current;
+  }
 };
 
 /// Dimensions by the names of the field. Those that share exponents are equal: torque = energy, viscosity =
 /// diffusivity.
 namespace dimension {
 inline constexpr Dimension dimensionless{};
-inline constexpr Dimension angle{};
+inline constexpr Dimension angle{0, 0, 0, 0, 0, true};
 inline constexpr Dimension length{1, 0, 0, 0, 0};
 inline constexpr Dimension area{2, 0, 0, 0, 0};
 inline constexpr Dimension volume{3, 0, 0, 0, 0};

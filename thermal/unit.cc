@@ -21,6 +21,9 @@ constexpr double turn = 2 * std::numbers::pi;  ///< [rad]
 constexpr Unit celsius = {dim::temperature_difference, 1, 1, true, 273.15};
 constexpr Unit fahrenheit = {dim::temperature_difference, 5, 9, true, 459.67};
 
+/// What helps whoever writes "2h30" or "2 h 30 min".
+constexpr std::string_view one_of_each = "a quantity is one number with one unit, for example \"2.5 h\" or \"150 min\"";
+
 struct NamedUnit {
   std::string_view symbol;
   Unit unit;
@@ -144,11 +147,12 @@ class UnitReader {
   }
 
   Unit symbol() {
-    if (accept('1')) {
-      if (!rest_.empty() && std::string_view("0123456789.^-").find(rest_.front()) != std::string_view::npos)
-        fail("unexpected '1" + std::string(rest_) + "'; a number is written without spaces");
-      return {};
-    }
+    std::string_view const here = rest_;
+    bool const one = accept('1');
+    if (!rest_.empty() && std::string_view(one ? "0123456789.^-" : "0123456789").find(rest_.front()) != here.npos)
+      fail("unexpected '" + std::string(here) + "'; " +
+           std::string(here.size() == whole_.size() ? "a number is written without spaces" : one_of_each));
+    if (one) return {};
     std::size_t length = 0;
     while (length < rest_.size() && (std::isalpha(static_cast<unsigned char>(rest_[length])) || rest_[length] == '%')) {
       ++length;
@@ -191,7 +195,8 @@ class UnitReader {
     auto const [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), power);
     if (error != std::errc() && marked) fail("an integer is due after '^'");
     if (error == std::errc()) rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-    if (power == 0 || power < -6 || power > 6) fail("an exponent is 1 to 6 or -6 to -1");
+    if (power == 0 || power < -6 || power > 6)
+      fail("an exponent is 1 to 6 or -6 to -1" + (marked ? "" : "; " + std::string(one_of_each)));
     return power;
   }
 

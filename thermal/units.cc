@@ -58,6 +58,25 @@ std::string mismatch(std::string_view text, Quantity const& quantity, Dimension 
          with_article(name_of(expected)) + " is due, for example \"" + example_of(expected) + "\"";
 }
 
+/// Every comma has exactly three digits behind it, and no zero begins the number: "18,000 rpm".
+bool may_part_thousands(std::string_view letters) {
+  constexpr std::string_view digits = "0123456789";
+  if (letters[letters.find_first_of(digits)] == '0') return false;
+  for (auto comma = letters.find(','); comma != std::string_view::npos; comma = letters.find(',', comma + 1))
+    if (std::min(letters.find_first_not_of(digits, comma + 1), letters.size()) != comma + 4) return false;
+  return true;
+}
+
+/// What a number with commas may mean: "70.5 kg" for "70,5 kg", and "18000 rpm" or "18.000 rpm" for "18,000 rpm".
+std::string without_commas(std::string const& letters) {
+  std::string joined = letters, pointed = letters;
+  std::erase(joined, ',');
+  pointed[pointed.find(',')] = '.';
+  if (!may_part_thousands(letters)) return "\"" + pointed + "\"";
+  bool const is_number = pointed.find(',') == std::string::npos && pointed.find('.') == pointed.rfind('.');
+  return "\"" + joined + "\"" + (is_number ? " or \"" + pointed + "\"" : "");
+}
+
 /// `due` ends the message about a text that is no number; `usual` units are offered for an unknown one.
 Quantity parse(std::string_view text, std::string const& due, std::span<std::string_view const> usual = {}) {
   std::string const letters = in_ascii(text);
@@ -72,17 +91,19 @@ Quantity parse(std::string_view text, std::string const& due, std::span<std::str
   rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
   if (rest.empty()) return {number, dimension::dimensionless, false};
   if (rest.size() > 1 && rest[0] == ',' && std::isdigit(static_cast<unsigned char>(rest[1]))) {
-    std::string with_point = letters;
-    with_point[with_point.find(',')] = '.';
-    throw InputError("'" + std::string(text) + "': decimals follow a point: \"" + with_point + "\"");
+    bool const thousands = may_part_thousands(letters);
+    throw InputError("'" + std::string(text) + "': " + (thousands ? "nothing sets thousands apart, and " : "") +
+                     "decimals follow a point: " + without_commas(letters));
   }
+  if (rest[0] == ':')
+    throw InputError("'" + std::string(text) + "': a time is one number with one unit: for 15:30 write \"15.5 h\"");
   Unit const unit = read_unit(rest, text, usual);
   return {unit.si(number), unit.dimension, unit.absolute};
 }
 
 std::string due_text(Dimension dimension) {
   bool const plain = dimension == dimension::dimensionless;
-  return (plain ? "a number is due, for example \"" : "a number with a unit is due, for example \"") +
+  return (plain ? with_article(name_of(dimension)) : "a number with a unit") + " is due, for example \"" +
          example_of(dimension) + "\"";
 }
 

@@ -106,23 +106,42 @@ TEST_P(RefusesQuantity, WithReason) {
 
 INSTANTIATE_TEST_SUITE_P(
     Units, RefusesQuantity,
-    testing::Values(Refusal{"8000 mm/mim", "'8000 mm/mim': unknown unit 'mim'; did you mean 'min'?"},
-                    Refusal{"1 degc", "'1 degc': unknown unit 'degc'; did you mean 'degC'?"},
-                    Refusal{"8 W/m2 K", "'8 W/m2 K': put what is below the line in parentheses, as in \"8 W/(m2 K)\""},
-                    Refusal{"5 W/degC", "'5 W/degC': degC is a point on the scale; in a compound unit write K"},
-                    Refusal{"8 W/(m2 K", "'8 W/(m2 K': a ')' is missing"}, Refusal{"8 W)", "'8 W)': unexpected ')'"},
-                    Refusal{"8 m/", "'8 m/': the unit ends too early"},
-                    Refusal{"8 m^x", "'8 m^x': an integer is due after '^'"},
-                    Refusal{"8 m9", "'8 m9': an exponent is 1 to 6 or -6 to -1"},
-                    Refusal{"2 104 rpm", "'2 104 rpm': unexpected '104 rpm'; a number is written without spaces"},
-                    Refusal{"8 m-2147483648", "'8 m-2147483648': an exponent is 1 to 6 or -6 to -1"},
-                    Refusal{"8 m?", "'8 m?': unexpected '?'"}, Refusal{"nan mm", "'nan mm': a finite number is due"},
-                    Refusal{"inf", "'inf': a finite number is due"},
-                    Refusal{"1e999 m", "'1e999 m': beyond what a double holds"},
-                    Refusal{"70,5 kg", "'70,5 kg': decimals follow a point: \"70.5 kg\""},
-                    Refusal{"22 C", "'22 C': unknown unit 'C'; did you mean 'degC'?"},
-                    Refusal{"", "'': a number with a unit is due, for example \"600 mm\""},
-                    Refusal{"mm", "'mm': a number with a unit is due, for example \"600 mm\""}));
+    testing::Values(
+        Refusal{"8000 mm/mim", "'8000 mm/mim': unknown unit 'mim'; did you mean 'min'?"},
+        Refusal{"1 degc", "'1 degc': unknown unit 'degc'; did you mean 'degC'?"},
+        Refusal{"8 W/m2 K", "'8 W/m2 K': put what is below the line in parentheses, as in \"8 W/(m2 K)\""},
+        Refusal{"5 W/degC", "'5 W/degC': degC is a point on the scale; in a compound unit write K"},
+        Refusal{"8 W/(m2 K", "'8 W/(m2 K': a ')' is missing"}, Refusal{"8 W)", "'8 W)': unexpected ')'"},
+        Refusal{"8 m/", "'8 m/': the unit ends too early"}, Refusal{"8 m^x", "'8 m^x': an integer is due after '^'"},
+        Refusal{"8 m^9", "'8 m^9': an exponent is 1 to 6 or -6 to -1"},
+        Refusal{"2h30",
+                "'2h30': an exponent is 1 to 6 or -6 to -1; a quantity is one number with one unit, for "
+                "example \"2.5 h\" or \"150 min\""},
+        Refusal{"2 h 30 min",
+                "'2 h 30 min': unexpected '30 min'; a quantity is one number with one unit, for example "
+                "\"2.5 h\" or \"150 min\""},
+        Refusal{"2 h 15 min",
+                "'2 h 15 min': unexpected '15 min'; a quantity is one number with one unit, for example "
+                "\"2.5 h\" or \"150 min\""},
+        Refusal{"15:30", "'15:30': a time is one number with one unit: for 15:30 write \"15.5 h\""},
+        Refusal{"2 104 rpm", "'2 104 rpm': unexpected '104 rpm'; a number is written without spaces"},
+        Refusal{"2 304 rpm", "'2 304 rpm': unexpected '304 rpm'; a number is written without spaces"},
+        Refusal{"8 m^-2147483648", "'8 m^-2147483648': an exponent is 1 to 6 or -6 to -1"},
+        Refusal{"8 m?", "'8 m?': unexpected '?'"}, Refusal{"nan mm", "'nan mm': a finite number is due"},
+        Refusal{"inf", "'inf': a finite number is due"}, Refusal{"1e999 m", "'1e999 m': beyond what a double holds"},
+        Refusal{"70,5 kg", "'70,5 kg': decimals follow a point: \"70.5 kg\""},
+        Refusal{"0,500 kg", "'0,500 kg': decimals follow a point: \"0.500 kg\""},
+        Refusal{"18,000 rpm",
+                "'18,000 rpm': nothing sets thousands apart, and decimals follow a point: \"18000 rpm\" or "
+                "\"18.000 rpm\""},
+        Refusal{"1,234,567 mm",
+                "'1,234,567 mm': nothing sets thousands apart, and decimals follow a point: \"1234567 mm\""},
+        Refusal{"18,000.5 rpm",
+                "'18,000.5 rpm': nothing sets thousands apart, and decimals follow a point: "
+                "\"18000.5 rpm\""},
+        Refusal{"22 C", "'22 C': unknown unit 'C'; did you mean 'degC'?"},
+        Refusal{"", "'': a number with a unit is due, for example \"600 mm\""},
+        Refusal{"mm", "'mm': a number with a unit is due, for example \"600 mm\""}));
 
 std::string refusal(std::string const& text, Dimension expected) {
   try {
@@ -137,6 +156,7 @@ TEST(ParseValue, OffersWhatIsUsualForTheDimension) {
   EXPECT_EQ(refusal("10 mn", dimension::time), "'10 mn': unknown unit 'mn'; did you mean 'min'?");
   EXPECT_EQ(refusal("10 mn", dimension::length), "'10 mn': unknown unit 'mn'; did you mean 'mm'?");
   EXPECT_EQ(refusal("abc", dimension::dimensionless), "'abc': a number is due, for example \"0.8\"");
+  EXPECT_EQ(refusal("abc", dimension::angle), "'abc': an angle is due, for example \"15 urad\"");
   EXPECT_EQ(refusal("abc", dimension::mass), "'abc': a number with a unit is due, for example \"14 kg\"");
 }
 
@@ -148,6 +168,8 @@ TEST(ParseValue, AsksForTheUnitOfABareNumber) {
 
 TEST(ParseValue, NamesBothDimensions) {
   EXPECT_EQ(refusal("5 W", dimension::conductance), "'5 W' is a power; a conductance is due, for example \"9 W/K\"");
+  EXPECT_EQ(refusal("5 um", dimension::angle), "'5 um' is a length; an angle is due, for example \"15 urad\"");
+  EXPECT_EQ(refusal("5 um", dimension::dimensionless), "'5 um' is a length; a number is due, for example \"0.8\"");
   EXPECT_EQ(refusal("5 kg m3", dimension::length),
             "'5 kg m3' is a quantity in m^3 kg; a length is due, for example \"600 mm\"");
 }
