@@ -24,8 +24,10 @@ Bodies::Bodies(Tables& tables) {
   read_blocks(tables);
   channels_ = tables.read<ChannelDescription>("channel");
   for (auto const& [description, table] : channels_)
-    located(*table,
-            [&, &d = description, table = table] { add(*table, d.name, thermal::make_body(d.name, channel_of(d))); });
+    located(*table, [&, &d = description, table = table] {
+      claim_cells(*table, d.name, d.cells);
+      add(*table, d.name, thermal::make_body(d.name, channel_of(d)));
+    });
 }
 
 void Bodies::read_materials(Tables& tables) {
@@ -68,6 +70,20 @@ thermal::Material const* Bodies::material_of(std::string const& body) const {
 thermal::Material const& Bodies::metal_of(std::string const& body) const {
   if (auto const* known = material_of(body)) return *known;
   throw InputError(fmt::format("'{}' has no material", body));
+}
+
+/// FileError before anything is allocated for more cells than a machine may have.
+void Bodies::claim_cells(Value const& table, std::string const& name, double cells) {
+  cells_ += cells;
+  if (cells_ <= most_cells) return;
+  Value const* place = nullptr;
+  for (auto const* key : {"radial_cells", "axial_cells", "cells"})
+    if (Value const* given = table.find(key)) place = given;
+  throw FileError(
+      place ? place->where : table.where,
+      fmt::format("'{}' has {:.0f} cells, the machine with it {:.0f}; allowed is {:.0f} for a whole machine, "
+                  "which takes 10 GB of memory",
+                  name, cells, cells_, most_cells));
 }
 
 void Bodies::add(Value const& table, std::string const& name, thermal::Body body) {
@@ -117,6 +133,7 @@ thermal::Body with_capacity(thermal::Body body, double factor) {
 void Bodies::read_bars(Tables& tables) {
   for (auto const& [d, table] : tables.read<BarDescription>("bar"))
     located(*table, [&, &d = d, table = table] {
+      claim_cells(*table, d.name, d.cells);
       thermal::Bar bar{material(d.material), d.origin,         d.axis(), d.length,
                        d.outer_diameter,     d.inner_diameter, {},       d.cells};
       if (d.section_diameter) bar.section_area = M_PI / 4.0 * *d.section_diameter * *d.section_diameter;
@@ -127,6 +144,7 @@ void Bodies::read_bars(Tables& tables) {
 void Bodies::read_cylinders(Tables& tables) {
   for (auto const& [d, table] : tables.read<HollowCylinderDescription>("hollow_cylinder"))
     located(*table, [&, &d = d, table = table] {
+      claim_cells(*table, d.name, double(d.axial_cells) * d.radial_cells);
       thermal::HollowCylinder const cylinder{material(d.material), d.origin,         d.axis(),      d.length,
                                              d.outer_diameter,     d.inner_diameter, d.axial_cells, d.radial_cells};
       add_solid(*table, d.name, d.material, with_capacity(thermal::make_body(d.name, cylinder), d.capacity_factor), d);
@@ -136,7 +154,9 @@ void Bodies::read_cylinders(Tables& tables) {
 void Bodies::read_blocks(Tables& tables) {
   for (auto const& [d, table] : tables.read<BlockDescription>("block"))
     located(*table, [&, &d = d, table = table] {
-      thermal::Block const block{material(d.material), d.corner, d.size, d.cell_counts(), d.solidity};
+      auto const counts = d.cell_counts();
+      claim_cells(*table, d.name, double(counts[0]) * counts[1] * counts[2]);
+      thermal::Block const block{material(d.material), d.corner, d.size, counts, d.solidity};
       add_solid(*table, d.name, d.material, thermal::make_body(d.name, block), d);
     });
 }

@@ -12,6 +12,9 @@
 
 namespace thermotwin::twin {
 
+/// Of a machine, in all: at up to 1 KiB each (docs/performance.md) they take 10 GB of memory.
+inline constexpr double most_cells = 1e7;
+
 /// The bodies of a machine file, discretised, and what they are made of.
 class Bodies {
  public:
@@ -34,11 +37,13 @@ class Bodies {
   void read_bars(Tables& tables);
   void read_cylinders(Tables& tables);
   void read_blocks(Tables& tables);
+  void claim_cells(Value const& table, std::string const& name, double cells);
   void add(Value const& table, std::string const& name, thermal::Body body);
   void add_solid(Value const& table, std::string const& name, std::string const& material, thermal::Body body,
                  CarriedDescription const& carried);
   [[nodiscard]] thermal::Material const& material(std::string const& name) const;
 
+  double cells_ = 0.0;  ///< claimed so far
   std::map<std::string, thermal::Material> materials_;
   std::map<std::string, thermal::Body> bodies_;
   std::map<std::string, std::string> material_names_;

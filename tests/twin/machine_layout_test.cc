@@ -121,5 +121,24 @@ TEST(MachineLayout, MistakesAreNamedWithTheirPlace) {
                              HasSubstr("size = [\"600 mm\", \"600 mm\", \"600 mm\"]")));
 }
 
+/// Before memory is taken for them: 900 × 600 × 300 cells would need 160 GB.
+TEST(MachineLayout, CellsAreCountedOverAllBodies) {
+  auto text = post("", "on = \"post.x_max\"\n");
+  std::string const cells = "cells = [4, 2, 2]";
+  text.replace(text.find(cells), cells.size(), "cells = [900, 600, 300]");
+  EXPECT_THAT(message(text), testing::AllOf(HasSubstr("post.toml:11:"), HasSubstr("'post' has 162000000 cells"),
+                                            HasSubstr("allowed is 10000000 for a whole machine")));
+  auto bars = post("", "on = \"post.x_max\"\n");
+  for (std::string const name : {"a", "b", "c"})
+    bars += "[[hollow_cylinder]]\nname = \"" + name +
+            "\"\nmaterial = \"metal\"\nlength = \"1 m\"\nouter_diameter = \"1 m\"\naxial_cells = 100000\n"
+            "radial_cells = 10000\n";
+  EXPECT_THAT(message(bars), HasSubstr("'a' has 1000000000 cells"));
+  auto sum = post("", "on = \"post.x_max\"\n");
+  sum.replace(sum.find(cells), cells.size(), "cells = [10000, 10000, 1]");
+  sum += "[[bar]]\nname = \"bar\"\nmaterial = \"metal\"\nlength = \"1 m\"\nouter_diameter = \"1 m\"\ncells = 20\n";
+  EXPECT_THAT(message(sum), HasSubstr("'post' has 100000000 cells, the machine with it 100000020"));
+}
+
 }  // namespace
 }  // namespace thermotwin::twin
