@@ -10,6 +10,7 @@
 #include "output/dataset_file.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
+#include "twin/command_line_number.h"
 #include "twin/compensation/compensate.h"
 #include "twin/compensation/compensation_record.h"
 #include "twin/compensation/play.h"
@@ -22,21 +23,17 @@ namespace thermotwin::twin {
 namespace {
 
 namespace dimension = thermal::dimension;
-using thermal::parse_value;
 
 constexpr double um_per_m = 1e6;
 
-double um(std::string const& text) { return um_per_m * parse_value(text, dimension::length); }
-
-/// The value of an option, in SI.
-double positive(char const* option, std::string const& text, thermal::Dimension expected) {
-  double const value = parse_value(text, expected);
-  if (!(value > 0.0)) throw thermal::InputError(fmt::format("{} '{}': it must be positive", option, text));
-  return value;
+double um(char const* option, std::string const& text) {
+  return um_per_m * option_quantity(option, text, dimension::length);
 }
 
+double um_per_s(std::string const& slew) { return um_per_m * option_quantity("--slew", slew, dimension::speed); }
+
 double not_negative(char const* option, std::string const& text, thermal::Dimension expected) {
-  double const value = parse_value(text, expected);
+  double const value = option_quantity(option, text, expected);
   if (!(value >= 0.0)) throw thermal::InputError(fmt::format("{} '{}': it must be 0 or more", option, text));
   return value;
 }
@@ -148,13 +145,14 @@ void CompensateCommand::check_error(SavedErrorModel const& saved) const {
 
 CompensationSettings CompensateCommand::settings() const {
   CompensationSettings result;
-  result.shift = {um(resolution), um(dead_band), um_per_m * parse_value(slew, dimension::speed), um(largest)};
-  result.watch = {positive("--stale", stale, dimension::time),
-                  positive("--stuck", stuck, dimension::time),
+  result.shift = {um("--resolution", resolution), um("--dead-band", dead_band), um_per_s(slew),
+                  um("--largest", largest)};
+  result.watch = {positive_quantity("--stale", stale, dimension::time),
+                  positive_quantity("--stuck", stuck, dimension::time),
                   not_negative("--jump", jump, dimension::temperature_difference),
                   not_negative("--fastest", fastest, dimension::temperature_rate),
-                  thermal::to_unit(thermal::parse_temperature(lowest), "degC"),
-                  thermal::to_unit(thermal::parse_temperature(highest), "degC")};
+                  thermal::to_unit(option_temperature("--lowest", lowest), "degC"),
+                  thermal::to_unit(option_temperature("--highest", highest), "degC")};
   result.fallback = {not_negative("--hold", hold, dimension::time), not_negative("--fade", fade, dimension::time)};
   return result;
 }
@@ -166,8 +164,8 @@ void CompensateCommand::operator()(std::atomic<bool> const& stop) const {
   auto const set = settings();
   CompensateOptions options{broker, topics, axis, displacement(), {}, {}, {}};
   options.broker.client = fmt::format("thermotwin-compensate-{}-{}", topics.prefix, axis);
-  options.loop = {parse_value(cycle, dimension::time), speed, 0.5 * set.watch.stale_time,
-                  positive("--start", start, dimension::time)};
+  options.loop = {option_quantity("--cycle", cycle, dimension::time), speed, 0.5 * set.watch.stale_time,
+                  positive_quantity("--start", start, dimension::time)};
   options.say = [](std::string const& line) { tell(line + "\n"); };
   Compensator compensator(live_model(), set);
   std::optional<CompensationRecord> recorded;
@@ -202,8 +200,8 @@ void PlayCommand::operator()(std::atomic<bool> const& stop) const {
   check_suffix(output, "a table", {".csv"});
   check_output(output, {run});
   VirtualMachineSettings settings{displacement(), axis, {}, {}};
-  settings.limits.largest = um(largest);
-  settings.limits.slew = um_per_m * parse_value(slew, dimension::speed);
+  settings.limits.largest = um("--largest", largest);
+  settings.limits.slew = um_per_s(slew);
   PlayOptions options{broker, topics, speed, 10.0, {}, {}};
   options.broker.client = fmt::format("thermotwin-play-{}-{}-{}", topics.prefix, axis, ::getpid());
   options.say = [](std::string const& line) { tell(line + "\n"); };

@@ -7,6 +7,7 @@
 #include "output/atomic_file.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
+#include "twin/command_line_number.h"
 #include "twin/machine.h"
 #include "twin/report/difference.h"
 
@@ -22,8 +23,7 @@ struct DifferenceCommand {
 
 void DifferenceCommand::operator()() {
   if (!machine.empty()) files.machine = machine_file(machine);
-  files.interval = thermal::parse_value(interval, thermal::dimension::time);
-  if (!(files.interval > 0.0)) throw thermal::InputError("--interval is a time above 0");
+  files.interval = positive_quantity("--interval", interval, thermal::dimension::time);
   output::require_empty(files.folder);
   fmt::print("{}", write_difference(files));
 }

@@ -7,6 +7,7 @@
 #include "output/atomic_file.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
+#include "twin/command_line_number.h"
 #include "twin/error_model_file.h"
 #include "twin/error_prediction.h"
 #include "twin/file/output_path.h"
@@ -46,10 +47,7 @@ void FitCommand::operator()() {
   if (!twin.empty()) fit.twin = machine_file(twin);
   refuse_to_overwrite(output, fit.twin.value_or(""), fit.runs);
   refuse_to_replace(output, FileKind::error_model);
-  if (!sampling.empty()) {
-    fit.sampling = thermal::parse_value(sampling, thermal::dimension::time);
-    if (*fit.sampling <= 0.0) throw thermal::InputError(fmt::format("--sampling {}: a time above 0 is due", sampling));
-  }
+  if (!sampling.empty()) fit.sampling = positive_quantity("--sampling", sampling, thermal::dimension::time);
   std::vector<std::string> remarks;
   auto const saved = fit_error_model(fit, remarks);
   write_error_model(output, saved);

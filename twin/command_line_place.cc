@@ -8,6 +8,7 @@
 #include "output/node_fields.h"
 #include "output/picture.h"
 #include "thermal/units.h"
+#include "twin/command_line_number.h"
 #include "twin/experiment_file.h"
 #include "twin/file/output_path.h"
 #include "twin/file_kind.h"
@@ -142,7 +143,7 @@ void PlaceCommand::operator()() {
   check_outputs();
   Value const document = read_toml(machine_file(machine));
   Machine const built = Machine::build(document);
-  options.noise = thermal::parse_value(noise, thermal::dimension::temperature_difference);
+  options.noise = option_quantity("--noise", noise, thermal::dimension::temperature_difference);
   options.proposed = split(proposed);
   if (trained) options.teacher = Teacher::machine;
   options.design.experiments = read_all(experiments);

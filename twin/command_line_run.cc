@@ -82,9 +82,9 @@ void RunCommand::set_checkpoint(RunOptions& options) const {
   if (resume) refuse_to_resume_finished(dataset);
   options.checkpoint = checkpoint_of(dataset);
   options.resume = resume;
-  options.checkpoint_interval = checkpoint.empty() ? checkpoint_interval(*options.checkpoint)
-                                                   : thermal::parse_value(checkpoint, thermal::dimension::time);
-  if (options.checkpoint_interval <= 0.0) throw thermal::InputError("--checkpoint is a time above 0");
+  options.checkpoint_interval = checkpoint.empty()
+                                    ? checkpoint_interval(*options.checkpoint)
+                                    : positive_quantity("--checkpoint", checkpoint, thermal::dimension::time);
 }
 
 void RunCommand::run_reduced(Machine const& machine, scenarios::Experiment const& programme,
@@ -144,9 +144,7 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   if (!dataset.empty()) options.dataset = dataset;
   if (!fields.empty()) options.fields = fields;
   if (!picture.empty()) options.picture = picture;
-  options.field_interval = thermal::parse_value(field_interval, thermal::dimension::time);
-  if (!(options.field_interval > 0.0))
-    throw thermal::InputError(fmt::format("--field-interval {}: a time above 0 is due", field_interval));
+  options.field_interval = positive_quantity("--field-interval", field_interval, thermal::dimension::time);
   options.node_temperatures = nodes;
   options.watch_ranges = true;
   options.provenance =

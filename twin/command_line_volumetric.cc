@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "thermal/units.h"
+#include "twin/command_line_number.h"
 #include "twin/machine.h"
 #include "twin/volumetric/volumetric_files.h"
 #include "twin/volumetric/volumetric_report.h"
@@ -50,8 +51,8 @@ void add_volumetric_command(CLI::App& app) {
     auto& files = arguments->files;
     files.machine = machine_file(arguments->machine);
     for (auto const& text : arguments->settings) files.settings.push_back(setting(text));
-    files.options.measured_at = thermal::parse_value(arguments->at, thermal::dimension::time);
-    files.options.resolution = thermal::parse_value(arguments->resolution, thermal::dimension::length);
+    files.options.measured_at = option_quantity("--at", arguments->at, thermal::dimension::time);
+    files.options.resolution = option_quantity("--resolution", arguments->resolution, thermal::dimension::length);
     auto const study = volumetric_files(files);
     fmt::print("{}", arguments->json ? volumetric_json(study) : volumetric_text(study));
   });

@@ -204,7 +204,8 @@ TEST_F(LiveCompensation, RefusesWhatItCannotDo) {
   EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --record " + at("earlier.h5"), 2),
               HasSubstr("earlier.h5' is there already"));
   EXPECT_EQ(tests::contents(at("earlier.h5")), "of yesterday");
-  EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --resolution 1", 2), HasSubstr("1 has no unit"));
+  EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --resolution 1", 2),
+              HasSubstr("--resolution: 1 has no unit"));
   EXPECT_THAT(answer(compensate + " --model " + at("model.toml") + " --highest '120 K'", 2),
               HasSubstr("-20 degC at least and -153.15 degC at most: the highest must be above the lowest"));
   EXPECT_THAT(answer(program + " compensate --broker localhost --model " + at("model.toml"), 2),
