@@ -128,6 +128,12 @@ std::vector<std::string> remarks_on(std::filesystem::path const& file, std::vect
   return remarks;
 }
 
+/// Whether both messages begin with the same line and column of the same file.
+bool is_of_place(std::string const& one, std::string const& other) {
+  auto const place = one.substr(0, one.find(": ") + 1);
+  return std::count(place.begin(), place.end(), ':') > 2 && other.starts_with(place);
+}
+
 struct CheckedMachine {
   std::filesystem::path file;
   Value document;
@@ -161,13 +167,14 @@ class FileChecker {
   std::vector<FileCheck> operator()();
 
  private:
-  /// A mistake goes to the file's check.
+  /// A mistake goes to the file's check; of what stands in its place no more is said.
   template <class Action>
   static void noting(FileCheck& check, Action action) {
     try {
       action();
     } catch (thermal::InputError const& error) {
       check.mistake = error.what();
+      std::erase_if(check.warnings, [&](auto const& warning) { return is_of_place(warning, check.mistake); });
     }
   }
   void read(std::filesystem::path const& file, std::size_t i);

@@ -77,6 +77,15 @@ TEST(FileCheck, WarnsOfWhatIsNotPlausible) {
   EXPECT_THAT(checks[1].warnings, ElementsAre(HasSubstr("'amplitude' is \"12 K\"; outside what is plausible")));
 }
 
+TEST(FileCheck, SaysOnceWhatIsWrongWithANumber) {
+  TemporaryDirectory const folder;
+  std::string const block = "[spindle]\nblocks = [{duration = \"1 h\", of_maximum = 1.5}]\n";
+  put(folder / "experiment.toml", experiment + block + "[ambient]\ndaily_cycle.amplitude = \"12 K\"\n");
+  auto const check = check_files({folder / "experiment.toml"})[0];
+  EXPECT_THAT(check.mistake, HasSubstr("experiment.toml:4:43: spindle.blocks[0].of_maximum: 1.5 must be from 0 to 1"));
+  EXPECT_THAT(check.warnings, ElementsAre(HasSubstr("'amplitude' is \"12 K\"")));
+}
+
 TEST(FileCheck, WarnsOfAnInputThatNearlyHasAKnownName) {
   TemporaryDirectory const folder;
   auto text = contents(machine_file("vmc850"));
