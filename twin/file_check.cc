@@ -29,7 +29,8 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double rounding = 1e-9;  ///< of a bound that is written in another unit
+constexpr double rounding = 1e-9;         ///< of a bound that is written in another unit
+constexpr double shortest_record = 60.0;  ///< in which a machine could warm [s]
 
 /// The value, or those of the list.
 std::vector<Value const*> items_of(Value const& value) {
@@ -149,7 +150,15 @@ struct CheckedExperiment {
 struct CheckedRecord {
   std::filesystem::path file;
   std::string machine;  ///< that the file names
+  double lasts = 0.0;   ///< [s]
 };
+
+/// Time that was recorded in another unit.
+void doubt_time(CheckedRecord const& record, std::vector<std::string>& warnings) {
+  if (record.lasts < shortest_record)
+    warnings.push_back(fmt::format("{}: the record lasts {:.3g} s in all; is its unit of time right?",
+                                   record.file.string(), record.lasts));
+}
 
 std::string checked_study(std::filesystem::path const& file) {
   auto const study = read_study(file);
@@ -244,11 +253,13 @@ void FileChecker::read_record(std::filesystem::path const& file, std::size_t i) 
   static_cast<void>(channels_of(data, remarks));
   checks_[i].warnings = remarks_on(file, remarks);
   for (auto& remark : misspelt_inputs(data)) checks_[i].warnings.push_back(std::move(remark));
+  CheckedRecord const record{file, data.machine, data.time[data.time.size() - 1]};
+  doubt_time(record, checks_[i].warnings);
   checks_[i].text =
-      fmt::format("a record of {:.2f} h: {}, {}, {}, {}", data.time[data.time.size() - 1] / 3600.0,
+      fmt::format("a record of {:.2f} h: {}, {}, {}, {}", record.lasts / 3600.0,
                   counted(std::size_t(data.time.size()), "row"), counted(data.inputs.size(), "input"),
                   counted(data.readings.size(), "sensor"), counted(data.displacements.size(), "displacement channel"));
-  records_.push_back({i, {file, data.machine}});
+  records_.push_back({i, record});
 }
 
 /// The only one, or the one that is named; null where that is not among the files.
@@ -295,6 +306,7 @@ void FileChecker::check_record(CheckedRecord const& record, FileCheck& check) co
   auto const* machine = machine_among(record.machine);
   if (!machine) return;
   check.warnings = remarks_on(record.file, read_measured_run(record.file, machine->machine).remarks);
+  doubt_time(record, check.warnings);
   check.text += ", on " + machine->machine.name;
 }
 

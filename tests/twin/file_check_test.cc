@@ -501,6 +501,23 @@ TEST(FileCheck, LooksAtTheExperimentsOfAStudy) {
               HasSubstr("the machine needs the input 'pump.on', which the experiment does not give"));
 }
 
+TEST(FileCheck, DoubtsTheUnitOfTimeOfAShortRecord) {
+  TemporaryDirectory const folder;
+  std::string rows = "t,T1\n";
+  for (int row = 0; row < 12; ++row) rows += fmt::format("{},{}\n", 3000 * row, 21 + 0.3 * row);
+  put(folder / "run.csv", rows);
+  auto const checks = [&](std::string const& unit, std::vector<fs::path> files) {
+    put(folder / "run.toml", "[[table]]\nfile = \"run.csv\"\ntime_column = \"t\"\ntime_unit = \"" + unit +
+                                 "\"\nreading = [{column = \"T1\", sensor = \"T1\", unit = \"degC\"}]\n");
+    files.insert(files.begin(), folder / "run.toml");
+    return check_files(files)[0];
+  };
+  auto const doubt = HasSubstr("run.toml: the record lasts 33 s in all; is its unit of time right?");
+  EXPECT_THAT(checks("s", {}).warnings, testing::Not(Contains(doubt)));
+  EXPECT_THAT(checks("ms", {}).warnings, ElementsAre(doubt));
+  EXPECT_THAT(checks("ms", {machine_file("v450")}).warnings, Contains(doubt));
+}
+
 TEST(FileCheck, LooksAtRecordAndMachineTogether) {
   TemporaryDirectory const folder;
   std::string rows = "time_s,n,room,T1\n";
