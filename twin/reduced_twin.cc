@@ -96,7 +96,7 @@ std::vector<std::string> edge_units(thermal::Network const& network, thermal::Co
 output::Dataset head_of(Machine const& machine, scenarios::Experiment const& experiment,
                         scenarios::ExperimentCourse const& course) {
   output::Dataset head;
-  head.title = fmt::format("{}: {}", machine.name, experiment.title);
+  head.title = run_title(machine, experiment);
   head.inputs = input_channels(course);
   for (auto const& sensor : machine.sensors)
     head.readings.push_back({sensor.description.name, "degC", sensor.description.title, {}});

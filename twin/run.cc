@@ -118,7 +118,7 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
 
 output::Dataset Recorder::make_head() const {
   output::Dataset head;
-  head.title = fmt::format("{}: {}", machine_.name, experiment_.title);
+  head.title = run_title(machine_, experiment_);
   head.inputs = input_channels(course_);
   for (auto const& sensor : machine_.sensors)
     head.readings.push_back({sensor.description.name, "degC", sensor.description.title, {}});
@@ -319,6 +319,10 @@ std::vector<double> initial_temperatures(Machine const& machine, scenarios::Expe
   for (std::size_t i = 0; i < temperatures.size(); ++i)
     if (machine.network().signals()[i]) temperatures[i] = 0.0;  // a controller has no past
   return temperatures;
+}
+
+std::string run_title(Machine const& machine, scenarios::Experiment const& experiment) {
+  return experiment.title.empty() ? machine.name : fmt::format("{}: {}", machine.name, experiment.title);
 }
 
 std::vector<output::Channel> input_channels(scenarios::ExperimentCourse const& course) {

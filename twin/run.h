@@ -69,6 +69,9 @@ struct RunResult {
 /// for any node at any time that is shown.
 [[nodiscard]] RunResult run(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options);
 
+/// "v450: golden run B"; of an experiment without a title the name of the machine.
+[[nodiscard]] std::string run_title(Machine const& machine, scenarios::Experiment const& experiment);
+
 /// The inputs of a course as a data set shows them, without their values: names, units of the edge, descriptions.
 [[nodiscard]] std::vector<output::Channel> input_channels(scenarios::ExperimentCourse const& course);
 

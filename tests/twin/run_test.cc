@@ -81,6 +81,14 @@ TEST(Run, RefusesALaserWithoutAScrewBeforeItBegins) {
   EXPECT_EQ(std::distance(begin(left), end(left)), 1);  // no partial data set
 }
 
+TEST(Run, IsCalledByMachineAndExperiment) {
+  auto const machine = Machine::read(machine_file("v450"));
+  auto experiment = read_experiment(parse_toml("machine = \"v450\"\nduration = \"1 min\"\n", "short"), "short");
+  EXPECT_EQ(run(machine, experiment, {}).dataset.title, "v450");
+  experiment.title = "a minute";
+  EXPECT_EQ(run(machine, experiment, {}).dataset.title, "v450: a minute");
+}
+
 /// 100 kW in 26 kg of motor: 8 K/s. Seen at 15 s · 1.4^7 + 2 · 60 s (sampling.h).
 TEST(Run, EndsWhereNothingIsSolid) {
   auto document = read_toml(machine_file("v450"));
