@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -29,11 +30,13 @@ constexpr double alike = 0.8;            // correlation
 constexpr std::size_t several = 3;       // channels that one mistake shows in
 constexpr double least_movement = 1e-6;  // RMS, of a prediction that says anything of sign and unit [m, rad]
 constexpr double mirror_gain = 0.4;      // misfit of the mirror image over that of the prediction
-constexpr double least_factor = 1000.0 / 3.0, largest_factor = 3000.0;  // about a thousand
-constexpr double swap_gain = 0.25;   // misfit to the other's prediction over that to its own
-constexpr double swap_misfit = 0.5;  // at least, to its own [K RMS]
-constexpr double start_error = 3.0;  // K
+constexpr double off_prefix = 3.0;       // factor from a power of a thousand
+constexpr double most_movement = 5e-3;   // RMS, of a machine that warms [m, rad]
+constexpr double swap_gain = 0.25;       // misfit to the other's prediction over that to its own
+constexpr double swap_misfit = 0.5;      // at least, to its own [K RMS]
+constexpr double start_error = 3.0;      // K
 constexpr double fahrenheit_error = 5.0, fahrenheit_excess = 20.0;  // K
+constexpr double coldest_alone = -20.0, hottest_alone = 40.0;       // K, from the room and all others
 constexpr double least_shift = 5.0 * minute, same_shift = 3.0 * minute;
 constexpr double shift_gain = 0.5;       // of what is not explained
 constexpr double least_warming = 1.0;    // K RMS
@@ -48,6 +51,12 @@ constexpr double shortest_run = 5.0 * minute, short_run = 2.0 * hour, longest_ru
 constexpr double longest_interval = 30.0 * minute;
 
 double duration(MeasuredRun const& run) { return run.time[run.time.size() - 1] - run.time[0]; }
+
+/// Whether a factor is near a power of a thousand, as there is one between um, mm and m.
+bool is_wrong_prefix(double factor) {
+  double const thousands = std::abs(std::log10(factor)) / 3.0;
+  return thousands > 0.5 && std::abs(thousands - std::round(thousands)) < std::log10(off_prefix) / 3.0;
+}
 
 /// One run beside what the machine would have shown.
 class Examination {
@@ -66,6 +75,7 @@ class Examination {
   [[nodiscard]] double expected(Index c) const { return spread(due_.col(c) + 0.0 * seen_.col(c)); }
   [[nodiscard]] double misfit(Index seen, Index due) const { return spread(seen_.col(seen) - due_.col(due)); }
   [[nodiscard]] bool reads_fahrenheit(Index c, double shown, double begin);
+  [[nodiscard]] bool begins_alone(Index c, double shown);
   void examine_displacement(Index c);
   void examine_swaps();
   void examine_start();
@@ -106,12 +116,12 @@ std::vector<Doubt> Examination::operator()() {
 void Examination::examine_displacement(Index c) {
   std::string const unit = unit_of(data_.run->channels[std::size_t(c)], machine_);
   double const likeness = correlation(seen_.col(c), due_.col(c)), factor = movement(c) / expected(c);
-  if (!(expected(c) > least_movement) || std::abs(likeness) < alike) return;
-  double const times = std::max(factor, 1.0 / factor);
-  if (times > least_factor && times < largest_factor)
+  bool const tells = expected(c) > least_movement && std::abs(likeness) >= alike;
+  if (movement(c) > most_movement || (tells && is_wrong_prefix(factor)))
     return doubt(name(c), fmt::format("{} moves by {:.2f} {} RMS, and as the machine would by {:.2f} {}; is its unit "
                                       "right?",
                                       name(c), 1e6 * movement(c), unit, 1e6 * expected(c), unit));
+  if (!tells) return;
   double const mirrored = spread(seen_.col(c) + due_.col(c));
   if (likeness < 0.0 && mirrored < mirror_gain * misfit(c, c))
     doubt(name(c), fmt::format("{} moves against the machine (correlation {:.2f}), and its mirror image misses it by "
@@ -144,6 +154,21 @@ bool Examination::reads_fahrenheit(Index c, double shown, double begin) {
   return true;
 }
 
+/// Degrees Celsius that were called Fahrenheit, or another slip: far from the room and from every other sensor.
+bool Examination::begins_alone(Index c, double shown) {
+  VectorXd const air = data_.run->input(room, data_.time);
+  double nearest = air.size() > 0 ? shown - air[0] : std::numeric_limits<double>::quiet_NaN();
+  for (auto const& [other, sensor] : sensors_) {
+    double const off = shown - data_.run->first_reading(other);
+    if (other != c && (std::isnan(nearest) || std::abs(off) < std::abs(nearest))) nearest = off;
+  }
+  if (!(nearest < coldest_alone || nearest > hottest_alone)) return false;
+  doubt(name(c),
+        fmt::format("{} begins at {:.1f} degC, {:.0f} K from the room and every other sensor; is its unit right?",
+                    name(c), shown - zero_celsius, std::abs(nearest)));
+  return true;
+}
+
 void Examination::examine_start() {
   auto const temperatures = start_of(machine_, *data_.run);
   std::vector<std::string> away;
@@ -151,7 +176,7 @@ void Examination::examine_start() {
     double const shown = data_.run->first_reading(c);
     double begin = 0.0;
     for (auto const& [node, weight] : sensor->weights) begin += weight * temperatures[std::size_t(node)];
-    if (!reads_fahrenheit(c, shown, begin) && std::abs(shown - begin) > start_error)
+    if (!reads_fahrenheit(c, shown, begin) && !begins_alone(c, shown) && std::abs(shown - begin) > start_error)
       away.push_back(fmt::format("{} {:+.1f} K", name(c), shown - begin));
   }
   if (away.size() >= several)

@@ -92,7 +92,7 @@ TEST_F(PlausibilityTest, SignOfADisplacement) {
 }
 
 TEST_F(PlausibilityTest, UnitOfADisplacement) {
-  for (double const factor : {1e3, 1e-3}) {
+  for (double const factor : {1e6, 1e3, 1e-3, 1e-6}) {
     data = sound;
     displacement("E_Z") *= factor;
     EXPECT_THAT(said(), ElementsAre(AllOf(StartsWith("E_Z moves by "), HasSubstr("is its unit right?"))));
@@ -102,6 +102,17 @@ TEST_F(PlausibilityTest, UnitOfADisplacement) {
 TEST_F(PlausibilityTest, FahrenheitOfASensor) {
   sensor("T6") = (1.8 * sensor("T6").array() + 32.0).matrix();
   EXPECT_THAT(said(), ElementsAre(AllOf(StartsWith("T6 begins at 7"), HasSubstr("degF"))));
+}
+
+TEST_F(PlausibilityTest, UnitOfADisplacementUnlikeTheMachine) {
+  VectorXd& e = displacement("E_Z");
+  for (Eigen::Index row = 0; row < e.size(); ++row) e[row] = 1e7 * std::sin(0.3 * double(row));
+  EXPECT_THAT(said(), ElementsAre(AllOf(StartsWith("E_Z moves by "), HasSubstr("is its unit right?"))));
+}
+
+TEST_F(PlausibilityTest, CelsiusOfASensorCalledFahrenheit) {
+  sensor("T6") = ((sensor("T6").array() - 32.0) / 1.8).matrix();
+  EXPECT_THAT(said(), ElementsAre(AllOf(StartsWith("T6 begins at -5."), HasSubstr("is its unit right?"))));
 }
 
 TEST_F(PlausibilityTest, FahrenheitOfAll) {
