@@ -51,7 +51,8 @@ struct DoorOpening {
     f("time", &DoorOpening::time, thermal::dimension::time, "when the door opens, from the start of the run",
       {0.0, unbounded});
     f("duration", &DoorOpening::duration, thermal::dimension::time, "how long it stays open", {0.0, unbounded});
-    f("step", &DoorOpening::step, thermal::dimension::temperature_difference, "change of the air if it stayed open");
+    f("step", &DoorOpening::step, thermal::dimension::temperature_difference, "change of the air if it stayed open",
+      {-40.0, 40.0});
     f("time_constant", &DoorOpening::time_constant, thermal::dimension::time, "of the air's change, both ways",
       {0.0, unbounded});
   }
@@ -71,11 +72,12 @@ struct Ambient {
   template <class Fields>
   static void fields(Fields& f) {
     f.temperature("mean", &Ambient::mean, "mean air temperature");
-    f("drift", &Ambient::drift, thermal::dimension::temperature_rate, "steady change from the start of the run");
+    f("drift", &Ambient::drift, thermal::dimension::temperature_rate, "steady change from the start of the run",
+      {-20.0 / 3600.0, 20.0 / 3600.0});
     f("stratification", &Ambient::stratification, thermal::dimension::temperature_gradient,
-      "rise of the air temperature with height");
+      "rise of the air temperature with height", {-5.0, 10.0});
     f("reference_height", &Ambient::reference_height, thermal::dimension::length,
-      "height over the machine's zero at which the air has the mean temperature");
+      "height over the machine's zero at which the air has the mean temperature", {-20.0, 100.0});
     f("daily_cycle", &Ambient::daily_cycle, "cosine of 24 h");
     f("air_conditioning", &Ambient::air_conditioning, "sine of some minutes");
     f("door_openings", &Ambient::door_openings, "times at which the door stands open");

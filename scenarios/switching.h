@@ -57,7 +57,8 @@ struct Chiller {
   static void fields(Fields& f) {
     f("on", &Chiller::on, "allowed to run, after the blocks if there are any");
     f("blocks", &Chiller::blocks, "on and off, one after another");
-    f("offset", &Chiller::offset, thermal::dimension::temperature_difference, "added to the machine's set point");
+    f("offset", &Chiller::offset, thermal::dimension::temperature_difference, "added to the machine's set point",
+      {-40.0, 40.0});
   }
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,13 +23,25 @@ inline constexpr double required = std::numeric_limits<double>::quiet_NaN();
 inline constexpr Range positive{0.0, std::numeric_limits<double>::infinity()};
 inline constexpr Range above_zero{0.0, std::numeric_limits<double>::infinity(), true};
 
+constexpr double rpm(double number) { return number * (2.0 * std::numbers::pi) / 60.0; }  ///< [rad/s]
+
+/// Ranges so wide that what lies outside is a slip of the unit: from foam and plastics to silver and ceramics, from a
+/// watch's spindle to a heavy lathe.
+inline constexpr Range plausible_conductivity{0.01, 3000.0}, plausible_density{10.0, 25000.0},
+    plausible_specific_heat{50.0, 15000.0}, plausible_expansion{-1e-5, 3e-4}, plausible_modulus{5e8, 1.5e12},
+    plausible_spindle{rpm(50.0), rpm(300000.0)}, plausible_speed{0.0, rpm(300000.0)},
+    plausible_rapid_feed{0.5 / 60.0, 5.0}, plausible_lead{0.5e-3, 0.5}, plausible_length{0.0, 100.0},
+    plausible_diameter{0.0, 10.0}, plausible_area{0.0, 1000.0}, plausible_mass{0.0, 1e5},
+    plausible_heat_capacity{0.0, 1e8}, plausible_stiffness{0.0, 1e11};
+
 /// `[spindle]`
 struct SpindleDescription {
   double maximum_speed = required;  ///< [rad/s]
 
   template <class Fields>
   static void fields(Fields& f) {
-    f("maximum_speed", &SpindleDescription::maximum_speed, dimension::angular_speed, "100 % of a spectrum", positive);
+    f("maximum_speed", &SpindleDescription::maximum_speed, dimension::angular_speed, "100 % of a spectrum",
+      plausible_spindle);
   }
 };
 
@@ -44,11 +57,11 @@ struct AxisDescription {
   template <class Fields>
   static void fields(Fields& f) {
     f.name("name", &AxisDescription::name, "x, y, z or another");
-    f("rapid_feed", &AxisDescription::rapid_feed, dimension::speed, "100 % of a feed programme", positive);
-    f("lead", &AxisDescription::lead, dimension::length, "travel per revolution of the screw", positive);
+    f("rapid_feed", &AxisDescription::rapid_feed, dimension::speed, "100 % of a feed programme", plausible_rapid_feed);
+    f("lead", &AxisDescription::lead, dimension::length, "travel per revolution of the screw", plausible_lead);
     f("stroke_from", &AxisDescription::stroke_from, dimension::length, "first end of the nut's stroke on the screw",
-      positive);
-    f("stroke_to", &AxisDescription::stroke_to, dimension::length, "other end of the nut's stroke", positive);
+      plausible_length);
+    f("stroke_to", &AxisDescription::stroke_to, dimension::length, "other end of the nut's stroke", plausible_length);
     f.choice("friction_at", &AxisDescription::friction_at, {"moving speed", "mean speed"},
              "speed at which nut, bearings and motor have their torques: that while the axis moves, or, as in the "
              "reference machines of physics.md, the mean over its dwells");
@@ -64,12 +77,16 @@ struct MaterialDescription {
   static void fields(Fields& f) {
     f.name("name", &MaterialDescription::name, "how bodies refer to it");
     f.name("like", &MaterialDescription::like, "known material that gives what is not stated here");
-    f("conductivity", &MaterialDescription::conductivity, dimension::conductivity, "at 20 degC", positive);
-    f("density", &MaterialDescription::density, dimension::density, "density", positive);
-    f("specific_heat", &MaterialDescription::specific_heat, dimension::specific_heat, "at 20 degC", positive);
-    f("expansion", &MaterialDescription::expansion, dimension::expansion, "coefficient of linear expansion");
-    f("youngs_modulus", &MaterialDescription::youngs_modulus, dimension::stress, "Young's modulus", positive);
-    f("poisson_ratio", &MaterialDescription::poisson_ratio, dimension::dimensionless, "Poisson's ratio");
+    f("conductivity", &MaterialDescription::conductivity, dimension::conductivity, "at 20 degC",
+      plausible_conductivity);
+    f("density", &MaterialDescription::density, dimension::density, "density", plausible_density);
+    f("specific_heat", &MaterialDescription::specific_heat, dimension::specific_heat, "at 20 degC",
+      plausible_specific_heat);
+    f("expansion", &MaterialDescription::expansion, dimension::expansion, "coefficient of linear expansion",
+      plausible_expansion);
+    f("youngs_modulus", &MaterialDescription::youngs_modulus, dimension::stress, "Young's modulus", plausible_modulus);
+    f("poisson_ratio", &MaterialDescription::poisson_ratio, dimension::dimensionless, "Poisson's ratio",
+      Range{-1.0, 0.5});
   }
 };
 
@@ -101,8 +118,9 @@ struct LumpDescription : CarriedDescription {
   static void fields(Fields& f) {
     f.name("name", &LumpDescription::name, "unique among the bodies");
     f("material", &LumpDescription::material, "known material, or one of this file");
-    f("mass", &LumpDescription::mass, dimension::mass, "with the material's specific heat", positive);
-    f("heat_capacity", &LumpDescription::heat_capacity, dimension::heat_capacity, "instead of mass", positive);
+    f("mass", &LumpDescription::mass, dimension::mass, "with the material's specific heat", plausible_mass);
+    f("heat_capacity", &LumpDescription::heat_capacity, dimension::heat_capacity, "instead of mass",
+      plausible_heat_capacity);
     f("corner", &LumpDescription::corner, dimension::length, "lowest corner of the box that it fills");
     f("size", &LumpDescription::size, dimension::length, "edges of that box");
     CarriedDescription::fields_of<LumpDescription>(f);
@@ -123,7 +141,7 @@ struct LineDescription {
   static void fields_of(Fields& f) {
     f("origin", &Owner::origin, dimension::length, "centre of the start face");
     f.choice("direction", &Owner::direction, {"x", "y", "z", "-x", "-y", "-z"}, "from start to end");
-    f("length", &Owner::length, dimension::length, "from start to end", positive);
+    f("length", &Owner::length, dimension::length, "from start to end", plausible_length);
   }
 };
 
@@ -144,10 +162,10 @@ struct BarDescription : LineDescription, CarriedDescription {
     f.name("name", &BarDescription::name, "unique among the bodies");
     f.name("material", &BarDescription::material, "known material, or one of this file");
     LineDescription::fields_of<BarDescription>(f);
-    f("outer_diameter", &BarDescription::outer_diameter, dimension::length, "of the surface", positive);
-    f("inner_diameter", &BarDescription::inner_diameter, dimension::length, "of a bore", positive);
+    f("outer_diameter", &BarDescription::outer_diameter, dimension::length, "of the surface", plausible_diameter);
+    f("inner_diameter", &BarDescription::inner_diameter, dimension::length, "of a bore", plausible_diameter);
     f("section_diameter", &BarDescription::section_diameter, dimension::length,
-      "solid section of equal area, for threads; default: from outer and inner diameter", positive);
+      "solid section of equal area, for threads; default: from outer and inner diameter", plausible_diameter);
     f("capacity_factor", &BarDescription::capacity_factor, dimension::dimensionless, capacity_factor_means,
       plausible_capacity_factor);
     f("cells", &BarDescription::cells, "along the bar", Range{1, 1e6});
@@ -167,9 +185,10 @@ struct HollowCylinderDescription : LineDescription, CarriedDescription {
     f.name("name", &HollowCylinderDescription::name, "unique among the bodies");
     f.name("material", &HollowCylinderDescription::material, "known material, or one of this file");
     LineDescription::fields_of<HollowCylinderDescription>(f);
-    f("outer_diameter", &HollowCylinderDescription::outer_diameter, dimension::length, "outer diameter", positive);
+    f("outer_diameter", &HollowCylinderDescription::outer_diameter, dimension::length, "outer diameter",
+      plausible_diameter);
     f("inner_diameter", &HollowCylinderDescription::inner_diameter, dimension::length, "inner diameter; 0: solid",
-      positive);
+      plausible_diameter);
     f("capacity_factor", &HollowCylinderDescription::capacity_factor, dimension::dimensionless, capacity_factor_means,
       plausible_capacity_factor);
     f("axial_cells", &HollowCylinderDescription::axial_cells, "along the axis", Range{1, 1e5});
@@ -205,7 +224,7 @@ struct BlockDescription : CarriedDescription {
     f("size", &BlockDescription::size, dimension::length, "edges");
     f("cells", &BlockDescription::cells, dimension::dimensionless, "along x, y and z", positive);
     f("solidity", &BlockDescription::solidity, dimension::dimensionless,
-      "share of metal in a ribbed casting; scales conductivity and density", positive);
+      "share of metal in a ribbed casting; scales conductivity and density", Range{0.0, 1.0});
     CarriedDescription::fields_of<BlockDescription>(f);
   }
 };
@@ -224,7 +243,8 @@ struct ChannelDescription : LineDescription {
     f.name("name", &ChannelDescription::name, "unique among the bodies");
     f("fluid", &ChannelDescription::fluid, "known fluid");
     LineDescription::fields_of<ChannelDescription>(f);
-    f("diameter", &ChannelDescription::diameter, dimension::length, "hydraulic diameter of a round channel", positive);
+    f("diameter", &ChannelDescription::diameter, dimension::length, "hydraulic diameter of a round channel",
+      plausible_diameter);
     f("cells", &ChannelDescription::cells, "along the flow", Range{1, 1e6});
     f("flow", &ChannelDescription::flow, "input channel with the mass flow [kg/s]; none: part of a circuit");
     f("inlet", &ChannelDescription::inlet, "input channel with the temperature at the inlet; none: part of a circuit");
@@ -252,10 +272,10 @@ struct LoopSegment {
     f("weight", &LoopSegment::weight, dimension::dimensionless, "sign along the loop, or share");
     f("growth_factor", &LoopSegment::growth_factor, dimension::dimensionless,
       "of what it does, against the computed; the loop's closure does not count it", Range{0.3, 3.0});
-    f("length", &LoopSegment::length, dimension::length, "of a lump, or over which it bends", positive);
+    f("length", &LoopSegment::length, dimension::length, "of a lump, or over which it bends", plausible_length);
     f("height", &LoopSegment::height, dimension::length, "between the warm and the cold side", above_zero);
     f("lever", &LoopSegment::lever, dimension::length, "of the rotation");
-    f("expansion", &LoopSegment::expansion, dimension::expansion, "default: the material's");
+    f("expansion", &LoopSegment::expansion, dimension::expansion, "default: the material's", plausible_expansion);
   }
 };
 
@@ -332,10 +352,10 @@ struct BallScrewDescription {
     f("preload_temperature", &BallScrewDescription::preload_temperature, dimension::temperature_difference,
       "fixed-fixed: warming that the pretension takes up", Range{0.0, 20.0});
     f("stiffness_fixed", &BallScrewDescription::stiffness_fixed, dimension::stiffness, "of the fixed bearing and seat",
-      positive);
+      plausible_stiffness);
     f("stiffness_far", &BallScrewDescription::stiffness_far, dimension::stiffness, "of the far bearing and seat",
-      positive);
-    f("youngs_modulus", &BallScrewDescription::youngs_modulus, dimension::stress, "of the screw", positive);
+      plausible_stiffness);
+    f("youngs_modulus", &BallScrewDescription::youngs_modulus, dimension::stress, "of the screw", plausible_modulus);
     f("unilateral", &BallScrewDescription::unilateral, "the far bearing can only pull; false: holds both ways");
     f("released_stiffness", &BallScrewDescription::released_stiffness, dimension::dimensionless,
       "stiffness left when the pretension is gone, as a share", Range{0.0, 1.0});

@@ -10,6 +10,7 @@
 #include "thermal/course_inputs.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
+#include "thermal/units.h"
 #include "twin/campaign/campaign.h"
 #include "twin/diagnosis/measured_data.h"
 #include "twin/diagnosis/measured_run.h"
@@ -40,6 +41,12 @@ std::vector<Value const*> items_of(Value const& value) {
   return items;
 }
 
+/// A point on the temperature scale [K]; none for what is no text.
+std::optional<double> temperature_of(Value const& value) {
+  if (!value.is_text()) return {};
+  return thermal::parse_temperature(std::get<std::string>(value.content));
+}
+
 /// In SI; none for what is no number.
 std::optional<double> number_of(Value const& value, thermal::Dimension dimension) {
   Value const table{value.where, Value::Table{{"", value.where, value}}};
@@ -53,7 +60,7 @@ void find_implausible(Value const& table, std::vector<FieldRecord> const& fields
     for (auto const* item : items_of(entry.value)) {
       if (item->is_table()) find_implausible(*item, field->nested, found);
       if (field->range.empty()) continue;
-      auto const number = number_of(*item, field->dimension);
+      auto const number = field->is_temperature() ? temperature_of(*item) : number_of(*item, field->dimension);
       double const low = field->plausible.low, high = field->plausible.high;
       if (number && (*number < low - rounding * std::abs(low) || *number > high + rounding * std::abs(high)))
         found.push_back(fmt::format("{}: '{}' is {}; outside what is plausible: {}", item->where.text(), entry.key,

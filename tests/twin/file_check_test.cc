@@ -77,6 +77,33 @@ TEST(FileCheck, WarnsOfWhatIsNotPlausible) {
   EXPECT_THAT(checks[1].warnings, ElementsAre(HasSubstr("'amplitude' is \"12 K\"; outside what is plausible")));
 }
 
+TEST(FileCheck, WarnsOfUnitsThatSlipped) {
+  TemporaryDirectory const folder;
+  auto const warnings = [&](std::string const& from, std::string const& to) {
+    auto text = contents(machine_file("v450"));
+    EXPECT_NE(text.find(from), std::string::npos) << from;
+    put(folder / "mine.toml", text.replace(text.find(from), from.size(), to));
+    auto const check = check_files({folder / "mine.toml"})[0];
+    EXPECT_EQ(check.mistake, "") << to;
+    return check.warnings;
+  };
+  EXPECT_THAT(warnings("maximum_speed = \"6000 rpm\"", "maximum_speed = \"18 rpm\""),
+              ElementsAre(HasSubstr("'maximum_speed' is \"18 rpm\"; outside what is plausible: 50 rpm to ")));
+  EXPECT_THAT(warnings("expansion = \"11.8e-6 1/K\"", "expansion = \"11.8 1/K\""),
+              ElementsAre(HasSubstr("outside what is plausible: -10 um/(m K) to 300 um/(m K)")));
+  EXPECT_THAT(warnings("conductivity = \"42 W/(m K)\"", "conductivity = \"42 kW/(m K)\""),
+              ElementsAre(HasSubstr("'conductivity' is \"42 kW/(m K)\"; outside")));
+  EXPECT_THAT(warnings("lead = \"12 mm\"", "lead = \"12 m\""), ElementsAre(HasSubstr("'lead' is \"12 m\"; outside")));
+  EXPECT_THAT(
+      warnings(
+          "[spindle]",
+          "[[foundation]]\nname = \"soil\"\nat = \"bed\"\ntemperature = \"15 K\"\nconductance = \"20 W/K\"\n[spindle]"),
+      ElementsAre(HasSubstr("'temperature' is \"15 K\"; outside what is plausible: -60 degC to 150 degC")));
+  put(folder / "experiment.toml", std::string(experiment) + "[ambient]\nstratification = \"70 K/m\"\n");
+  EXPECT_THAT(check_files({folder / "experiment.toml"})[0].warnings,
+              ElementsAre(HasSubstr("'stratification' is \"70 K/m\"; outside what is plausible: -5 K/m to 10 K/m")));
+}
+
 TEST(FileCheck, SaysOnceWhatIsWrongWithANumber) {
   TemporaryDirectory const folder;
   std::string const block = "[spindle]\nblocks = [{duration = \"1 h\", of_maximum = 1.5}]\n";

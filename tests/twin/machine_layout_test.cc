@@ -126,7 +126,7 @@ TEST(MachineLayout, CellsAreCountedOverAllBodies) {
   auto text = post("", "on = \"post.x_max\"\n");
   std::string const cells = "cells = [4, 2, 2]";
   text.replace(text.find(cells), cells.size(), "cells = [900, 600, 300]");
-  EXPECT_THAT(message(text), testing::AllOf(HasSubstr("post.toml:11:"), HasSubstr("'post' has 162000000 cells"),
+  EXPECT_THAT(message(text), testing::AllOf(HasSubstr("post.toml:12:9: "), HasSubstr("'post' has 162000000 cells"),
                                             HasSubstr("allowed is 10000000 for a whole machine")));
   auto bars = post("", "on = \"post.x_max\"\n");
   for (std::string const name : {"a", "b", "c"})

@@ -26,13 +26,15 @@ struct BearingShift {
     f.name("inner", &BearingShift::inner, "place of the inner ring, on the shaft");
     f.name("outer", &BearingShift::outer, "place of the outer ring");
     f("balls", &BearingShift::balls, "in one bearing", Range{3, 100});
-    f("ball_diameter", &BearingShift::ball_diameter, dimension::length, "D_b", positive);
-    f("pitch_diameter", &BearingShift::pitch_diameter, dimension::length, "d_m", positive);
+    f("ball_diameter", &BearingShift::ball_diameter, dimension::length, "D_b", plausible_diameter);
+    f("pitch_diameter", &BearingShift::pitch_diameter, dimension::length, "d_m", plausible_diameter);
     f("contact_angle", &BearingShift::contact_angle, dimension::angle, "unloaded, for example \"15 deg\"",
       Range{0.1, 0.8});
-    f("preload", &BearingShift::preload, dimension::force, "of one bearing, along the axis, by springs", positive);
+    f("preload", &BearingShift::preload, dimension::force, "of one bearing, along the axis, by springs",
+      Range{0.0, 1e6});
     f("expansion", &BearingShift::expansion, dimension::expansion, "of rings and balls", Range{3e-6, 13e-6});
-    f("ball_density", &BearingShift::ball_density, dimension::density, "steel 7800, ceramic 3200 kg/m3", positive);
+    f("ball_density", &BearingShift::ball_density, dimension::density, "steel 7800, ceramic 3200 kg/m3",
+      plausible_density);
     f("weight", &BearingShift::weight, dimension::dimensionless,
       "1: yielding against the preload moves the tool towards positive; -1: the other way", Range{-1.0, 1.0});
   }

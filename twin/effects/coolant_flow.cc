@@ -29,8 +29,8 @@ struct CoolantFlow {
     f.name("name", &CoolantFlow::name, "unique among these");
     f.name("through", &CoolantFlow::through, "body of the fluid, at the mean of inlet and outlet");
     f("flow", &CoolantFlow::flow, dimension::volume_flow, "of the pump", Range{0.0, 5e-3});
-    f("density", &CoolantFlow::density, dimension::density, "of the fluid", positive);
-    f("specific_heat", &CoolantFlow::specific_heat, dimension::specific_heat, "of the fluid", positive);
+    f("density", &CoolantFlow::density, dimension::density, "of the fluid", Range{0.5, 5000.0});
+    f("specific_heat", &CoolantFlow::specific_heat, dimension::specific_heat, "of the fluid", plausible_specific_heat);
     f("inlet", &CoolantFlow::inlet, "input channel that the inlet follows: room air, or a measured temperature");
     f("inlet_offset", &CoolantFlow::inlet_offset, dimension::temperature_difference, "added to it by the chiller",
       Range{-20, 20});

@@ -38,7 +38,8 @@ struct FanCooling {
     f("exponent", &FanCooling::exponent, dimension::dimensionless, "of the speed: laminar 0.5, turbulent 0.8",
       Range{0.5, 0.8});
     f("speed", &FanCooling::speed, "input channel with the speed");
-    f("rated_speed", &FanCooling::rated_speed, dimension::angular_speed, "default: the spindle's maximum", positive);
+    f("rated_speed", &FanCooling::rated_speed, dimension::angular_speed, "default: the spindle's maximum",
+      plausible_speed);
   }
 
   void add_to(Assembly& assembly) const {

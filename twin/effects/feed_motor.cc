@@ -54,7 +54,7 @@ struct FeedMotor {
     f("hysteresis", &FeedMotor::hysteresis, dimension::power, "iron loss at reference speed, proportional to it",
       Range{0, 100});
     f("eddy", &FeedMotor::eddy, dimension::power, "iron loss at reference speed, with its square", Range{0, 100});
-    f("reference_speed", &FeedMotor::reference_speed, dimension::angular_speed, "of the iron losses", positive);
+    f("reference_speed", &FeedMotor::reference_speed, dimension::angular_speed, "of the iron losses", plausible_speed);
   }
 
   void add_to(Assembly& assembly) const {

@@ -143,12 +143,12 @@ struct Film {
     f("on", &Film::on, "surface; several: they share the area as drawn");
     f("to", &Film::to, "\"ambient\", the room air at each cell's height, or the body of a fluid");
     f.choice("correlation", &Film::correlation, correlation_names(), "how the coefficient is found");
-    f("area", &Film::area, dimension::area, "default: that of the surface; a lump has none of its own", positive);
+    f("area", &Film::area, dimension::area, "default: that of the surface; a lump has none of its own", plausible_area);
     f("coefficient", &Film::coefficient, dimension::film_coefficient, "of a constant film or one under a fan",
       Range{1.0, 2e4});
-    f("diameter", &Film::diameter, dimension::length, "of a cylinder or disc", positive);
+    f("diameter", &Film::diameter, dimension::length, "of a cylinder or disc", plausible_diameter);
     f("height", &Film::height, dimension::length, "of a vertical plate; area over perimeter of a horizontal one",
-      positive);
+      plausible_length);
     f("emissivity", &Film::emissivity, dimension::dimensionless, "of a room film", Range{0.05, 1.0});
     f("factor", &Film::factor, dimension::dimensionless, "of the surface's coefficient over the correlation's",
       Range{0.1, 10.0});

@@ -36,7 +36,7 @@ struct Gear {
     f.name("at", &Gear::at, "body of gears and oil");
     f("churning", &Gear::churning, dimension::power, "without load, at rated speed and 40 degC", Range{5, 2000});
     f("exponent", &Gear::exponent, dimension::dimensionless, "of the speed", Range{1.7, 2.5});
-    f("rated_speed", &Gear::rated_speed, dimension::angular_speed, "default: the spindle's maximum", positive);
+    f("rated_speed", &Gear::rated_speed, dimension::angular_speed, "default: the spindle's maximum", plausible_speed);
     f("speed", &Gear::speed, "input channel with the speed");
     f("oil", &Gear::oil, "ISO viscosity grade", Range{10, 100});
     f("efficiency", &Gear::efficiency, dimension::dimensionless, "of the stage under load", Range{0.98, 0.99});

@@ -41,7 +41,7 @@ struct GreaseRunIn {
     f("decay_time", &P::decay_time, dimension::time, "since the spindle last started", Range{1800, 18000});
     f("decay_revolutions", &P::decay_revolutions, dimension::dimensionless,
       "instead or besides: turns after which fresh grease has run in", Range{1e4, 1e8});
-    f("rated_speed", &P::rated_speed, dimension::angular_speed, "default: the spindle's maximum", positive);
+    f("rated_speed", &P::rated_speed, dimension::angular_speed, "default: the spindle's maximum", plausible_speed);
     f("inner_share", &P::inner_share, dimension::dimensionless, "of the heat, into the inner rings", Range{0.0, 1.0});
   }
 

@@ -21,16 +21,17 @@ struct HeldShaftPart {
     f.name("displacement", &P::displacement, "channel that it moves");
     f.name("shaft", &P::shaft, "stretch of the shaft between the bearings");
     f.name("housing", &P::housing, "stretch of the housing between the bearings");
-    f("length", &P::length, dimension::length, "between the bearings", positive);
+    f("length", &P::length, dimension::length, "between the bearings", plausible_length);
     f("front_stiffness", &P::front_stiffness, dimension::stiffness, "of the front bearing and its seat, along the axis",
-      positive);
-    f("rear_stiffness", &P::rear_stiffness, dimension::stiffness, "of the rear bearing and its seat", positive);
+      plausible_stiffness);
+    f("rear_stiffness", &P::rear_stiffness, dimension::stiffness, "of the rear bearing and its seat",
+      plausible_stiffness);
     f("shaft_expansion", &P::shaft_expansion, dimension::expansion, "of the shaft", Range{3e-6, 24e-6});
     f("housing_expansion", &P::housing_expansion, dimension::expansion, "of the housing", Range{3e-6, 24e-6});
-    f("shaft_area", &P::shaft_area, dimension::area, "section of the shaft", positive);
-    f("housing_area", &P::housing_area, dimension::area, "section of the housing", positive);
-    f("shaft_modulus", &P::shaft_modulus, dimension::stress, "Young's modulus of the shaft", positive);
-    f("housing_modulus", &P::housing_modulus, dimension::stress, "Young's modulus of the housing", positive);
+    f("shaft_area", &P::shaft_area, dimension::area, "section of the shaft", plausible_area);
+    f("housing_area", &P::housing_area, dimension::area, "section of the housing", plausible_area);
+    f("shaft_modulus", &P::shaft_modulus, dimension::stress, "Young's modulus of the shaft", plausible_modulus);
+    f("housing_modulus", &P::housing_modulus, dimension::stress, "Young's modulus of the housing", plausible_modulus);
     f("weight", &P::weight, dimension::dimensionless, "sign with which the shaft's way outwards counts in the channel",
       Range{-1.0, 1.0});
   }

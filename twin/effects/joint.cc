@@ -27,8 +27,8 @@ struct Joint {
     f("conductance", &Joint::conductance, dimension::conductance, "of the whole joint", Range{0.01, 1e4});
     f("coefficient", &Joint::coefficient, dimension::film_coefficient,
       "instead: per area of contact; bolted 5 to 15 kW/(m2 K), dry light 2 to 5, sliding fit 0.8", Range{100, 1e5});
-    f("area", &Joint::area, dimension::area, "of contact, where the places have none or touch in part", positive);
-    f("in_series", &Joint::in_series, dimension::conductance, "a further conductance on the way", positive);
+    f("area", &Joint::area, dimension::area, "of contact, where the places have none or touch in part", plausible_area);
+    f("in_series", &Joint::in_series, dimension::conductance, "a further conductance on the way", Range{0.0, 1e6});
     f("welded", &Joint::welded, "one piece of metal: only the half cells resist");
   }
 

@@ -46,8 +46,8 @@ struct LossCurve {
     f.name("name", &LossCurve::name, "unique among these");
     f.name("at", &LossCurve::at, "place that receives it: stator, gear box");
     f("factor", &LossCurve::factor, dimension::dimensionless, "of the whole curve", Range{0.2, 2.0});
-    f("speeds", &LossCurve::speeds, dimension::angular_speed, "rising, two to eight", positive);
-    f("losses", &LossCurve::losses, dimension::power, "at these speeds", positive);
+    f("speeds", &LossCurve::speeds, dimension::angular_speed, "rising, two to eight", plausible_speed);
+    f("losses", &LossCurve::losses, dimension::power, "at these speeds", Range{0.0, 1e6});
     f("speed", &LossCurve::speed, "input channel with the speed");
     f("while_on", &LossCurve::while_on, "input channel between 0 and 1 that scales it");
   }

@@ -34,7 +34,8 @@ struct MotorLoss {
       Range{0, 300});
     f("hysteresis", &MotorLoss::hysteresis, dimension::power, "Ph at rated speed, proportional to it", Range{0, 600});
     f("eddy", &MotorLoss::eddy, dimension::power, "Pe at rated speed, with its square", Range{0, 600});
-    f("rated_speed", &MotorLoss::rated_speed, dimension::angular_speed, "default: the spindle's maximum", positive);
+    f("rated_speed", &MotorLoss::rated_speed, dimension::angular_speed, "default: the spindle's maximum",
+      plausible_speed);
     f("base_speed_ratio", &MotorLoss::base_speed_ratio, dimension::dimensionless,
       "above this share of the rated speed the field is weakened: eddy loss constant, hysteresis falling", positive);
     f("while_on", &MotorLoss::while_on, "input channel that enables the motor");

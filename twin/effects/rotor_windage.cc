@@ -75,7 +75,8 @@ struct RotorWindage {
     f("stator_share", &P::stator_share, dimension::dimensionless, "of the heat, into the stator", Range{0.0, 1.0});
     f("power", &P::power, dimension::power, "known: at rated speed", Range{2, 150});
     f("exponent", &P::exponent, dimension::dimensionless, "known: of the speed", Range{2.0, 3.0});
-    f("rated_speed", &P::rated_speed, dimension::angular_speed, "known: default the spindle's maximum", positive);
+    f("rated_speed", &P::rated_speed, dimension::angular_speed, "known: default the spindle's maximum",
+      plausible_speed);
     f("diameter", &P::diameter, dimension::length, "of rotor or disc", Range{0.01, 1.0});
     f("length", &P::length, dimension::length, "of the rotor in its gap", Range{0.01, 1.0});
     f("gap", &P::gap, dimension::length, "between rotor and stator", Range{0.1e-3, 5e-3});

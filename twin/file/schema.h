@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "thermal/machine_temperature.h"
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
 #include "twin/file/value.h"
@@ -32,6 +33,9 @@ struct Range {
   bool without_low = false;  ///< and so is `low` itself: others are divided by the number
 };
 
+/// Of a room, a coolant, a machine.
+inline constexpr Range plausible_temperature{thermal::coldest_machine, thermal::hottest_machine};
+
 /// One field as the documentation shows it.
 struct FieldRecord {
   std::string key;
@@ -42,6 +46,9 @@ struct FieldRecord {
   std::vector<FieldRecord> nested;
   thermal::Dimension dimension;
   Range plausible;
+
+  /// A point on the temperature scale, not a difference.
+  [[nodiscard]] bool is_temperature() const { return kind.starts_with("temperature [degC]"); }
 };
 
 template <class T>
@@ -175,14 +182,14 @@ class FieldReader {
   }
   /// A point on the temperature scale.
   template <class M>
-  void temperature(std::string_view key, double M::*member, std::string_view) {
+  void temperature(std::string_view key, double M::*member, std::string_view, Range = {}) {
     if (Value const* value = take(key))
       object_.*member = absolute(*value, key);
     else if (std::isnan(object_.*member))
       missing(key, in_quotes("22 degC"));
   }
   template <class M>
-  void temperature(std::string_view key, std::optional<double> M::*member, std::string_view) {
+  void temperature(std::string_view key, std::optional<double> M::*member, std::string_view, Range = {}) {
     if (Value const* value = take(key)) object_.*member = absolute(*value, key);
   }
   /// One of a few words.
@@ -355,13 +362,14 @@ class FieldLister {
     add(key, "text", "required", doc);
   }
   template <class M>
-  void temperature(std::string_view key, double M::*member, std::string_view doc) {
+  void temperature(std::string_view key, double M::*member, std::string_view doc, Range r = plausible_temperature) {
     double const x = object_.*member;
-    add(key, "temperature [degC]", std::isnan(x) ? "required" : thermal::format_temperature(x), doc);
+    on_scale(key, std::isnan(x) ? "required" : thermal::format_temperature(x), doc, r);
   }
   template <class M>
-  void temperature(std::string_view key, std::optional<double> M::*, std::string_view doc) {
-    add(key, "temperature [degC]", "", doc);
+  void temperature(std::string_view key, std::optional<double> M::*, std::string_view doc,
+                   Range r = plausible_temperature) {
+    on_scale(key, "", doc, r);
   }
   template <class M>
   void choice(std::string_view key, std::string M::*member, std::vector<std::string> const& allowed,
@@ -390,6 +398,12 @@ class FieldLister {
     bool const bounded = std::isfinite(r.low) || std::isfinite(r.high);
     if (bounded) records.back().range = FieldReader<T>::range_text(r, d);
     records.back().dimension = d;
+    records.back().plausible = r;
+  }
+  void on_scale(std::string_view key, std::string initial, std::string_view doc, Range r) {
+    add(key, "temperature [degC]", std::move(initial), doc);
+    records.back().range =
+        fmt::format("{:g} degC to {:g} degC", r.low - thermal::zero_celsius, r.high - thermal::zero_celsius);
     records.back().plausible = r;
   }
   template <class Nested>

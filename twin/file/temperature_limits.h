@@ -18,7 +18,7 @@ inline void check_temperatures(Value const& table, std::vector<FieldRecord> cons
     if (value.is_list())
       for (auto const& item : std::get<Value::List>(value.content))
         if (item.is_table()) check_temperatures(item, field->nested);
-    if (!field->kind.starts_with("temperature [degC]") || !value.is_text()) continue;
+    if (!field->is_temperature() || !value.is_text()) continue;
     auto const& text = std::get<std::string>(value.content);
     try {
       thermal::require_machine_temperature(thermal::parse_temperature(text), text);

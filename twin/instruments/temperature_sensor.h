@@ -11,6 +11,9 @@
 
 namespace thermotwin::twin {
 
+/// What a sensor may read at most, not what a machine may have: -200 degC to 1800 degC.
+inline constexpr Range measurable{73.15, 2073.15};
+
 /// A temperature sensor as the machine's file describes it. What the file gives holds; what it leaves open is drawn
 /// once per specimen, by kind and mounting.
 ///
@@ -91,8 +94,8 @@ struct TemperatureSensor {
     f("correlated_noise", &S::correlated_noise, kelvin, "first-order autoregressive noise, rms", Range{0, 1});
     f("correlation_time", &S::correlation_time, dimension::time, "of the correlated noise", Range{1, 7200});
     f("resolution", &S::resolution, kelvin, "step of the shown numbers", Range{0, 1});
-    f.temperature("lowest", &S::lowest, "end of the range; lower ones show as this");
-    f.temperature("highest", &S::highest, "end of the range; higher ones show as this");
+    f.temperature("lowest", &S::lowest, "end of the range; lower ones show as this", measurable);
+    f.temperature("highest", &S::highest, "end of the range; higher ones show as this", measurable);
     f("lead_resistance", &S::lead_resistance, dimension::resistance, "of a two-wire pt100's wires", Range{0, 5});
     f("clock_offset", &S::clock_offset, dimension::time, "by which the logger's time stamps are late");
     f("sampling_interval", &S::sampling_interval, dimension::time, "0: as the data set", Range{0, 3600});
