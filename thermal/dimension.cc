@@ -22,7 +22,8 @@ struct Usage {
 std::vector<Usage> const& usages() {
   static std::vector<Usage> const table = {
       {dim::dimensionless, "number", "1", "0.8", {"1"}},
-      {dim::angle, "angle", "1", "15 urad", {"1"}},
+      {dim::angle, "angle", "1", "15 deg", {"1"}},
+      {dim::tilt, "angle", "1", "15 urad", {"1"}},
       {dim::length, "length", "m", "600 mm", {"mm", "um", "m"}},
       {dim::area, "area", "m2", "0.06 m2", {"m2", "mm2"}},
       {dim::volume, "volume", "m3", "200 L", {"L", "m3", "mm3"}},
@@ -66,7 +67,7 @@ std::vector<Usage> const& usages() {
 
 Usage const* usage_of(Dimension dimension) {
   auto const found = std::find_if(usages().begin(), usages().end(), [&](Usage const& usage) {
-    return usage.dimension == dimension && usage.dimension.turning == dimension.turning;
+    return usage.dimension == dimension && usage.dimension.turn == dimension.turn;
   });
   return found == usages().end() ? nullptr : &*found;
 }

@@ -13,7 +13,8 @@ struct Dimension {
   int time = 0;
   int temperature = 0;
   int current = 0;
-  bool turning = false;  ///< an angle: equal to a number, and called by its name where one is due
+  /// An angle equals a number, and is called an angle where one is due: of a part that turns, or of one slightly askew.
+  enum class Turn { none, wide, slight } turn = Turn::none;
 
   constexpr bool operator==(Dimension const& other) const {
     return length == other.length && mass == other.mass && time == other.time && temperature == other.temperature &&
@@ -25,7 +26,8 @@ struct Dimension {
 /// diffusivity.
 namespace dimension {
 inline constexpr Dimension dimensionless{};
-inline constexpr Dimension angle{0, 0, 0, 0, 0, true};
+inline constexpr Dimension angle{0, 0, 0, 0, 0, Dimension::Turn::wide};
+inline constexpr Dimension tilt{0, 0, 0, 0, 0, Dimension::Turn::slight};
 inline constexpr Dimension length{1, 0, 0, 0, 0};
 inline constexpr Dimension area{2, 0, 0, 0, 0};
 inline constexpr Dimension volume{3, 0, 0, 0, 0};

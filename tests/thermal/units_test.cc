@@ -156,7 +156,7 @@ TEST(ParseValue, OffersWhatIsUsualForTheDimension) {
   EXPECT_EQ(refusal("10 mn", dimension::time), "'10 mn': unknown unit 'mn'; did you mean 'min'?");
   EXPECT_EQ(refusal("10 mn", dimension::length), "'10 mn': unknown unit 'mn'; did you mean 'mm'?");
   EXPECT_EQ(refusal("abc", dimension::dimensionless), "'abc': a number is due, for example \"0.8\"");
-  EXPECT_EQ(refusal("abc", dimension::angle), "'abc': an angle is due, for example \"15 urad\"");
+  EXPECT_EQ(refusal("abc", dimension::angle), "'abc': an angle is due, for example \"15 deg\"");
   EXPECT_EQ(refusal("abc", dimension::mass), "'abc': a number with a unit is due, for example \"14 kg\"");
 }
 
@@ -168,7 +168,7 @@ TEST(ParseValue, AsksForTheUnitOfABareNumber) {
 
 TEST(ParseValue, NamesBothDimensions) {
   EXPECT_EQ(refusal("5 W", dimension::conductance), "'5 W' is a power; a conductance is due, for example \"9 W/K\"");
-  EXPECT_EQ(refusal("5 um", dimension::angle), "'5 um' is a length; an angle is due, for example \"15 urad\"");
+  EXPECT_EQ(refusal("5 um", dimension::tilt), "'5 um' is a length; an angle is due, for example \"15 urad\"");
   EXPECT_EQ(refusal("5 um", dimension::dimensionless), "'5 um' is a length; a number is due, for example \"0.8\"");
   EXPECT_EQ(refusal("5 kg m3", dimension::length),
             "'5 kg m3' is a quantity in m^3 kg; a length is due, for example \"600 mm\"");

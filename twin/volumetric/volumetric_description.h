@@ -88,8 +88,8 @@ struct DrawnDescription {
     f("seed", &D::seed, "the same seed draws the same machine");
     f("linear", &D::linear, dimension::length, "change of EXX, EYY, EZZ over the travel, rms", Range{0, 1e-3});
     f("straightness", &D::straightness, dimension::length, "rms", Range{0, 1e-3});
-    f("angular", &D::angular, dimension::angle, "change over the travel, rms", Range{0, 1e-3});
-    f("squareness", &D::squareness, dimension::angle, "rms", Range{0, 1e-2});
+    f("angular", &D::angular, dimension::tilt, "change over the travel, rms", Range{0, 1e-3});
+    f("squareness", &D::squareness, dimension::tilt, "rms", Range{0, 1e-2});
   }
 };
 
@@ -107,9 +107,9 @@ struct StepDiagonalDescription {
     using S = StepDiagonalDescription;
     f("steps", &S::steps, "of each axis along a diagonal", Range{2, 200});
     f("passes", &S::passes, "whose mean is taken", Range{1, 100});
-    f("mirror_misalignment", &S::mirror_misalignment, dimension::angle,
+    f("mirror_misalignment", &S::mirror_misalignment, dimension::tilt,
       "of the flat mirror's normal against the diagonal, in each of two directions, rms", Range{0, 0.01});
-    f("beam_misalignment", &S::beam_misalignment, dimension::angle,
+    f("beam_misalignment", &S::beam_misalignment, dimension::tilt,
       "of the beam against the diagonal, in each of two directions, rms", Range{0, 0.01});
     f.temperature("air_temperature", &S::air_temperature, "in the laser's path at the start");
     f("air_drift", &S::air_drift, dimension::temperature_rate, "of the air while measuring");
@@ -125,7 +125,7 @@ struct VolumetricDescription {
   std::optional<double> squareness_xy, squareness_xz, squareness_yz;
   std::vector<VolumetricAxisDescription> axis;
   std::vector<ElementDescription<dimension::length>> translation;
-  std::vector<ElementDescription<dimension::angle>> rotation;
+  std::vector<ElementDescription<dimension::tilt>> rotation;
   std::vector<GrowthDescription> growth;
   std::optional<DrawnDescription> drawn;
   StepDiagonalDescription measurement;
@@ -138,9 +138,9 @@ struct VolumetricDescription {
     f.choice("convention", &V::convention, {"tool-relative", "body-fixed"},
              "what the elements are motions of: tool side against workpiece side of a joint, or the moving carriage");
     f("tool_offset", &V::tool_offset, dimension::length, "tool tip from the reference point of the last carriage");
-    f("squareness_xy", &V::squareness_xy, dimension::angle, "angle between X and Y less 90 deg");
-    f("squareness_xz", &V::squareness_xz, dimension::angle, "angle between X and Z less 90 deg");
-    f("squareness_yz", &V::squareness_yz, dimension::angle, "angle between Y and Z less 90 deg");
+    f("squareness_xy", &V::squareness_xy, dimension::tilt, "angle between X and Y less 90 deg");
+    f("squareness_xz", &V::squareness_xz, dimension::tilt, "angle between X and Z less 90 deg");
+    f("squareness_yz", &V::squareness_yz, dimension::tilt, "angle between Y and Z less 90 deg");
     f("axis", &V::axis, "x, y and z, each once");
     f("translation", &V::translation, "error elements that are lengths");
     f("rotation", &V::rotation, "error elements that are angles");

@@ -72,7 +72,7 @@ TEST(VolumetricMachine, MistakesAreToldWithTheirPlace) {
               AllOf(HasSubstr("mill.toml:8:"), HasSubstr("unknown error element 'EXW'")));
   EXPECT_THAT(complaint(axes + "translation = [{ name = \"EAX\" }]\n"), HasSubstr("is an angle"));
   EXPECT_THAT(complaint(axes + "rotation = [{ name = \"EAX\", polynomial = [\"1 um\"] }]\n"),
-              AllOf(HasSubstr("mill.toml:8:"), HasSubstr("is a length")));
+              AllOf(HasSubstr("mill.toml:8:"), HasSubstr("is a length; an angle is due, for example \"15 urad\"")));
   EXPECT_THAT(complaint(axes + "translation = [{ name = \"EXX\", positions = [\"0 mm\"] }]\n"),
               HasSubstr("1 positions and 0 values"));
   EXPECT_THAT(complaint(axes + "growth = [{ channel = \"A\", element = \"EAW\" }]\n"), HasSubstr("EAW"));
