@@ -19,7 +19,7 @@ struct GeneticOptions {
   double mutation = 0.01;     ///< probability that a gene has one of its bits turned
   int elite = 2;              ///< best ones that live on unchanged
   int tournament = 3;         ///< how many compete to become a parent
-  double low = -3, high = 3;  ///< range of each number
+  double low = -1, high = 1;  ///< range of each number
 };
 
 /// w = low + (high − low) gene/(2¹⁶ − 1), and the nearest gene of a number; numbers beyond the range go to its ends.

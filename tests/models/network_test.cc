@@ -137,7 +137,7 @@ TEST(NetworkModel, EndsLowerFromAGeneticSearchThanFromRandomStarts) {
 /// Only so do starts compare.
 TEST(NetworkModel, DescendsAsLongFromAnyStart) {
   std::vector const batches{duty(1)};
-  EXPECT_THAT(fit_genetic_back_propagation(batches, {}).remark, testing::HasSubstr(" 5000 epochs"));
+  EXPECT_THAT(fit_genetic_back_propagation(batches, {}).remark, testing::HasSubstr(" 2 descents of 5000 epochs"));
   EXPECT_THAT(fit_back_propagation(batches, {}).remark, testing::HasSubstr(" 5000 epochs"));
 }
 

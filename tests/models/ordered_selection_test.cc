@@ -101,7 +101,7 @@ TEST(OrderedSelection, MethodsThatShareAScreenChooseAsWithoutAndScreenOnce) {
     }
   Batch const other = four_components(4);
   auto const first = candidates({&run, 1}, {}), second = candidates({&other, 1}, {});
-  EXPECT_EQ(shared->screen(second, 1).information, screen_by_information(first, 1).information);
+  EXPECT_EQ(shared->screen(second, {}).information, screen_by_information(first, 1).information);
 }
 
 TEST(OrderedSelection, RemarkHasTheFiguresThatDecided) {

@@ -20,7 +20,7 @@ struct Combination {
   std::vector<std::string> sensors;  ///< chosen in the first repetition for the first training set
   std::string refused;               ///< why there are no figures
   std::string remark;                ///< what the fit of the first repetition found out
-  Eigen::MatrixXd deviations;        ///< models of single runs × runs, as in paper 004, in the first repetition [µm]
+  Eigen::MatrixXd deviations{};      ///< models of single runs × runs, as in paper 004, in the first repetition [µm]
 
   [[nodiscard]] std::string name() const { return combination_name(selection, model); }
 };
@@ -30,7 +30,7 @@ struct SelectionFigures {
   std::string world, selection;
   Figures figures;  ///< regret, informative, found, rank_correlation, switches, count
   std::string remark;
-  std::vector<models::Evidence> evidence;  ///< in the first repetition, for the first training set
+  std::vector<models::Evidence> evidence{};  ///< in the first repetition, for the first training set
 };
 
 /// A claim, and what the figures say of it: the two figures and their difference, or the figure.
