@@ -34,7 +34,8 @@ double um_per_s(std::string const& slew) { return um_per_m * option_quantity("--
 
 double not_negative(char const* option, std::string const& text, thermal::Dimension expected) {
   double const value = option_quantity(option, text, expected);
-  if (!(value >= 0.0)) throw thermal::InputError(fmt::format("{} '{}': it must be 0 or more", option, text));
+  if (!(value >= 0.0))
+    throw thermal::InputError(fmt::format("{} {}: a {} of 0 or more is due", option, text, thermal::name_of(expected)));
   return value;
 }
 
