@@ -23,6 +23,13 @@
 namespace thermotwin::twin {
 namespace {
 
+/// How a fit goes, for people.
+FitWatch told_by(std::shared_ptr<Narration> narration) {
+  return [narration = std::move(narration)](int step, double misfit) {
+    narration->go_on(fmt::format("step {} of a fit, misfit {:.3g}", step, misfit));
+  };
+}
+
 void print_plan(DiagnoseFiles const& files, std::vector<std::string> const& experiments, bool json) {
   std::vector<Schedule> schedules;
   for (auto const& name : experiments) schedules.push_back(read_schedule(experiment_file(name)));
@@ -53,6 +60,7 @@ void add_calibrate_command(CLI::App& app) {
   command->callback([files, json, machine] {
     files->machine = machine_file(*machine);
     check_machine_suffix(files->output);
+    if (!*json) files->watch = told_by(std::make_shared<Narration>());
     auto const calibration = calibrate_files(*files);
     fmt::print("{}", *json ? calibration_json(calibration) : calibration_table(calibration));
   });
@@ -86,7 +94,11 @@ void add_diagnose_command(CLI::App& app) {
     files->machine = machine_file(*machine);
     check_machine_suffix(files->output);
     for (auto const& name : files->without) static_cast<void>(effect(name));
-    if (!*json) files->progress = [](std::string const& what) { tell(what + " …\n"); };
+    if (!*json) {
+      auto const narration = std::make_shared<Narration>();
+      files->progress = [narration](std::string const& what) { narration->begin(what); };
+      files->watch = told_by(narration);
+    }
     if (!planned->empty()) return print_plan(*files, *planned, *json);
     if (data->empty()) throw thermal::InputError("diagnose needs measured runs, or --plan with experiments");
     std::optional<ProgressFile> onlookers;

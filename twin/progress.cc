@@ -46,4 +46,17 @@ void Progress::show(double share) {
   }
 }
 
+void Narration::begin(std::string const& what) {
+  std::lock_guard const lock(mutex_);
+  tell(what + " …\n");
+  told_ = Clock::now();
+}
+
+void Narration::go_on(std::string const& how) {
+  std::lock_guard const lock(mutex_);
+  if (Clock::now() - told_ < between_lines) return;
+  tell("  … " + how + "\n");
+  told_ = Clock::now();
+}
+
 }  // namespace thermotwin::twin

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <mutex>
 #include <string>
 
 namespace thermotwin::twin {
@@ -25,6 +26,20 @@ class Progress {
   bool terminal_;
   bool drawn_ = false;
   Clock::time_point start_ = Clock::now(), next_ = start_;
+};
+
+/// Tells what a job is at whose length nobody knows: what it begins at once, and how that goes when nothing was told
+/// for ten seconds. From any thread.
+class Narration {
+ public:
+  void begin(std::string const& what);
+  void go_on(std::string const& how);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::mutex mutex_;
+  Clock::time_point told_ = Clock::now();
 };
 
 }  // namespace thermotwin::twin

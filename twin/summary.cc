@@ -85,7 +85,7 @@ std::string summary_table(Machine const& machine, RunResult const& result) {
   }
   if (auto const test = drift_test(data, result.jumps)) text += "\n" + drift_table(*test);
   text += fmt::format(
-      "\n  energy     {:.4g} kJ supplied = {:.4g} stored + {:.4g} to the air and coolant + {:.4g} withdrawn; balance "
+      "\n  energy     {:.4g} kJ supplied = {:.4g} stored + {:.4g} to the surroundings + {:.4g} withdrawn; balance "
       "to {:.1e}\n",
       s.energy.supplied / 1e3, s.stored / 1e3, s.energy.lost / 1e3, s.energy.withdrawn / 1e3, s.energy_imbalance());
   text += fmt::format("  solver     {} steps, {} right-hand sides, {} Jacobians, {} restarts, {}, {:.2f} s\n", s.steps,

@@ -94,9 +94,7 @@ void add_collinearity(Calibration& calibration, Estimation const& estimation, Fi
 }
 
 double misfit_of(Estimation const& estimation, Fit const& fit) {
-  double samples = 0.0;
-  for (auto const& run : estimation.data()) samples += double((run.samples.array() > 0.0).count());
-  return fit.residual.head(estimation.rows()).squaredNorm() / std::max(samples, 1.0);
+  return fit.residual.head(estimation.rows()).squaredNorm() / estimation.measured();
 }
 
 /// Of a machine that is right, as `whole` counts.
@@ -159,8 +157,8 @@ std::vector<std::string> Calibration::shortcomings() const {
   return reasons;
 }
 
-Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs) {
-  Estimation const estimation = expected_estimation(machine, runs).with_form_of_file();
+Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs, FitWatch watch) {
+  Estimation const estimation = expected_estimation(machine, runs).with_form_of_file().watched(std::move(watch));
   if (estimation.numbers().empty())
     throw thermal::InputError(
         "the machine has no number that calibration could change: no conductance, film, friction, loss, mass or step "
@@ -191,7 +189,7 @@ Calibration calibrate_files(CalibrateFiles const& files) {
   auto const measured = read_runs(files.data, machine, remarks);
   auto const runs = binned(measured);
   auto const found = doubts(machine, runs);
-  auto calibration = with_doubts(found, [&] { return calibrate(document, runs); });
+  auto calibration = with_doubts(found, [&] { return calibrate(document, runs, files.watch); });
   calibration.doubts = found;
   calibration.remarks = remarks;
   if (!files.output.empty())

@@ -69,13 +69,14 @@ struct Calibration {
 };
 
 /// `machine`: its document. InputError when it has no uncertain number, or cannot be run on the data.
-[[nodiscard]] Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs);
+[[nodiscard]] Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs, FitWatch watch = {});
 
 /// `thermotwin calibrate`.
 struct CalibrateFiles {
   std::filesystem::path machine;
   std::vector<std::filesystem::path> data;
   std::filesystem::path output;  ///< of the calibrated machine; empty: none
+  FitWatch watch{};
 };
 
 /// Reads machine and data, calibrates, and writes the user's file with the identified numbers in place. InputError for

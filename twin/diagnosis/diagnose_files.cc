@@ -84,6 +84,7 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   options.without = files.without;
   options.start = files.start;
   options.progress = files.progress;
+  options.watch = files.watch;
   report.diagnosis = with_doubts(report.doubts, [&] { return diagnose(document, fitted, options, held_out); });
   if (!report.diagnosis.suspicion && identify_nothing(report.diagnosis))
     report.remarks.emplace_back(

@@ -18,6 +18,7 @@ struct DiagnoseFiles {
   std::filesystem::path output;  ///< of the amended machine; empty: none
   std::vector<std::string> without;
   std::function<void(std::string const&)> progress;
+  FitWatch watch{};
   std::optional<std::uint64_t> start = {};  ///< seed of where the search begins
 };
 

@@ -92,7 +92,7 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
                            std::vector<Hypothesis> hypotheses, DiagnosisOptions const& options, std::size_t start)
     : options_(options), geometry_(Machine::build(document).geometry), hypotheses_(std::move(hypotheses)) {
   say("calibrating");
-  estimation_.emplace(expected_estimation(document, runs));
+  estimation_.emplace(expected_estimation(document, runs).watched(options.watch));
   bool const closed = has_closed_laws(estimation_->numbers());
   if (closed) estimation_ = estimation_->with_laws(closed_law);
   expected_ = estimation_->noise();

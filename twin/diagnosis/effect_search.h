@@ -27,6 +27,7 @@ struct DiagnosisOptions {
   /// What is found must not depend on it.
   std::optional<std::uint64_t> start;
   std::function<void(std::string const&)> progress;
+  FitWatch watch{};  ///< of all fits
 };
 
 /// What comes nearest where no effect is evident.

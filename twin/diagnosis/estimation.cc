@@ -204,6 +204,18 @@ Estimation Estimation::with_form_of_file(std::vector<std::size_t> const& but) co
   return knowing(hidden);
 }
 
+Estimation Estimation::watched(FitWatch watch) const {
+  Estimation other = *this;
+  other.watch_ = std::move(watch);
+  return other;
+}
+
+double Estimation::measured() const {
+  double values = 0.0;
+  for (auto const& run : *data_) values += double((run.samples.array() > 0.0).count());
+  return std::max(values, 1.0);
+}
+
 Eigen::VectorXd Estimation::prior_mean() const {
   Eigen::VectorXd x(Eigen::Index(unknowns_.size()));
   for (std::size_t u = 0; u < unknowns_.size(); ++u) x[Eigen::Index(u)] = unknowns_[u].mean;
@@ -428,6 +440,7 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
   };
   std::unique_ptr<Traced const> traced;
   Linearisation last, trial;
+  int step = 0;
   problem.evaluate = [&](Eigen::VectorXd const& values, bool linearised, NormalEquations& at) {
     Eigen::VectorXd const x = whole(values);
     Linearisation& here = linearised || last.is_at(x) ? last : trial;
@@ -436,6 +449,7 @@ Fit Estimation::fit(Eigen::VectorXd const& start, int iterations) const {
     Eigen::VectorXd const left = here.residual - elimination_->effect_of(linear);
     at.cost = left.squaredNorm() + elimination_->prior_cost(linear) + from_mean.cwiseAbs2().dot(precision);
     if (!linearised) return true;
+    if (watch_) watch_(++step, at.cost / measured());
     at.gradient = here.jacobian.transpose() * left + precision.cwiseProduct(from_mean);
     at.curvature = elimination_->curvature(here.own, here.shared);
     at.curvature.diagonal() += precision;

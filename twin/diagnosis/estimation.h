@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,10 @@
 #include "twin/sensitivity.h"
 
 namespace thermotwin::twin {
+
+/// Is told how far a fit is, from whatever thread: the step that it takes next, and the mean square of the whitened
+/// residuals before it, priors included.
+using FitWatch = std::function<void(int step, double misfit)>;
 
 /// Maximum a posteriori of a machine's uncertain numbers, its instruments' offsets and lags, and the amplitudes of
 /// effects that were added to it, from several runs at once (physics.md 8.1):
@@ -49,6 +54,9 @@ class Estimation {
   [[nodiscard]] Estimation about(Eigen::VectorXd const& x) const;
   /// The same question to a machine of the form that its file has, but for these unknowns of it (is_beyond_a_file).
   [[nodiscard]] Estimation with_form_of_file(std::vector<std::size_t> const& but = {}) const;
+
+  /// The same question, each of whose fits is watched.
+  [[nodiscard]] Estimation watched(FitWatch watch) const;
 
   [[nodiscard]] Value const& document() const { return document_; }
   [[nodiscard]] std::vector<Unknown> const& unknowns() const { return unknowns_; }
@@ -82,6 +90,8 @@ class Estimation {
   [[nodiscard]] double noise_scale() const;
   /// Rows of all runs and channels.
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
+  /// Values that were measured, of all runs and channels: rows that are not empty.
+  [[nodiscard]] double measured() const;
   /// Where a run's rows begin.
   [[nodiscard]] Eigen::Index first_row(std::size_t run) const { return first_rows_[run]; }
 
@@ -115,6 +125,7 @@ class Estimation {
   std::vector<Eigen::Index> first_rows_;
   Eigen::Index rows_ = 0;
   std::shared_ptr<Elimination const> elimination_;  ///< of what is linear, whitened
+  FitWatch watch_;
 };
 
 }  // namespace thermotwin::twin

@@ -36,7 +36,11 @@ class CalibrationTest : public testing::Test {
     set_parameter(truth, "bearing.front.grease_factor", "0.7");
     set_parameter(truth, "film.motor.coefficient", "18 W/(m2 K)");
     output::write(run(Machine::build(truth), tests::two_speeds(), {}).dataset, *folder / "run.h5");
-    calibration = calibrate_files({*folder / "mine.toml", {*folder / "run.h5"}, *folder / "calibrated.toml"});
+    calibration = calibrate_files(
+        {*folder / "mine.toml", {*folder / "run.h5"}, *folder / "calibrated.toml", [](int step, double misfit) {
+           if (step == 1) told.emplace_back();
+           told.back().push_back(misfit);
+         }});
   }
   static void TearDownTestSuite() { folder.reset(); }
 
@@ -49,10 +53,12 @@ class CalibrationTest : public testing::Test {
 
   static std::unique_ptr<TemporaryDirectory> folder;
   static Calibration calibration;
+  static std::vector<std::vector<double>> told;  ///< misfits before each step, of each fit
 };
 
 std::unique_ptr<TemporaryDirectory> CalibrationTest::folder;
 Calibration CalibrationTest::calibration;
+std::vector<std::vector<double>> CalibrationTest::told;
 
 TEST_F(CalibrationTest, NumbersThatTheDataKnowAreFoundWithinTheirErrors) {
   auto const& grease = number("bearing.front.grease_factor");
@@ -67,6 +73,16 @@ TEST_F(CalibrationTest, NumbersThatTheDataDoNotKnowAreNotIdentified) {
   auto const& bed = number("lump.bed.mass");
   EXPECT_FALSE(bed.identified);
   EXPECT_NEAR(bed.deviation, 0.10, 0.02);  // the prior's
+}
+
+TEST_F(CalibrationTest, TellsHowItsFitsGo) {
+  ASSERT_EQ(told.size(), 2u);  // of all numbers, then of those identified
+  for (auto const& fit : told) {
+    ASSERT_GT(fit.size(), 1u);
+    EXPECT_TRUE(std::is_sorted(fit.rbegin(), fit.rend()));
+    EXPECT_LT(fit.back(), 0.5 * fit.front());
+    EXPECT_GE(fit.back(), calibration.misfit);  // priors count, too
+  }
 }
 
 TEST_F(CalibrationTest, DoubtsOfTheDataAreToldFirst) {
