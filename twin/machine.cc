@@ -19,6 +19,7 @@
 #include "twin/file/tables.h"
 #include "twin/file_kind.h"
 #include "twin/instruments/temperature_specimen.h"
+#include "twin/stated_axes.h"
 #include "twin/uncertain_range.h"
 #include "twin/volumetric/volumetric_machine.h"
 
@@ -113,30 +114,6 @@ void check_channel_name(Value const& table, std::string const& name) {
       fmt::format("'{}' cannot be the name of a channel: no '/', nor the whole '.', 'time' or empty", name));
 }
 
-constexpr double same_place = 1e-9;  ///< on a screw, of lengths in other units [m]
-
-/// Length without what the sum of its cells rounds [m].
-double length_of(thermal::Body const& bar) { return std::round(1e9 * bar.edges[0].back()) / 1e9; }
-
-std::string length_text(double x) { return thermal::format_quantity(x, dimension::length); }
-
-std::vector<std::string> axis_names(scenarios::MachineLimits const& limits) {
-  std::vector<std::string> names;
-  for (auto const& axis : limits.axes) names.push_back(axis.name);
-  return names;
-}
-
-/// "w" of "w.stroke_from"; empty for what is no input of an axis.
-std::string axis_of_input(std::string const& input) {
-  auto const dot = input.rfind('.');
-  if (dot == std::string::npos || input.starts_with("spindle.")) return {};
-  scenarios::AxisLimits any;
-  any.name = "any";
-  for (auto const& channel : scenarios::own_channels({0.0, {any}}))
-    if (channel.name == any.name + input.substr(dot)) return input.substr(0, dot);
-  return {};
-}
-
 /// Keys of the two places between which a part carries heat.
 constexpr std::pair<char const*, char const*> ends[] = {{"from", "to"},   {"inner", "outer"},  {"shaft", "ring"},
                                                         {"nut", "screw"}, {"rotor", "stator"}, {"first", "second"}};
@@ -166,7 +143,8 @@ class MachineBuilder {
         tables_(document),
         bodies_(tables_),
         assembly_(bodies_.all(), bodies_.order(), spindle_limit(), head_.upwards()),
-        loop_(assembly_, bodies_, document.where.file) {}
+        loop_(assembly_, bodies_, document.where.file),
+        axes_(tables_) {}
   Machine operator()();
 
  private:
@@ -179,12 +157,6 @@ class MachineBuilder {
   void read_sensors();
   void read_displacements();
   void check_moves(DisplacementDescription const& description) const;
-  void check_axis(Value const& table) const;
-  void check_axes_of_inputs() const;
-  [[nodiscard]] Location place_without_axis() const;
-  [[nodiscard]] std::vector<std::string> bars_of_nuts(std::string const& axis) const;
-  void check_positions(Value const& table, BallScrewDescription const& screw) const;
-  void check_strokes();
   void read_screws();
   void read_reading_terms();
   void read_displacement_instruments();
@@ -200,6 +172,7 @@ class MachineBuilder {
   Bodies bodies_;
   Assembly assembly_;
   StructuralLoop loop_;
+  StatedAxes axes_;
   std::map<std::string, std::string> channels_;  ///< of readings, by name: the kind of table that has it
 };
 
@@ -231,14 +204,8 @@ void MachineBuilder::read_head() {
   machine_.title = head_.title;
   machine_.up = head_.upwards();
   machine_.limits.max_spindle_speed = assembly_.maximum_spindle_speed();
-  for (auto const& [axis, table] : tables_.read<AxisDescription>("axis")) {
-    if (!(axis.stroke_to > axis.stroke_from))
-      throw FileError(table->find("stroke_to")->where,
-                      fmt::format("the stroke of axis '{}' ends at {}; it must end beyond stroke_from, {}", axis.name,
-                                  length_text(axis.stroke_to), length_text(axis.stroke_from)));
-    machine_.limits.axes.push_back({axis.name, axis.rapid_feed, axis.lead, axis.stroke_from, axis.stroke_to});
-    if (axis.friction_at == "moving speed") assembly_.take_friction_while_moving(axis.name);
-  }
+  machine_.limits.axes = axes_.limits();
+  for (auto const& axis : axes_.with_friction_while_moving()) assembly_.take_friction_while_moving(axis);
 }
 
 /// What carries heat between two places needs two.
@@ -270,7 +237,7 @@ void MachineBuilder::read_parts() {
     tables_.claim(*table, entry->name, part->name());
     check_channel_name(*table, entry->name + "." + part->name());
     assembly_.begin_part(entry->name + "." + part->name());
-    check_axis(*table);
+    axes_.check(*table);
     located(*table, [&, &table = *table] {
       check_ends(table);
       part->add_to(assembly_);
@@ -359,97 +326,14 @@ void MachineBuilder::check_moves(DisplacementDescription const& d) const {
                   d.name));
 }
 
-/// FileError where a table names an axis that the machine has not, though it states others.
-void MachineBuilder::check_axis(Value const& table) const {
-  Value const* given = table.find("axis");
-  auto const names = axis_names(machine_.limits);
-  if (!given || !given->is_text() || names.empty()) return;
-  auto const& name = std::get<std::string>(given->content);
-  if (std::find(names.begin(), names.end(), name) == names.end())
-    throw FileError(given->where,
-                    fmt::format("the machine has no axis '{}'; {}", name, thermal::did_you_mean(name, names)));
-}
-
-/// The same of inputs: "X.speed" where the axis is 'x', and those of the axis that a part has where none is given. Any
-/// other may be an experiment's own.
-void MachineBuilder::check_axes_of_inputs() const {
-  auto const names = axis_names(machine_.limits);
-  auto const& inputs = machine_.network_->channel_names();
-  for (int i = 0; i < machine_.network_->external_channels(); ++i) {
-    auto const& input = inputs[std::size_t(i)];
-    auto const axis = axis_of_input(input);
-    if (names.empty() || axis.empty() || std::find(names.begin(), names.end(), axis) != names.end()) continue;
-    auto const what = fmt::format("the machine has no axis '{}'; {}", axis, thermal::did_you_mean(axis, names));
-    auto const place = place_of(document_, "'" + input + "'");
-    bool const is_written = place.line != document_.where.line || place.column != document_.where.column;
-    if (!is_written) throw FileError(place_without_axis(), fmt::format("'axis' is not given: {}", what));
-    if (!thermal::meant_name(axis, names).empty()) throw FileError(place, fmt::format("'{}': {}", input, what));
-  }
-}
-
-/// Of the first part that takes the axis it has by default.
-Location MachineBuilder::place_without_axis() const {
-  for (auto const& entry : effect_catalogue()) {
-    bool const has_axis = std::any_of(entry.parameters.begin(), entry.parameters.end(),
-                                      [](auto const& parameter) { return parameter.key == "axis"; });
-    for (auto const& table : tables_.of(entry.name))
-      if (has_axis && !table.find("axis")) return table.where;
-  }
-  return document_.where;
-}
-
-/// The bars on which the ball nuts of an axis run.
-std::vector<std::string> MachineBuilder::bars_of_nuts(std::string const& axis) const {
-  std::vector<std::string> bars;
-  for (auto const& table : tables_.of("ball_nut")) {
-    auto const own = texts_of(table, "axis"), screw = texts_of(table, "screw");
-    if ((own.empty() ? BallScrewDescription().axis : own[0]) == axis)
-      bars.insert(bars.end(), screw.begin(), screw.end());
-  }
-  return bars;
-}
-
-void MachineBuilder::check_positions(Value const& table, BallScrewDescription const& screw) const {
-  double const length = length_of(assembly_.body(screw.body));
-  for (std::size_t i = 0; i < screw.positions.size(); ++i) {
-    if (screw.positions[i] >= -same_place && screw.positions[i] <= length + same_place) continue;
-    Value const& given = *table.find("positions");
-    throw FileError(given.is_list() ? std::get<Value::List>(given.content)[i].where : given.where,
-                    fmt::format("'positions' has {}; the screw reaches from 0 mm to {}",
-                                length_text(screw.positions[i]), length_text(length)));
-  }
-}
-
-/// FileError for a stroke beyond the ends of its screw: the shortest bar of the axis' nuts and ball screws.
-void MachineBuilder::check_strokes() {
-  for (std::size_t a = 0; a < machine_.limits.axes.size(); ++a) {
-    auto& axis = machine_.limits.axes[a];
-    auto bars = bars_of_nuts(axis.name);
-    for (auto const& screw : machine_.screws)
-      if (screw.description.axis == axis.name) bars.push_back(screw.description.body);
-    for (auto const& bar : bars) axis.screw_length = std::min(axis.screw_length, length_of(assembly_.body(bar)));
-    for (auto const& [key, x] : {std::pair("stroke_from", axis.stroke_from), std::pair("stroke_to", axis.stroke_to)})
-      if (Value const* given = tables_.of("axis")[a].find(key)) try {
-          scenarios::require_on_screw(x, axis, fmt::format("'{}': ", key));
-        } catch (InputError const& error) {
-          throw FileError(given->where, error.what());
-        }
-  }
-}
-
 void MachineBuilder::read_screws() {
   for (auto const& [description, table] : tables_.read<BallScrewDescription>("ball_screw"))
     located(*table, [&, &d = description, &table = *table] {
       check_channel_name(table, d.name);
-      check_axis(table);
+      axes_.check(table);
       thermal::Body const& body = assembly_.body(d.body);
       if (body.shape != thermal::Body::Shape::axial) throw InputError(fmt::format("'{}' is not a bar", d.body));
-      if (auto const bars = bars_of_nuts(d.axis);
-          !bars.empty() && std::find(bars.begin(), bars.end(), d.body) == bars.end())
-        throw FileError(table.find("body")->where,
-                        fmt::format("'{}' is no screw of axis '{}', whose ball_nut runs on '{}'", d.body, d.axis,
-                                    fmt::join(bars, "', '")));
-      check_positions(table, d);
+      axes_.check_screw(table, d, assembly_);
       thermal::Material const& metal = bodies_.metal_of(d.body);
       using Support = thermal::BallScrew::Support;
       thermal::BallScrew screw;
@@ -610,14 +494,14 @@ Machine MachineBuilder::operator()() {
   read_sensors();
   read_displacements();
   read_screws();
-  check_strokes();
+  machine_.limits.axes = axes_.limits_on_screws(machine_.screws, assembly_);
   read_displacement_instruments();
   check_volumetric();
   static_cast<void>(tables_.read<UncertainRange>("uncertain"));  // the keys; what they say is for ranged_numbers()
   read_reading_terms();
   assembly_.add_air_terms();
   build_network();
-  check_axes_of_inputs();
+  axes_.check_inputs(*machine_.network_);
   refuse_names_of_inputs();
   hang_bodies();
   return std::move(machine_);

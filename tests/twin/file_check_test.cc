@@ -323,8 +323,10 @@ TEST(FileCheck, RefusesWhatLiesBeyondTheScrew) {
                         "120 mm"));
   std::string const positions = "positions = [\"120 mm\", \"420 mm\", \"720 mm\"]";
   EXPECT_EQ(mistake(positions, "positions = [\"0 mm\", \"840 mm\"]"), "");
-  EXPECT_THAT(mistake(positions, "positions = [\"120 mm\", \"4 m\"]"),
-              HasSubstr("mine.toml:372:24: 'positions' has 4 m; the screw reaches from 0 mm to 840 mm"));
+  EXPECT_THAT(
+      mistake(positions, "positions = [\"120 mm\", \"4 m\"]"),
+      HasSubstr(
+          "mine.toml:372:24: 'positions': 4 m is not on the screw of axis 'z', which reaches from 0 mm to 840 mm"));
 }
 
 /// The same of experiments; a laser's targets count from the start of the stroke.
