@@ -30,7 +30,7 @@ Displacement displacement_of(Machine const& machine, std::string const& name) {
   for (auto const& displacement : machine.displacements) {
     if (displacement.name == name && displacement.rotation)
       throw thermal::InputError(
-          fmt::format("'{}' of the machine is an angle; an offset needs a displacement in um", name));
+          fmt::format("'{}' of the machine is an angle; the twin observes displacements in um", name));
     if (displacement.name == name) return displacement;
     known.push_back(displacement.name);
   }
@@ -55,13 +55,22 @@ void require_observable(Machine const& machine) {
                                           machine.name, machine.network().nodes(), most_nodes));
 }
 
+std::vector<std::string> on_bodies(Machine const& machine) {
+  std::vector<std::string> names;
+  for (auto const& sensor : machine.sensors)
+    if (!sensor.weights.empty()) names.push_back(sensor.description.name);
+  return names;
+}
+
 }  // namespace
 
-TwinObserver::TwinObserver(Machine machine, std::string const& displacement, ObserverOptions const& options)
+TwinObserver::TwinObserver(Machine machine, std::string const& displacement, ObserverOptions const& options,
+                           std::optional<std::vector<std::string>> const& sensors)
     : machine_(std::move(machine)), displacement_(displacement_of(machine_, displacement)), options_(options) {
   require_observable(machine_);
   list_channels();
   list_inputs();
+  list_sensors(sensors);
   evaluation_ = std::make_shared<thermal::Evaluation>(machine_.network());
 }
 
@@ -83,11 +92,19 @@ void TwinObserver::list_inputs() {
     if (channel.name != floor_temperature && channel.name != "ambient.temperature") add(channel.name);
     if (channel.name == "ambient.gradient") add("ambient.reference_height");
   }
-  for (std::size_t s = 0; s < machine_.sensors.size(); ++s)
-    if (!machine_.sensors[s].weights.empty()) {
-      inputs_.push_back({machine_.sensors[s].description.name, "degC", true, false});
-      sensors_.push_back(s);
-    }
+}
+
+void TwinObserver::list_sensors(std::optional<std::vector<std::string>> const& names) {
+  auto const known = on_bodies(machine_);
+  for (auto const& name : names.value_or(known)) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw thermal::InputError(
+          fmt::format("the twin has no sensor '{}' on a body; {}", name, thermal::did_you_mean(name, known)));
+    inputs_.push_back({name, "degC", true, false});
+    sensors_.push_back(std::size_t(std::find_if(machine_.sensors.begin(), machine_.sensors.end(),
+                                                [&](auto const& sensor) { return sensor.description.name == name; }) -
+                                   machine_.sensors.begin()));
+  }
 }
 
 double TwinObserver::given(std::string const& name, std::span<double const> values, double otherwise) const {

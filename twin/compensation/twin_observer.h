@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ struct ObserverOptions {
   double heat_noise = 5e-3;    ///< of the twin: deviation of each node's temperature after one second [K/√s]
   double sensor_noise = 0.05;  ///< of a reading, with what its place differs from its node [K]
   double longest_step = 10.0;  ///< of the integration, up to a thousand of them between two decisions [s]
+
+  bool operator==(ObserverOptions const&) const = default;
 };
 
 /// The twin running beside the machine, driven by its inputs and corrected by its sensors: an extended Kalman filter
@@ -32,11 +35,15 @@ struct ObserverOptions {
 /// that is missing leaves it without an estimate.
 class TwinObserver {
  public:
-  /// InputError for a displacement that the machine does not have, a machine with relays (whose switching the observer
-  /// would have to guess), or more nodes than a dense covariance is made for.
-  TwinObserver(Machine machine, std::string const& displacement, ObserverOptions const& options = {});
+  /// `sensors` correct it, in this order; none given: all that the machine has on bodies.
+  ///
+  /// InputError for a displacement that the machine does not have, a sensor that it does not have on a body, a machine
+  /// with relays (whose switching the observer would have to guess), or more nodes than a dense covariance is made for.
+  TwinObserver(Machine machine, std::string const& displacement, ObserverOptions const& options = {},
+               std::optional<std::vector<std::string>> const& sensors = {});
 
-  /// The machine's inputs, required, then its sensors on bodies, each by itself dispensable.
+  [[nodiscard]] ObserverOptions const& options() const { return options_; }
+  /// The machine's inputs, required, then the sensors, each by itself dispensable.
   [[nodiscard]] std::vector<ModelInput> const& inputs() const { return inputs_; }
   /// Thermal error [µm] at `time` [s], which never goes back. NaN among the sensors: not believed.
   [[nodiscard]] double error(double time, std::span<double const> values);
@@ -53,6 +60,7 @@ class TwinObserver {
   };
   void list_channels();
   void list_inputs();
+  void list_sensors(std::optional<std::vector<std::string>> const& names);
   void start(double time, std::span<double const> values);
   void start_in_air(std::span<double const> values);
   void set_channels(std::span<double const> values);

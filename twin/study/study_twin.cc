@@ -8,9 +8,8 @@
 
 #include "scenarios/course.h"
 #include "thermal/error.h"
-#include "thermal/units.h"
 #include "twin/challenge/hidden_world.h"
-#include "twin/compensation/twin_observer.h"
+#include "twin/compensation/observed_run.h"
 #include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/observed_noise.h"
 #include "twin/diagnosis/prediction.h"
@@ -29,8 +28,6 @@ using thermal::InputError;
 constexpr std::uint64_t first_seed = 77'000;  // of the files that twins start from
 constexpr int iterations = 12;
 constexpr double run_tolerance = 1e-6;
-constexpr double reading_noise = 0.1;  // [K], for the observer: noise, steps, and what a place differs from its node
-constexpr double longest_step = 30.0;  // [s], of the observer
 
 struct Window {
   double from, to;  ///< [s]
@@ -129,42 +126,22 @@ double zero_of(Question const& question, std::size_t run, VectorXd const& shown,
   return rows > 0.0 ? sum / rows : shown[0] - said[0];
 }
 
-/// What the observer says at every row of a run's data set [µm]. Between rows it is told the inputs every 30 s.
-VectorXd followed(WorldData const& data, int repetition, std::size_t run, TwinObserver observer,
-                  std::set<std::string> const& chosen) {
+/// Those of the sensors that the twin has on bodies, in its order.
+std::vector<std::string> observing(Machine const& twin, std::set<std::string> const& chosen) {
+  std::vector<std::string> sensors;
+  for (auto const& sensor : twin.sensors)
+    if (!sensor.weights.empty() && chosen.contains(sensor.description.name)) sensors.push_back(sensor.description.name);
+  return sensors;
+}
+
+/// What the observer says at every row of a run's data set [µm].
+VectorXd followed(WorldData const& data, int repetition, std::size_t run, TwinObserver const& observer) {
   auto const& runs = *data.runs;
-  auto const& seen = runs.runs[std::size_t(repetition)][run];
-  auto const* measured = runs.measured[run].get();
-  std::unique_ptr<thermal::Course const> programmed;
-  if (!measured)
-    programmed = std::make_unique<scenarios::ExperimentCourse>(*runs.experiments[run], runs.machine.limits);
-  auto const& course = measured ? *measured->course : *programmed;
-  double const zero = measured ? measured->time[first_reading(*measured)] : 0.0;
-  auto const& inputs = observer.inputs();
-  std::vector<double> given(course.channels().size()), told(inputs.size());
-  auto const tell = [&](double time, Index row) {  // row < 0: between two of them
-    course.evaluate(zero + time, given);
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      told[i] = std::nan("");
-      for (std::size_t c = 0; !inputs[i].sensor && c < given.size(); ++c)
-        if (inputs[i].name == course.channels()[c].name)
-          told[i] = inputs[i].unit == "1" ? given[c] : thermal::to_unit(given[c], inputs[i].unit);
-      for (auto const& reading : seen.readings)
-        if (inputs[i].sensor && row >= 0 && inputs[i].name == reading.name && chosen.contains(reading.name))
-          told[i] = reading.values[row];
-      if (!inputs[i].sensor && std::isnan(told[i]))
-        throw InputError(fmt::format("it needs the input '{}', which a run does not give", inputs[i].name));
-    }
-    return observer.error(time, told);
-  };
-  VectorXd error(seen.time_s.size());
-  for (Index row = 0; row < error.size(); ++row) {
-    if (row > 0)
-      for (double time = seen.time_s[row - 1] + longest_step; time < seen.time_s[row] - 1e-6; time += longest_step)
-        (void)tell(time, -1);
-    error[row] = tell(seen.time_s[row], row);
-  }
-  return error;
+  auto const& shown = runs.runs[std::size_t(repetition)][run];
+  if (auto const* measured = runs.measured[run].get())
+    return observed_error(observer, shown, *measured->course, measured->time[first_reading(*measured)]);
+  scenarios::ExperimentCourse const programmed(*runs.experiments[run], runs.machine.limits);
+  return observed_error(observer, shown, programmed, 0.0);
 }
 
 /// Σ (measured − said)² over the rows trained on.
@@ -237,17 +214,13 @@ FittedModel observed(StudyWorld const& world, WorldData const& data, int repetit
   FittedModel result{nothing_more({chosen.begin(), chosen.end()}), "", {}};
   try {
     double least = std::numeric_limits<double>::infinity();
-    for (double const heat_noise : {1e-4, 5e-4, 2.5e-3}) {
-      auto const& time = question.training.front().time;
-      ObserverOptions const options{
-          .heat_noise = heat_noise,
-          .sensor_noise = reading_noise * std::sqrt(std::min(longest_step, time[1] - time[0])),
-          .longest_step = longest_step};
-      TwinObserver const observer(twin, world.error, options);
+    auto const& time = question.training.front().time;
+    for (auto const& options : observer_choices(time[1] - time[0])) {
+      TwinObserver const observer(twin, world.error, options, observing(twin, chosen));
       std::map<std::size_t, VectorXd> said;
       for (auto const run : runs_of(question)) {
         auto const& shown = run_of(data, repetition, run);
-        VectorXd own = followed(data, repetition, run, observer, chosen)(shown.kept);
+        VectorXd own = followed(data, repetition, run, observer)(shown.kept);
         if (data.runs->measured[run]) own.array() += zero_of(question, run, shown.seen.error, own);
         said.emplace(run, std::move(own));
       }
@@ -257,7 +230,7 @@ FittedModel observed(StudyWorld const& world, WorldData const& data, int repetit
       result.observed.clear();
       for (auto const& asked : question.asked)
         result.observed.push_back(said.at(asked.run).head(asked.batch.time.size()));
-      result.model.remark = fmt::format("extended Kalman filter, nodes err by {:g} K in a second", heat_noise);
+      result.model.remark = text_of(options);
     }
   } catch (InputError const& error) {
     result.refused = std::string("the observer: ") + error.what();

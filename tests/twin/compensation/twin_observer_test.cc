@@ -170,7 +170,33 @@ TEST(TwinObserver, BeginsAnewAfterANightAndNotAfterAMinute) {
   EXPECT_LT(std::abs(decision.error), 1.0);
 }
 
+/// One that is not among them is as one that is never believed.
+TEST(TwinObserver, FollowsTheNamedSensorsInTheirOrder) {
+  auto const data = simulated("duty_003", 60.0, other_machine);
+  TwinObserver some(g200(), "E_X", {}, std::vector<std::string>{"T10", "T2"}), all(g200(), "E_X");
+  auto const machine = std::size_t(
+      std::count_if(all.inputs().begin(), all.inputs().end(), [](auto const& input) { return !input.sensor; }));
+  ASSERT_EQ(some.inputs().size(), machine + 2);
+  EXPECT_EQ(some.inputs()[machine].name, "T10");
+  EXPECT_EQ(some.inputs()[machine + 1].name, "T2");
+  for (Eigen::Index row = 0; row < 100; ++row) {
+    auto told = values_of(data, row, all.inputs(), true);
+    for (std::size_t i = 0; i < told.size(); ++i)
+      if (auto const& input = all.inputs()[i]; input.sensor && input.name != "T10" && input.name != "T2")
+        told[i] = std::nan("");
+    ASSERT_NEAR(some.error(data.time_s[row], values_of(data, row, some.inputs(), true)),
+                all.error(data.time_s[row], told), 1e-9);
+  }
+  EXPECT_THROW(static_cast<void>(some.change("T3")), thermal::InputError);
+}
+
 TEST(TwinObserver, RefusesWhatItCannotObserve) {
+  try {
+    TwinObserver const observer(g200(), "E_X", {}, std::vector<std::string>{"T2", "T99"});
+    FAIL() << "not refused";
+  } catch (thermal::InputError const& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("the twin has no sensor 'T99' on a body; did you mean 'T"));
+  }
   try {
     TwinObserver const observer(g200(), "E_x");
     FAIL() << "not refused";
@@ -181,7 +207,7 @@ TEST(TwinObserver, RefusesWhatItCannotObserve) {
     TwinObserver const observer(g200(), "B");
     FAIL() << "not refused";
   } catch (thermal::InputError const& error) {
-    EXPECT_STREQ(error.what(), "'B' of the machine is an angle; an offset needs a displacement in um");
+    EXPECT_STREQ(error.what(), "'B' of the machine is an angle; the twin observes displacements in um");
   }
   EXPECT_THROW(TwinObserver(Machine::read(machine_file("v450_fine")), "E_Z"), thermal::InputError);
 }
