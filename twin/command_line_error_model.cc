@@ -33,7 +33,7 @@ void FitCommand::add_to(CLI::App& command) {
       ->delimiter(',');
   command
       .add_option("--method", fit.method,
-                  "linear, ridge, ridge_distributed_lag, …; the mean of several: \"twin & ridge\"; docs/study.md")
+                  "linear, ridge, \"twin observer\", …; the mean of several: \"twin & ridge\"; docs/study.md")
       ->capture_default_str();
   command.add_option("--twin", twin,
                      "machine, file or name, best calibrated; a method that does not name it fits what it errs by");

@@ -109,6 +109,20 @@ struct NetworkTable : ScalingTable {
   }
 };
 
+struct ObserverTable {
+  double heat_noise = required, sensor_noise = required, longest_step = required;
+
+  template <class Fields>
+  static void fields(Fields& f) {
+    f("heat_noise", &ObserverTable::heat_noise, dimensionless, "what a node errs by after one second [K/s^0.5]",
+      Range{0.0, 1.0});
+    f("sensor_noise", &ObserverTable::sensor_noise, dimensionless, "what a reading errs by, times root time [K s^0.5]",
+      Range{0.0, 100.0, true});
+    f("longest_step", &ObserverTable::longest_step, thermal::dimension::time, "of the integration",
+      Range{0.0, 3600.0, true});
+  }
+};
+
 struct ModelTable {
   std::string method, remark;
   std::vector<std::string> inputs;
@@ -117,10 +131,12 @@ struct ModelTable {
   std::optional<LinearTable> linear;
   std::optional<KernelTable> kernel;
   std::optional<NetworkTable> network;
+  std::optional<ObserverTable> observer;
 
   template <class Fields>
   static void fields(Fields& f) {
-    f.name("method", &ModelTable::method, "name in the catalogue; \"twin ridge\" of what the twin errs by, \"twin\"");
+    f.name("method", &ModelTable::method,
+           "name in the catalogue; \"twin ridge\" of what the twin errs by, \"twin\", \"twin observer\"");
     f("inputs", &ModelTable::inputs, "sensors in the order of the coefficients");
     f("lowest_K", &ModelTable::lowest, dimensionless, "change of each input since the first row that the fit saw");
     f("highest_K", &ModelTable::highest, dimensionless, "likewise; beyond, the model extrapolates");
@@ -130,6 +146,7 @@ struct ModelTable {
     f("linear", &ModelTable::linear, "one of the three forms; the twin alone has none");
     f("kernel", &ModelTable::kernel, "likewise");
     f("network", &ModelTable::network, "likewise");
+    f("observer", &ModelTable::observer, "in their place, of \"twin observer\"");
   }
 };
 
@@ -285,8 +302,15 @@ NamedModel method_of(std::string const& method, Value const& table) {
   }
 }
 
+ModelPart observing_part_of(ModelTable const& read, Value const& table) {
+  if (read.linear || read.kernel || read.network)
+    throw FileError(table.where, "an observer has no form: what it tells is the twin's");
+  return observing_part(read.inputs, {.heat_noise = read.observer->heat_noise,
+                                      .sensor_noise = read.observer->sensor_noise,
+                                      .longest_step = read.observer->longest_step});
+}
+
 ErrorModel model_of(ModelTable const& read, std::string const& method, Value const& table) {
-  if (read.inputs.empty()) throw FileError(table.where, "'inputs' is missing or empty");
   auto const forms = read.linear.has_value() + read.kernel.has_value() + read.network.has_value();
   if (forms != (method.empty() ? 0 : 1))
     throw FileError(table.where, method.empty() ? "the twin alone has no form: it adds nothing to what it says"
@@ -339,8 +363,17 @@ std::vector<InputRange> ranges_of(ModelTable const& read, Value const& table) {
   return ranges;
 }
 
+/// An observer has what it believes, and no form; others the reverse.
 ModelPart part_of(ModelTable const& read, Value const& table) {
   auto const named = method_of(read.method, table);
+  if (read.inputs.empty()) throw FileError(table.where, "'inputs' is missing or empty");
+  if (named.observes() != read.observer.has_value())
+    throw FileError(read.observer ? table.find("observer")->where : table.where,
+                    read.observer
+                        ? fmt::format("'observer' is of the method \"twin observer\", not of '{}'", read.method)
+                        : "'observer' of the twin observer is missing; write for example observer = "
+                          "{ heat_noise = 5e-4, sensor_noise = 0.5, longest_step = \"30 s\" }");
+  if (read.observer) return observing_part_of(read, table);
   return {model_of(read, named.method, table), named.twin, ranges_of(read, table)};
 }
 
@@ -359,10 +392,13 @@ std::vector<ModelPart> parts_of(FileTables const& read, Value const& document) {
   if (read.model) return {part_of(*read.model, *document.find("model"))};
   auto const& tables = std::get<Value::List>(document.find("part")->content);
   std::vector<ModelPart> parts;
+  int observers = 0;
   for (std::size_t k = 0; k < read.parts.size(); ++k) {
     parts.push_back(part_of(read.parts[k], tables[k]));
     if (read.parts[k].inputs != read.parts.front().inputs)
       throw FileError(tables[k].where, "other 'inputs' than those of the first [[part]]; all have the same");
+    if (parts.back().observer && observers++ > 0)
+      throw FileError(tables[k].where, "a second 'twin observer'; a mean has one at most");
   }
   return parts;
 }

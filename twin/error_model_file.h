@@ -27,16 +27,19 @@ namespace thermotwin::twin {
 ///            zero_degC = [20.1, 20.0] }]
 ///
 ///   [model]                             # or several [[part]], whose mean it is
-///   method = "ridge"                    # "twin ridge": of what the twin errs by; "twin": nothing more
-///   inputs = ["T2", "T4"]
-///   lowest_K = [-0.1, 0]                # change of each input since the first row, that the fit saw; may be missing
-///   highest_K = [7.8, 3.2]
-///   sample_period = "180 s"
-///   parameters = 3
-///   remark = "…"
+///   method = "ridge"                    # "twin ridge": of what the twin errs by; "twin": nothing more; "twin
+///   observer" inputs = ["T2", "T4"] lowest_K = [-0.1, 0]                # change of each input since the first row,
+///   that the fit saw; may be missing highest_K = [7.8, 3.2] sample_period = "180 s" parameters = 3 remark = "…"
 ///   [model.linear]                      # or model.kernel, model.network
 ///   intercept = 1.25
 ///   lag = [{ samples = 0, coefficients = [0.5, -2.75] }]
+///
+/// "twin observer" has, in place of all from lowest_K on, what it believes (ObserverOptions):
+///
+///   [model.observer]
+///   heat_noise = 0.0005                 # [K/√s]
+///   sensor_noise = 0.5                  # [K √s]
+///   longest_step = "30 s"
 ///
 /// Written atomically; InputError for a model with a number that is not finite.
 void write_error_model(std::filesystem::path const& path, SavedErrorModel const& saved);

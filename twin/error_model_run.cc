@@ -9,6 +9,7 @@
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
 #include "twin/axis_record.h"
+#include "twin/compensation/observed_run.h"
 #include "twin/complete_rows.h"
 #include "twin/diagnosis/measured_data.h"
 #include "twin/diagnosis/prediction.h"
@@ -100,6 +101,8 @@ RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<d
     result.shown.positioning = file.positioning;
     for (auto& laser : result.shown.positioning) laser.time_s.array() -= file.time_s[0] + run.time[first_reading(run)];
     if (!twin) return result;
+    result.course = run.course;
+    result.start = run.time[first_reading(run)];
     auto const values = predict(*twin, run);
     result.said = dataset_of(run, sampling, &values);
     return result;
@@ -117,8 +120,9 @@ ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& 
   for (auto const& sensor : sensors) used.push_back(&sensor_named(data, sensor, run.file));
   auto const* shown = slope ? nullptr : find_channel(data.displacements, error);
   if (!slope && (shown || must_show)) used.push_back(&displacement_named(data, error, run.file));
-  auto const rows = complete_rows(used, run.file, run.remarks);
   ErrorModelRun result;
+  result.rows = complete_rows(used, run.file, run.remarks);
+  auto const& rows = result.rows;
   auto& batch = result.batch;
   batch = {run.file, data.time_s(rows), sensors, sensors, {}, {}};
   take_changes(data, error, rows, batch);
@@ -140,6 +144,15 @@ ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& 
   result.shown = slope || shown;
   result.fingerprint = fingerprint_of(result);
   return result;
+}
+
+VectorXd observed_change(TwinObserver const& observer, RecordedRun const& recorded, ErrorModelRun const& run) {
+  try {
+    VectorXd const error = observed_error(observer, recorded.shown, *recorded.course, recorded.start)(run.rows);
+    return error.array() - error[0];
+  } catch (InputError const& error) {
+    throw InputError(fmt::format("{}: the observer: {}", recorded.file, error.what()));
+  }
 }
 
 models::Batch ErrorModelRun::less_twin() const {

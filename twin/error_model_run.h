@@ -1,12 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "models/feed_axis.h"
 #include "output/dataset.h"
+#include "thermal/operating_point.h"
+#include "twin/compensation/twin_observer.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -20,6 +23,8 @@ struct RecordedRun {
   output::Dataset shown;                ///< dead sensors and missing readings are NaN
   std::optional<output::Dataset> said;  ///< by the twin, in the same rows
   std::vector<std::string> remarks;
+  std::shared_ptr<thermal::Course const> course{};  ///< of the inputs, where there is a twin
+  double start = 0.0;                               ///< on the course, of the rows' 0 [s]
 };
 
 /// Means over `sampling` [s] where it is given. With a twin, what the machine says that is given the run's inputs.
@@ -29,13 +34,15 @@ struct RecordedRun {
 
 /// A run as error models see it, temperatures and errors counted from the first row that has all of them.
 struct ErrorModelRun {
-  models::Batch batch;                     ///< as shown; error 0 where the run did not show it
-  std::optional<models::Batch> said;       ///< by the twin, where there is one
-  std::optional<models::AxisRecord> axis;  ///< where the error is a slope
-  bool shown = true;                       ///< the run shows the error
-  std::string unit, title;                 ///< of the error
-  std::vector<double> zero;                ///< what the sensors showed first, to 1 mK [°C]
+  models::Batch batch;                        ///< as shown; error 0 where the run did not show it
+  std::optional<models::Batch> said;          ///< by the twin, where there is one
+  std::optional<Eigen::VectorXd> observed{};  ///< error that an observer tells, where there is one
+  std::optional<models::AxisRecord> axis;     ///< where the error is a slope
+  bool shown = true;                          ///< the run shows the error
+  std::string unit, title;                    ///< of the error
+  std::vector<double> zero;                   ///< what the sensors showed first, to 1 mK [°C]
   std::string fingerprint;
+  std::vector<Eigen::Index> rows{};  ///< of the record
 
   /// What the twin errs by. There must be one.
   [[nodiscard]] models::Batch less_twin() const;
@@ -46,5 +53,10 @@ struct ErrorModelRun {
 /// the error too where it must be shown.
 [[nodiscard]] ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& sensors,
                                             std::string const& error, bool must_show);
+
+/// The error that an observer tells in the rows of a run whose record has a course, counted from the first of them.
+/// InputError that names the run.
+[[nodiscard]] Eigen::VectorXd observed_change(TwinObserver const& observer, RecordedRun const& recorded,
+                                              ErrorModelRun const& run);
 
 }  // namespace thermotwin::twin

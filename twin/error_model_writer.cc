@@ -105,6 +105,11 @@ std::string fit_text(SavedErrorModel const& saved) {
   return text + "]\n";
 }
 
+std::string observer_text(ObserverOptions const& options, std::string_view table) {
+  return fmt::format("\n[{}.observer]\nheat_noise = {}\nsensor_noise = {}\nlongest_step = \"{} s\"\n", table,
+                     number(options.heat_noise), number(options.sensor_noise), number(options.longest_step));
+}
+
 /// `head`: "[model]", "[[part]]"; `table`: what its form's table is of.
 std::string part_text(ModelPart const& part, std::string_view head, std::string_view table) {
   auto const& model = part.model;
@@ -112,6 +117,7 @@ std::string part_text(ModelPart const& part, std::string_view head, std::string_
   for (auto const& input : model.inputs) inputs.push_back(toml_text(input));
   std::string const text = fmt::format("\n{}\nmethod = {}\ninputs = [{}]\n{}", head, toml_text(part.name()),
                                        fmt::join(inputs, ", "), ranges_text(part.ranges));
+  if (part.observer) return text + observer_text(*part.observer, table);
   if (!part.reads()) return text;
   return text +
          fmt::format("sample_period = \"{} s\"\nparameters = {}\nremark = {}\n", number(model.sample_period),

@@ -7,6 +7,7 @@
 
 #include "models/metrics.h"
 #include "thermal/error.h"
+#include "twin/diagnosis/measured_run.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -22,11 +23,27 @@ MatrixXd predicted_of(SavedErrorModel const& saved, ErrorModelRun const& run) {
   }
 }
 
-void remark_machine(SavedErrorModel const& saved, std::string const& machine, std::vector<std::string>& remarks) {
+std::vector<std::string> fitted_machines(SavedErrorModel const& saved) {
   std::vector<std::string> fitted;
   for (auto const& run : saved.runs)
     if (!run.machine.empty() && std::find(fitted.begin(), fitted.end(), run.machine) == fitted.end())
       fitted.push_back(run.machine);
+  return fitted;
+}
+
+/// An observer is of its machine, whatever the names of sensors and inputs.
+void refuse_other_machine(SavedErrorModel const& saved, std::string const& twin, RecordedRun const& run) {
+  auto known = fitted_machines(saved);
+  known.push_back(twin);
+  if (run.machine.empty() ||
+      std::any_of(known.begin(), known.end(), [&](auto const& name) { return is_same_machine(name, run.machine); }))
+    return;
+  throw thermal::InputError(
+      fmt::format("{} is a run of '{}'; '{}' observes '{}'", run.file, run.machine, saved.method(), twin));
+}
+
+void remark_machine(SavedErrorModel const& saved, std::string const& machine, std::vector<std::string>& remarks) {
+  auto const fitted = fitted_machines(saved);
   if (machine.empty() || fitted.empty() || std::find(fitted.begin(), fitted.end(), machine) != fitted.end()) return;
   remarks.push_back(fmt::format("of '{}'; the model was fitted to '{}'", machine, fmt::join(fitted, "', '")));
 }
@@ -59,9 +76,12 @@ MatrixXd ErrorPrediction::shown() const { return run.axis ? run.axis->error : Ma
 
 ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::path const& run) {
   auto const twin = saved.twin ? std::optional(twin_of(*saved.twin)) : std::nullopt;
+  auto const observer = twin ? observer_of(saved, *twin) : std::nullopt;
   auto recorded = read_recorded_run(run, saved.sampling, twin ? &*twin : nullptr);
+  if (observer) refuse_other_machine(saved, twin->name, recorded);
   ErrorPrediction result;
   result.run = error_model_run(recorded, saved.inputs(), saved.error, false);
+  if (observer) result.run.observed = observed_change(*observer, recorded, result.run);
   if (result.run.shown && result.run.unit != saved.unit)
     throw thermal::InputError(fmt::format("{} shows {} in {}; the model predicts {}", recorded.file, saved.error,
                                           result.run.unit, saved.unit));

@@ -117,9 +117,20 @@ std::string counted(std::size_t count, std::string const& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+/// What the twin of an observer lacks is told where the model asks for it.
+void check_observer(SavedErrorModel const& saved, Machine const& twin, std::filesystem::path const& file) {
+  try {
+    static_cast<void>(observer_of(saved, twin));
+  } catch (thermal::InputError const& error) {
+    auto const document = read_toml(file);
+    auto const* model = document.find("model");
+    throw about(model ? *model : document, error.what());
+  }
+}
+
 std::string checked_error_model(std::filesystem::path const& file) {
   auto const saved = read_error_model(file);
-  if (saved.twin) static_cast<void>(twin_of(*saved.twin));
+  if (saved.twin) check_observer(saved, twin_of(*saved.twin), file);
   return fmt::format("an error model: {} of {} [{}] on {}, fitted to {}", saved.method(), saved.error, saved.unit,
                      counted(saved.inputs().size(), "input"),
                      saved.runs.empty() ? "nobody knows what" : counted(saved.runs.size(), "run"));

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <stdexcept>
 
 #include "models/metrics.h"
 #include "thermal/error.h"
 #include "twin/axis_record.h"
+#include "twin/compensation/observed_run.h"
+#include "twin/diagnosis/measured_run.h"
 #include "twin/error_model_run.h"
 #include "twin/study/judgement.h"
 #include "twin/study/study_file.h"
@@ -16,17 +19,24 @@
 namespace thermotwin::twin {
 namespace {
 
+/// Whether the machine has it on a body.
+bool observes(TwinObserver const& observer, std::string const& sensor) {
+  return std::any_of(observer.inputs().begin(), observer.inputs().end(),
+                     [&](auto const& input) { return input.sensor && input.name == sensor; });
+}
+
 /// Why a run's sensor is not for a model of all sensors; empty: it is.
-std::string unusable(output::Dataset const& shown, std::string const& sensor) {
+std::string unusable(output::Dataset const& shown, std::string const& sensor, TwinObserver const* observer) {
   auto const it =
       std::find_if(shown.readings.begin(), shown.readings.end(), [&](auto const& c) { return c.name == sensor; });
   if (it == shown.readings.end()) return "it is not there";
+  if (observer && !observes(*observer, sensor)) return "the twin does not have it on a body";
   auto const missing = (!it->values.array().isFinite()).count();
   if (missing == it->values.size()) return "it is dead";
   return missing > 0 ? fmt::format("{} of {} readings are missing", missing, it->values.size()) : std::string();
 }
 
-std::vector<std::string> usable_sensors(std::vector<RecordedRun>& runs) {
+std::vector<std::string> usable_sensors(std::vector<RecordedRun>& runs, TwinObserver const* observer) {
   std::vector<std::string> sensors;  // of any run
   for (auto const& run : runs)
     for (auto const& channel : run.shown.readings)
@@ -38,7 +48,7 @@ std::vector<std::string> usable_sensors(std::vector<RecordedRun>& runs) {
                     runs.front().file));
   for (auto& run : runs)
     std::erase_if(sensors, [&](std::string const& sensor) {
-      auto const why = unusable(run.shown, sensor);
+      auto const why = unusable(run.shown, sensor, observer);
       if (!why.empty()) run.remarks.push_back(fmt::format("{} is left out: {}", sensor, why));
       return !why.empty();
     });
@@ -83,17 +93,47 @@ void remark_repeated(std::vector<ErrorModelRun> const& runs, std::vector<Recorde
 /// What a study would call the models whose mean is fitted. Beside a twin stands what names none, too.
 std::vector<NamedModel> models_of(ErrorModelFit const& fit) {
   auto models = named_models(fit.method);
-  if (std::any_of(models.begin(), models.end(), [](auto const& model) { return model.observes(); }))
-    throw thermal::InputError(
-        fmt::format("'{}': an observer has nothing to fit; compensate --observer runs one", fit.method));
   bool const named = std::any_of(models.begin(), models.end(), [](auto const& model) { return model.twin; });
+  if ((named || fit.twin) && fit.error.starts_with(slope_prefix))
+    throw thermal::InputError(fmt::format("'{}': a slope is fitted without a twin", fit.error));
   if (named && !fit.twin)
     throw thermal::InputError(fmt::format("'{}': the twin's machine file is missing; give --twin FILE", fit.method));
   if (fit.twin && !named)
     for (auto& model : models) model.twin = true;
-  if (fit.twin && fit.error.starts_with(slope_prefix))
-    throw thermal::InputError(fmt::format("'{}': a slope is fitted without a twin", fit.error));
   return models;
+}
+
+/// The twin as observer, of the sensors that are named, or of all, where one of the models is it.
+std::optional<TwinObserver> named_observer(std::vector<NamedModel> const& models, ErrorModelFit const& fit,
+                                           std::optional<Machine> const& twin) {
+  if (std::none_of(models.begin(), models.end(), [](auto const& model) { return model.observes(); }))
+    return std::nullopt;
+  return TwinObserver(*twin, fit.error, {}, fit.sensors.empty() ? std::nullopt : std::optional(fit.sensors));
+}
+
+/// Of what the twin as observer may believe, that with which the displacements of the runs are met best, each from a
+/// zero of its own. The runs know what it tells.
+ModelPart fitted_observer(Machine const& twin, std::string const& error, std::vector<RecordedRun> const& recorded,
+                          std::vector<ErrorModelRun>& runs) {
+  auto const& first = runs.front().batch;
+  ModelPart best;
+  double least = std::numeric_limits<double>::infinity();
+  for (auto const& choice : observer_choices(usual_interval({first.time.data(), std::size_t(first.time.size())}))) {
+    TwinObserver const observer(twin, error, choice, first.sensors);
+    std::vector<Eigen::VectorXd> told;
+    double missed = 0.0;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      told.push_back(observed_change(observer, recorded[r], runs[r]));
+      auto const rest = (runs[r].batch.error - told.back()).eval();
+      missed += (rest.array() - rest.mean()).square().sum();
+    }
+    if (!(missed < least)) continue;
+    least = missed;
+    best = observing_part(first.sensors, choice);
+    for (std::size_t r = 0; r < runs.size(); ++r) runs[r].observed = told[r];
+  }
+  if (!best.observer) throw thermal::InputError("the observer tells no finite error of these runs");
+  return best;
 }
 
 ModelPart fitted_part(NamedModel const& named, std::vector<ErrorModelRun> const& runs, std::uint64_t seed) {
@@ -104,8 +144,9 @@ ModelPart fitted_part(NamedModel const& named, std::vector<ErrorModelRun> const&
 }
 
 void fit_parts(SavedErrorModel& saved, std::vector<NamedModel> const& models, std::vector<ErrorModelRun> const& runs,
-               std::uint64_t seed) {
-  for (auto const& named : models) saved.parts.push_back(fitted_part(named, runs, seed));
+               std::optional<ModelPart> const& observer, std::uint64_t seed) {
+  for (auto const& named : models)
+    saved.parts.push_back(named.observes() ? observer.value() : fitted_part(named, runs, seed));
   std::vector<models::AxisRecord> records;
   for (auto const& run : runs)
     if (run.axis) records.push_back(*run.axis);
@@ -123,9 +164,10 @@ SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::strin
   }
   auto const beside = fit.twin ? std::optional(twin_beside(*fit.twin)) : std::nullopt;
   auto const twin = beside ? std::optional(twin_of(*beside)) : std::nullopt;
+  auto const observing = named_observer(models, fit, twin);
   std::vector<RecordedRun> recorded;
   for (auto const& file : fit.runs) recorded.push_back(read_recorded_run(file, fit.sampling, twin ? &*twin : nullptr));
-  auto const sensors = fit.sensors.empty() ? usable_sensors(recorded) : fit.sensors;
+  auto const sensors = fit.sensors.empty() ? usable_sensors(recorded, observing ? &*observing : nullptr) : fit.sensors;
   std::vector<ErrorModelRun> runs;
   for (auto& run : recorded) runs.push_back(error_model_run(run, sensors, fit.error, true));
   check_units(runs, fit.error);
@@ -139,7 +181,8 @@ SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::strin
   saved.sampling = fit.sampling;
   saved.twin = beside;
   try {
-    fit_parts(saved, models, runs, fit.seed);
+    auto const observer = observing ? std::optional(fitted_observer(*twin, fit.error, recorded, runs)) : std::nullopt;
+    fit_parts(saved, models, runs, observer, fit.seed);
     for (std::size_t r = 0; r < runs.size(); ++r) saved.runs.push_back(fitted_run(saved, runs[r], recorded[r].machine));
   } catch (std::invalid_argument const& error) {
     throw thermal::InputError(error.what());

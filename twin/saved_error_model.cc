@@ -6,8 +6,10 @@
 #include <fmt/ranges.h>
 
 #include "thermal/error.h"
+#include "twin/compensation/observed_run.h"
 #include "twin/file/text_file.h"
 #include "twin/fingerprint.h"
+#include "twin/study/judgement.h"
 #include "twin/study/study_file.h"
 
 namespace thermotwin::twin {
@@ -47,6 +49,19 @@ std::string ModelPart::name() const {
   return beside_twin && reads() ? fmt::format("{} {}", twin_alone, model.method) : model.method;
 }
 
+ModelPart observing_part(std::vector<std::string> const& sensors, ObserverOptions const& options) {
+  ModelPart part{nothing_more(sensors), true, {}, options};
+  part.model.method = observer_method;
+  part.model.remark = text_of(options);
+  return part;
+}
+
+std::optional<TwinObserver> observer_of(SavedErrorModel const& saved, Machine const& twin) {
+  for (auto const& part : saved.parts)
+    if (part.observer) return TwinObserver(twin, saved.error, *part.observer, part.model.inputs);
+  return std::nullopt;
+}
+
 std::string SavedErrorModel::method() const {
   std::vector<std::string> names;
   for (auto const& part : parts) names.push_back(part.name());
@@ -64,6 +79,8 @@ Eigen::MatrixXd SavedErrorModel::predict(ErrorModelRun const& run) const {
   for (auto const& part : parts) {
     if (run.axis)
       sum += models::FeedAxisModel{part.model, zero_position.value()}.predict(*run.axis);
+    else if (part.observer)
+      sum += run.observed.value();
     else if (part.beside_twin)
       sum += run.said.value().error + part.model.predict(run.less_twin());
     else

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/error_model.h"
+#include "twin/compensation/twin_observer.h"
 #include "twin/error_model_run.h"
 #include "twin/input_range.h"
 #include "twin/machine.h"
@@ -38,10 +39,14 @@ struct ModelPart {
   models::ErrorModel model;
   bool beside_twin = false;        ///< what the twin says, and the model of what that errs by; "twin": nothing more
   std::vector<InputRange> ranges;  ///< of the inputs, in their order; empty: its file does not say
+  std::optional<ObserverOptions> observer{};  ///< of a twin that the inputs correct; the model adds nothing
 
-  [[nodiscard]] std::string name() const;  ///< "ridge", "twin ridge", "twin", as studies call it
+  [[nodiscard]] std::string name() const;  ///< "ridge", "twin ridge", "twin", "twin observer", as studies call it
   [[nodiscard]] bool reads() const;        ///< its sensors: it is not the twin alone
 };
+
+/// The twin that these sensors correct.
+[[nodiscard]] ModelPart observing_part(std::vector<std::string> const& sensors, ObserverOptions const& options);
 
 /// An error model, of what, from which data, and how well it meets them: the mean of its parts (Bates & Granger 1969,
 /// named_models()), all of the same inputs.
@@ -64,6 +69,10 @@ struct SavedErrorModel {
   /// that a part refuses.
   [[nodiscard]] Eigen::MatrixXd predict(ErrorModelRun const& run) const;
 };
+
+/// The part that is an observer, made ready: of the saved model's twin, corrected by its inputs. Nothing where no part
+/// is one. InputError where that twin cannot be observed so (TwinObserver).
+[[nodiscard]] std::optional<TwinObserver> observer_of(SavedErrorModel const& saved, Machine const& twin);
 
 /// What it predicts, from which inputs, what it was fitted to and what it errs by there: a few lines.
 [[nodiscard]] std::string error_model_text(SavedErrorModel const& saved);

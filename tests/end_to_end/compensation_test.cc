@@ -108,6 +108,15 @@ TEST_F(LiveCompensation, ObservesWithTheTwin) {
   EXPECT_LE(2.0 * compensated_rms(play), 5.0) << play << compensate;
 }
 
+TEST_F(LiveCompensation, ObservesAsAFitHasSaved) {
+  answer(program + " fit " + at("other.h5") + " --error E_X --sensors T2,T10 --twin g200 --method 'twin observer' -o " +
+         at("observer.toml"));
+  auto const [play, compensate] = played({"--model", at("observer.toml"), "--fastest", "0.5 K/s"});
+  EXPECT_GT(figure(play, "uncompensated"), 25.0);
+  EXPECT_LE(2.0 * compensated_rms(play), 5.0) << play << compensate;
+  EXPECT_THAT(compensate, HasSubstr("twin observer of E_X [um] (spindle against turret, radial) on T2, T10: "));
+}
+
 TEST_F(LiveCompensation, IsNeverWorseThanNothingWithAFaultySensor) {
   std::array<std::pair<char const*, std::function<void(Eigen::VectorXd&)>>, 4> const faults{
       {{"T2 missing", [](auto& values) { values.segment(80, 120).setConstant(std::nan("")); }},

@@ -197,6 +197,71 @@ TEST_F(ErrorModelFile, HoldsTheMeanOfSeveralModels) {
   EXPECT_EQ(tests::contents(directory_ / "again.toml"), tests::contents(directory_ / "model.toml"));
 }
 
+/// With numbers that need all their digits; its mean with a regression takes what it told, and the regression's own.
+TEST_F(ErrorModelFile, HoldsWhatAnObserverBelieves) {
+  auto const batch = run();
+  ObserverOptions const options{1.0 / 3000.0, 0.1 * std::sqrt(30.0), 90.0 / 7.0};
+  auto all = saved({});
+  all.parts = {observing_part(batch.sensors, options)};
+  all.twin = {directory_ / "mine.toml", "8c"};
+  write_error_model(directory_ / "model.toml", all);
+  auto const read = read_error_model(directory_ / "model.toml");
+  EXPECT_EQ(read.method(), "twin observer");
+  EXPECT_EQ(read.inputs(), batch.sensors);
+  EXPECT_EQ(read.parts[0].observer, options);
+  EXPECT_EQ(read.parts[0].model.remark, "extended Kalman filter, nodes err by 0.000333333 K in a second");
+  write_error_model(directory_ / "again.toml", read);
+  EXPECT_EQ(tests::contents(directory_ / "again.toml"), tests::contents(directory_ / "model.toml"));
+
+  all.parts.push_back({models::model_method("ridge").fit(std::span(&batch, 1), {}), false, {}});
+  write_error_model(directory_ / "model.toml", all);
+  auto const mean = read_error_model(directory_ / "model.toml");
+  EXPECT_EQ(mean.method(), "twin observer & ridge");
+  EXPECT_EQ(mean.parts[0].observer, options);
+  ErrorModelRun seen;
+  seen.batch = seen.said.emplace(batch);
+  seen.observed = 3.0 * batch.error;
+  Eigen::VectorXd const own = 0.5 * (3.0 * batch.error + all.parts[1].model.predict(batch));
+  EXPECT_TRUE(Eigen::VectorXd(mean.predict(seen)).isApprox(own, 1e-12));
+}
+
+TEST_F(ErrorModelFile, RefusesAnObserverThatIsNone) {
+  std::string const twin = "twin = { machine = \"a.toml\", fingerprint = \"8c\" }\n";
+  auto const model = [&](std::string const& text, std::string const& method = "twin observer") {
+    return complaint(predicts + twin + "[model]\nmethod = \"" + method + "\"\ninputs = [\"T2\"]\n" + text);
+  };
+  std::string const heat = "[model.observer]\nheat_noise = 5e-4\n", noise = "sensor_noise = 0.5\n",
+                    step = "longest_step = \"30 s\"\n";
+  std::string const form = "[model.linear]\nintercept = 1\nlag = [{ samples = 0, coefficients = [1] }]\n";
+  EXPECT_EQ(model(heat + noise + step), "");
+  EXPECT_THAT(model(""), HasSubstr("model.toml:3:1: 'observer' of the twin observer is missing; write for example "
+                                   "observer = { heat_noise = 5e-4, sensor_noise = 0.5, longest_step = \"30 s\" }"));
+  EXPECT_THAT(model(heat + noise + step + form), HasSubstr("model.toml:3:1: an observer has no form"));
+  EXPECT_THAT(model(heat + noise + step + form, "twin ridge"),
+              HasSubstr("model.toml:6:1: 'observer' is of the method \"twin observer\", not of 'twin ridge'"));
+  EXPECT_THAT(model(heat + noise + step, "twin"), HasSubstr("is of the method \"twin observer\", not of 'twin'"));
+  EXPECT_THAT(model(heat + noise), HasSubstr("model.toml:6:1: 'longest_step' is missing"));
+  EXPECT_THAT(model(heat + step), HasSubstr("model.toml:6:1: 'sensor_noise' is missing"));
+  EXPECT_THAT(model("[model.observer]\nheat_nois = 5e-4\n" + noise + step),
+              HasSubstr("model.toml:7:1: unknown key 'heat_nois'; did you mean 'heat_noise'?"));
+  EXPECT_THAT(model("[model.observer]\nheat_noise = -1\n" + noise + step),
+              HasSubstr("model.toml:7:14: 'heat_noise' is -1; it must not be negative"));
+  EXPECT_THAT(model(heat + "sensor_noise = 0\n" + step),
+              HasSubstr("model.toml:8:16: 'sensor_noise' is 0; it must be positive"));
+  EXPECT_THAT(model(heat + noise + "longest_step = \"0 s\"\n"),
+              HasSubstr("model.toml:9:16: 'longest_step' is \"0 s\"; it must be positive"));
+  EXPECT_THAT(model(heat + noise + "longest_step = 30\n"), HasSubstr("model.toml:9:16: 'longest_step': "));
+  EXPECT_THAT(complaint(predicts + "[model]\nmethod = \"twin observer\"\ninputs = [\"T2\"]\n" + heat + noise + step),
+              HasSubstr("'twin observer' stands beside a twin, and [twin] is missing"));
+  EXPECT_THAT(complaint(predicts + twin + "[model]\nmethod = \"twin observer\"\n" + heat + noise + step),
+              HasSubstr("model.toml:3:1: 'inputs' is missing or empty"));
+  std::string const part =
+      "[[part]]\nmethod = \"twin observer\"\ninputs = [\"T2\"]\nobserver = { heat_noise = 5e-4, "
+      "sensor_noise = 0.5, longest_step = \"30 s\" }\n";
+  EXPECT_THAT(complaint(predicts + twin + part + part),
+              HasSubstr("model.toml:7:1: a second 'twin observer'; a mean has one at most"));
+}
+
 TEST_F(ErrorModelFile, RefusesPartsThatMakeNoMean) {
   auto const part = [](std::string const& method, std::string const& input, std::string const& form) {
     return "[[part]]\nmethod = \"" + method + "\"\ninputs = [\"" + input + "\"]\n" + form;

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/output/temporary_directory.h"
+#include "twin/error_model_file.h"
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
 #include "twin/machine.h"
+#include "twin/study/judgement.h"
 
 /// `thermotwin check`: each file by itself, and experiments with their machine.
 namespace thermotwin::twin {
@@ -168,6 +170,29 @@ TEST(FileCheck, KnowsEveryKindOfFile) {
   EXPECT_THAT(checks[4].warnings, ElementsAre(HasSubstr("run.csv: 'T2' is dead: it never moves")));
   EXPECT_EQ(checks[5].text, "a record of 0.33 h: 3 rows, 0 inputs, 1 sensor, 0 displacement channels");
   EXPECT_THAT(checks[6].text, HasSubstr("a campaign of "));
+}
+
+/// The twin is asked whether it has what it shall observe.
+TEST(FileCheck, LooksAtAnObserverTogetherWithItsTwin) {
+  TemporaryDirectory const folder;
+  fs::copy_file(machine_file("v450"), folder / "mine.toml");
+  SavedErrorModel saved;
+  saved.error = "E_Z";
+  saved.twin = twin_beside(folder / "mine.toml");
+  auto const check = [&](std::vector<std::string> const& sensors, bool mean) {
+    saved.parts = {observing_part(sensors, {})};
+    if (mean) saved.parts.push_back({nothing_more(sensors), true, {}});
+    write_error_model(folder / "model.toml", saved);
+    return check_files({folder / "model.toml"})[0];
+  };
+  EXPECT_EQ(check({"T1", "T3"}, false).text,
+            "an error model: twin observer of E_Z [um] on 2 inputs, fitted to nobody knows what");
+  EXPECT_THAT(check({"T1", "T33"}, false).mistake,
+              HasSubstr("model.toml:12:17: the twin has no sensor 'T33' on a body; did you mean 'T3'?"));
+  EXPECT_THAT(check({"T1", "T33"}, true).mistake,
+              HasSubstr("model.toml:12:17: the twin has no sensor 'T33' on a body"));
+  saved.error = "E_W";
+  EXPECT_THAT(check({"T1"}, false).mistake, HasSubstr("model.toml:10:1: the machine has no displacement 'E_W'"));
 }
 
 TEST(FileCheck, FindsTheMistakesOfEveryKind) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/metrics.h"
 #include "output/csv.h"
 #include "output/dataset_file.h"
 #include "tests/output/temporary_directory.h"
@@ -57,6 +58,14 @@ VectorXd& readings(output::Dataset& data, std::string const& name) {
     for (auto& channel : *group)
       if (channel.name == name) return channel.values;
   throw std::out_of_range(name);
+}
+
+/// A v450 with less grease than its file says.
+output::Dataset poorly_greased(std::string const& experiment) {
+  auto document = read_toml(machine_file("v450"));
+  set_parameter(document, "bearing.front.grease_factor", "0.7");
+  auto const file = experiment_file(experiment);
+  return run(Machine::build(document), read_experiment(read_toml(file), file), {}).dataset;
 }
 
 class FitErrorModel : public testing::Test {
@@ -262,15 +271,10 @@ TEST_F(FitErrorModel, NamesTheNearest) {
   EXPECT_THAT(refusal([&] { fitted({{folder_ / "run.txt"}, "E_Z", {"T1"}}); }), HasSubstr("is no measured run"));
 }
 
-/// A machine with less grease than its file says: the twin tells most of the error, the model what it errs by.
+/// The twin tells most of the error, the model what it errs by.
 TEST_F(FitErrorModel, BesideATwinAddsToWhatThatSays) {
-  auto const simulated = [&](std::string const& experiment, std::string const& name) {
-    auto document = read_toml(machine_file("v450"));
-    set_parameter(document, "bearing.front.grease_factor", "0.7");
-    auto const file = experiment_file(experiment);
-    return put_run(run(Machine::build(document), read_experiment(read_toml(file), file), {}).dataset, name);
-  };
-  auto const train = simulated("golden_b_6000", "train.h5"), test = simulated("golden_b_4000", "test.h5");
+  auto const train = put_run(poorly_greased("golden_b_6000"), "train.h5"),
+             test = put_run(poorly_greased("golden_b_4000"), "test.h5");
   std::filesystem::copy_file(machine_file("v450"), folder_ / "mine.toml");
   ErrorModelFit fit{{train}, "E_Z", {"T1", "T3"}};
   auto const alone = predict_error(fitted(fit), test);
@@ -304,10 +308,123 @@ TEST_F(FitErrorModel, BesideATwinAddsToWhatThatSays) {
                 fitted({{train}, "E_Z", {"T1"}, "twin & ridge"});
               }),
               HasSubstr("'twin & ridge': the twin's machine file is missing; give --twin FILE"));
-  EXPECT_THAT(refusal([&] {
-                fitted({{train}, "E_Z", {"T1"}, "twin observer", 1, folder_ / "mine.toml"});
-              }),
-              HasSubstr("'twin observer': an observer has nothing to fit; compensate --observer runs one"));
+}
+
+/// That machine, and its file as the twin.
+class FitObserver : public FitErrorModel {
+ protected:
+  FitObserver() { std::filesystem::copy_file(machine_file("v450"), folder_ / "mine.toml"); }
+  SavedErrorModel observing(std::filesystem::path const& run, std::string const& method = "twin observer",
+                            std::vector<std::string> const& sensors = {}) {
+    return fitted({{run}, "E_Z", sensors, method, 1, folder_ / "mine.toml"});
+  }
+  static VectorXd missed(ErrorPrediction const& p) { return p.shown() - p.predicted; }
+
+  output::Dataset const train_ = poorly_greased("golden_b_6000"), test_ = poorly_greased("golden_b_4000");
+};
+
+TEST_F(FitObserver, SeesInTheSensorsWhatTheTwinLacks) {
+  auto const train = put_run(train_, "train.h5"), test = put_run(test_, "test.h5");
+  auto const saved = observing(train);
+  EXPECT_THAT(saved.inputs(), ElementsAre("T1", "T2", "T3", "T4", "T5", "T6", "T7", "T8", "T9"));
+  EXPECT_THAT(remarks_, ElementsAre("train.h5: T10 is left out: the twin does not have it on a body"));
+  auto const before = predict_error(saved, test), after = predict_error(read_back(saved), test);
+  EXPECT_EQ(prediction_csv(before), prediction_csv(after));
+  EXPECT_LT(missed(after).norm(), 0.6 * missed(predict_error(observing(train, "twin"), test)).norm());
+  auto const same = predict_error(read_back(saved), train);
+  EXPECT_EQ(models::metrics(same.run.batch.error, same.predicted.col(0)).rmse, saved.runs[0].rmse);
+  EXPECT_TRUE(same.seen_before);
+  EXPECT_THAT(error_model_text(read_back(saved)),
+              HasSubstr("twin observer of E_Z [um] (tool against table, Z; positive: tool approaches table) on T1, T2, "
+                        "T3, T4, T5, T6, T7, T8, T9: extended Kalman filter, nodes err by "));
+}
+
+/// By the shape of the error: of a run whose first row is off, all others are off by the same.
+TEST_F(FitObserver, BelievesWhatMeetsItsRunsBest) {
+  auto const train = put_run(train_, "train.h5");
+  auto const saved = observing(train);
+  auto const chosen = saved.parts.at(0).observer.value();
+  auto const spread = [&](ObserverOptions const& options) {
+    auto other = saved;
+    other.parts = {observing_part(saved.inputs(), options)};
+    VectorXd const rest = missed(predict_error(other, train));
+    return (rest.array() - rest.mean()).matrix().norm();
+  };
+  for (double const heat_noise : {1e-4, 5e-4, 2.5e-3}) {
+    auto other = chosen;
+    other.heat_noise = heat_noise;
+    if (other != chosen) {
+      EXPECT_GT(spread(other), spread(chosen)) << heat_noise;
+    }
+  }
+  auto off = train_;
+  readings(off, "E_Z")[0] += 4.0;
+  EXPECT_EQ(observing(put_run(off, "off.h5")).parts[0].observer, chosen);
+}
+
+TEST_F(FitObserver, HasAPartInAMean) {
+  auto const train = put_run(train_, "train.h5"), test = put_run(test_, "test.h5");
+  auto const mean = read_back(observing(train, "twin observer & ridge & twin & twin ridge", {"T3", "T1"}));
+  EXPECT_EQ(mean.method(), "twin observer & ridge & twin & twin ridge");
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(test_.time_s.size(), 1);
+  for (auto const* part : {"twin observer", "twin", "twin ridge"})
+    sum += predict_error(observing(train, part, {"T3", "T1"}), test).predicted;
+  sum += predict_error(fitted({{train}, "E_Z", {"T3", "T1"}, "ridge"}), test).predicted;
+  EXPECT_TRUE(predict_error(mean, test).predicted.isApprox(sum / 4.0, 1e-9));
+}
+
+TEST_F(FitObserver, FindsItsSensorsByNameAndRefusesARunWithoutOne) {
+  auto const saved = read_back(observing(put_run(train_, "train.h5"), "twin observer", {"T3", "T1"}));
+  EXPECT_THAT(saved.inputs(), ElementsAre("T3", "T1"));
+  auto data = test_;
+  auto const predicted = predict_error(saved, put_run(data, "test.h5")).predicted;
+  std::reverse(data.readings.begin(), data.readings.end());
+  for (auto& channel : data.displacements) channel.values.array() += 40.0;
+  EXPECT_EQ(predict_error(saved, put_run(data, "reversed.h5")).predicted, predicted);
+  std::erase_if(data.readings, [](auto const& channel) { return channel.name == "T3"; });
+  EXPECT_THAT(refusal([&] { (void)predict_error(saved, put_run(data, "poor.h5")); }),
+              HasSubstr("poor.h5 has no sensor 'T3'; did you mean 'T"));
+  data = test_;
+  std::erase_if(data.inputs, [](auto const& channel) { return channel.name == "spindle.speed"; });
+  EXPECT_THAT(refusal([&] { (void)predict_error(saved, put_run(data, "blind.h5")); }),
+              HasSubstr("blind.h5: the machine 'v450' needs inputs that the data lack: spindle.speed; the data have "
+                        "spindle.running, "));
+}
+
+TEST_F(FitObserver, IsOfItsMachineOnly) {
+  auto const train = put_run(train_, "train.h5");
+  auto const saved = observing(train, "twin observer", {"T1"});
+  auto other = test_;
+  other.provenance["machine.file"] = "name = \"v450_fine\"\n";
+  EXPECT_EQ(predict_error(saved, put_run(other, "fine.h5")).predicted.rows(), other.time_s.size());
+  other.provenance["machine.file"] = "name = \"g200\"\n";
+  EXPECT_THAT(refusal([&] { (void)predict_error(saved, put_run(other, "other.h5")); }),
+              HasSubstr("other.h5 is a run of 'g200'; 'twin observer' observes 'v450'"));
+  put(folder_ / "mine.toml", contents(folder_ / "mine.toml") + "# changed\n");
+  EXPECT_THAT(refusal([&] { (void)predict_error(saved, train); }),
+              HasSubstr("mine.toml is no longer the file beside which the model was fitted"));
+}
+
+TEST_F(FitObserver, RefusesWhatCannotBeObserved) {
+  auto const train = put_run(train_, "train.h5");
+  auto const complaint = [&](std::string const& error, std::vector<std::string> const& sensors) {
+    return refusal([&] { fitted({{train}, error, sensors, "twin observer", 1, folder_ / "mine.toml"}); });
+  };
+  EXPECT_THAT(complaint("slope z", {"T1"}), HasSubstr("'slope z': a slope is fitted without a twin"));
+  EXPECT_THAT(complaint("E_W", {"T1"}), HasSubstr("the machine has no displacement 'E_W'; did you mean 'E_X'?"));
+  EXPECT_THAT(complaint("A", {"T1"}), HasSubstr("'A' of the machine is an angle; the twin observes displacements"));
+  EXPECT_THAT(complaint("E_Z", {"T1", "T10"}), HasSubstr("the twin has no sensor 'T10' on a body; did you mean 'T1'?"));
+  for (auto const* error : {"E_Z", "slope z"})
+    EXPECT_THAT(refusal([&] {
+                  fitted({{train}, error, {"T1"}, "twin observer & ridge"});
+                }),
+                HasSubstr(error[0] == 'E' ? "the twin's machine file is missing; give --twin FILE"
+                                          : "a slope is fitted without a twin"));
+  put(folder_ / "mine.toml", contents(folder_ / "mine.toml") +
+                                 "[[chiller]]\nname = \"head\"\ncools = \"head_front\"\ntemperature = \"22 degC\"\n"
+                                 "power = \"800 W\"\nhysteresis = \"0.4 K\"\n");
+  EXPECT_THAT(complaint("E_Z", {"T1"}),
+              HasSubstr("the relay 'chiller.head' switches by itself; the twin observes no machine with relays"));
 }
 
 TEST_F(FitErrorModel, IsJudgedOnOtherRuns) {

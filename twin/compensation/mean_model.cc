@@ -2,54 +2,56 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
-
-#include "thermal/error.h"
-#include "thermal/nearest_name.h"
 
 namespace thermotwin::twin {
 namespace {
 
-void require_sensors(TwinObserver const& twin, std::vector<ModelInput> const& wanted) {
-  std::vector<std::string> known;
-  for (auto const& input : twin.inputs())
-    if (input.sensor) known.push_back(input.name);
-  for (auto const& sensor : wanted)
-    if (std::find(known.begin(), known.end(), sensor.name) == known.end())
-      throw thermal::InputError(fmt::format("the twin has no sensor '{}' on a body; {}", sensor.name,
-                                            thermal::did_you_mean(sensor.name, known)));
+/// Where a part stands beside it, on the machine's inputs alone; it has the sensors that a part reads beside it.
+std::optional<TwinObserver> twin_beside_parts(SavedErrorModel const& saved, std::optional<Machine> const& machine) {
+  bool beside = false, read = false;
+  for (auto const& part : saved.parts) {
+    beside = beside || (part.beside_twin && !part.observer);
+    read = read || (part.beside_twin && !part.observer && part.reads());
+  }
+  if (!beside) return std::nullopt;
+  return TwinObserver(machine.value(), saved.error, {}, read ? saved.inputs() : std::vector<std::string>());
 }
 
-std::optional<TwinObserver> observer_of(SavedErrorModel const& saved) {
-  if (!saved.twin) return std::nullopt;
-  return TwinObserver(twin_of(*saved.twin), saved.error);
-}
-
-std::vector<MeanModel::Part> live_parts(std::vector<ModelPart> const& saved) {
+std::vector<MeanModel::Part> live_parts(SavedErrorModel const& saved, std::optional<Machine> const& machine) {
   std::vector<MeanModel::Part> parts;
-  for (auto const& part : saved)
-    parts.push_back(
-        {part.reads() ? std::optional(SavedModel(part.model, part.ranges)) : std::nullopt, part.beside_twin});
+  for (auto const& part : saved.parts)
+    if (part.observer)
+      parts.push_back({std::nullopt, false, observer_of(saved, machine.value())});
+    else
+      parts.push_back(
+          {part.reads() ? std::optional(SavedModel(part.model, part.ranges)) : std::nullopt, part.beside_twin});
   return parts;
 }
 
 }  // namespace
 
-MeanModel::MeanModel(SavedErrorModel const& saved) : MeanModel(observer_of(saved), live_parts(saved.parts)) {}
+MeanModel::MeanModel(SavedErrorModel const& saved)
+    : MeanModel(saved, saved.twin ? std::optional(twin_of(*saved.twin)) : std::nullopt) {}
+
+MeanModel::MeanModel(SavedErrorModel const& saved, std::optional<Machine> const& machine)
+    : MeanModel(twin_beside_parts(saved, machine), live_parts(saved, machine)) {}
 
 MeanModel::MeanModel(std::optional<TwinObserver> twin, std::vector<Part> parts)
     : twin_(std::move(twin)), parts_(std::move(parts)) {
-  if (twin_)
+  auto const observer =
+      std::find_if(parts_.begin(), parts_.end(), [](auto const& part) { return part.observer.has_value(); });
+  if (observer != parts_.end())
+    inputs_ = observer->observer->inputs();
+  else if (twin_)
     std::copy_if(twin_->inputs().begin(), twin_->inputs().end(), std::back_inserter(inputs_),
                  [](auto const& input) { return !input.sensor; });
-  auto const machine = inputs_.size();
-  for (auto const& part : parts_) {
-    if (!part.model) continue;
-    if (part.beside_twin) require_sensors(*twin_, part.model->inputs());
-    if (inputs_.size() == machine)
-      inputs_.insert(inputs_.end(), part.model->inputs().begin(), part.model->inputs().end());
+  auto const model =
+      std::find_if(parts_.begin(), parts_.end(), [](auto const& part) { return part.model.has_value(); });
+  if (model != parts_.end()) {
+    std::erase_if(inputs_, [](auto const& input) { return input.sensor; });
+    inputs_.insert(inputs_.end(), model->model->inputs().begin(), model->model->inputs().end());
   }
-  sensors_ = inputs_.size() - machine;
+  sensors_ = std::size_t(std::count_if(inputs_.begin(), inputs_.end(), [](auto const& input) { return input.sensor; }));
 }
 
 /// By the twin, which is shown no sensor.
@@ -64,6 +66,7 @@ double MeanModel::error(double time, std::span<double const> values) {
   double const of_twin = twin_ ? said(time, values) : 0.0;
   double sum = 0.0;
   for (auto& part : parts_) {
+    if (part.observer) sum += part.observer->error(time, values);
     if (part.beside_twin) sum += of_twin;
     if (!part.model) continue;
     std::vector<double> read(readings.begin(), readings.end());
@@ -79,6 +82,10 @@ std::map<std::string, std::string> MeanModel::extrapolated() const {
   for (auto const& part : parts_)
     if (part.model) all.merge(part.model->extrapolated());
   return all;
+}
+
+bool MeanModel::runs_a_twin() const {
+  return twin_ || std::any_of(parts_.begin(), parts_.end(), [](auto const& part) { return part.observer.has_value(); });
 }
 
 }  // namespace thermotwin::twin

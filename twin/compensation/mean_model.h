@@ -13,26 +13,31 @@
 namespace thermotwin::twin {
 
 /// The mean of several saved models, fed with live readings. Those beside a twin, which runs on the machine's inputs
-/// alone, add what they make of the difference between the changes of the sensors and the twin's to what it says.
+/// alone, add what they make of the difference between the changes of the sensors and the twin's to what it says. One
+/// may be a twin that the sensors correct.
 class MeanModel {
  public:
   struct Part {
     std::optional<SavedModel> model;  ///< none: the twin alone
     bool beside_twin = false;
+    std::optional<TwinObserver> observer{};  ///< neither of the above
   };
-  /// InputError for a twin without a sensor on a body that a model beside it reads. The models have the same inputs.
+  /// Models and observer have the same sensors in the same order; the twin has those of models beside it.
   MeanModel(std::optional<TwinObserver> twin, std::vector<Part> parts);
-  /// Also InputError for a twin's file that has changed, or whose machine cannot run live (TwinObserver).
+  /// InputError for a twin's file that has changed, whose machine cannot run live, or that lacks a sensor on a body
+  /// (TwinObserver).
   explicit MeanModel(SavedErrorModel const& saved);
 
-  /// The twin's inputs of the machine, then the models' sensors; all are required.
+  /// The twin's inputs of the machine, required, then the sensors, required unless only an observer reads them.
   [[nodiscard]] std::vector<ModelInput> const& inputs() const { return inputs_; }
-  /// Thermal error [µm] at `time` [s], which never goes back; `values` in the order of the inputs, all finite.
+  /// Thermal error [µm] at `time` [s], which never goes back; `values` in the order of the inputs, NaN for a sensor
+  /// that is not required and not believed.
   [[nodiscard]] double error(double time, std::span<double const> values);
   [[nodiscard]] std::map<std::string, std::string> extrapolated() const;
-  [[nodiscard]] bool runs_a_twin() const { return twin_.has_value(); }
+  [[nodiscard]] bool runs_a_twin() const;
 
  private:
+  MeanModel(SavedErrorModel const& saved, std::optional<Machine> const& machine);
   [[nodiscard]] double said(double time, std::span<double const> values);
 
   std::optional<TwinObserver> twin_;

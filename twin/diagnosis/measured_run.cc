@@ -41,7 +41,6 @@ std::string recorded_machine(output::Dataset const& dataset) {
   return name && name->is_text() ? std::get<std::string>(name->content) : std::string();
 }
 
-/// v450_fine is v450 in more cells.
 std::string without_fine(std::string name) {
   if (name.ends_with("_fine")) name.erase(name.size() - std::string_view("_fine").size());
   return name;
@@ -77,6 +76,10 @@ double MeasuredRun::first_reading(Eigen::Index channel) const {
   return NAN;
 }
 
+bool is_same_machine(std::string const& one, std::string const& other) {
+  return without_fine(one) == without_fine(other);
+}
+
 double usual_interval(std::span<double const> times) {
   if (times.size() < 2) return INFINITY;
   std::vector<double> intervals;
@@ -94,7 +97,7 @@ MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string 
   run.remarks = data.remarks;
   run.time = data.time;
   run.initial_temperature = data.initial_temperature;
-  if (!data.machine.empty() && without_fine(data.machine) != without_fine(machine.name))
+  if (!data.machine.empty() && !is_same_machine(data.machine, machine.name))
     run.remarks.push_back(fmt::format("it is a run of '{}', the machine file is '{}'", data.machine, machine.name));
   run.channels = channels_of(data, machine, run.remarks);
   add_courses(run, std::move(data), machine);

@@ -50,6 +50,9 @@ struct MeasuredRun {
   [[nodiscard]] double first_reading(Eigen::Index channel) const;
 };
 
+/// v450_fine is v450 in more cells.
+[[nodiscard]] bool is_same_machine(std::string const& one, std::string const& other);
+
 /// The median time between neighbours [s]; infinite for fewer than two.
 [[nodiscard]] double usual_interval(std::span<double const> times);
 
