@@ -236,7 +236,7 @@ void keep_best(std::vector<Set>& sets, Search const& search, Index most) {
     if (Index(sets.size()) < most) sets.push_back(std::move(set));
 }
 
-/// All sets, depth first; the last site is the one of the largest gain.
+/// All sets of so many sites, and of fewer where a budget may end first; depth first.
 class Enumeration {
  public:
   Enumeration(PlacementProblem const& problem, Index count) : problem_(problem), count_(count) {}
@@ -252,7 +252,9 @@ class Enumeration {
   }
   void descend(RemainingVariance const& state, Index from, double budget) {
     bool const last = Index(set_.size()) + 1 == count_;
-    for (Index i = from; i < problem_.sites(); ++i) {
+    Index const wanting = count_ - Index(set_.size()) - 1;  // beside the next one
+    Index const end = std::isfinite(problem_.budget) ? problem_.sites() : problem_.sites() - wanting;
+    for (Index i = from; i < end; ++i) {
       if (problem_.cost_of(i) > budget) continue;
       set_.push_back(i);
       keep(state.value() - state.gains()[i]);

@@ -88,6 +88,23 @@ TEST(ExhaustivePlacement, IsTheBestOfAllSets) {
   EXPECT_EQ(number_of_sets(9, 3), 84.0);
 }
 
+/// All but two of 40: 780 sets, though there are 10¹² smaller ones.
+TEST(ExhaustivePlacement, LooksAtNoSmallerSetsThanAreAskedFor) {
+  auto const problem = random_placement(7, 40);
+  Set every(40);
+  std::iota(every.begin(), every.end(), Index(0));
+  double best = problem.prior();
+  for (Index a = 0; a < 40; ++a)
+    for (Index b = a + 1; b < 40; ++b) {
+      Set set = every;
+      std::erase_if(set, [&](Index site) { return site == a || site == b; });
+      best = std::min(best, by_definition(problem, set));
+    }
+  auto const found = exhaustive_placement(problem, 38);
+  EXPECT_EQ(found.sensors.size(), 38U);
+  EXPECT_NEAR(found.variance, best, 1e-9 * problem.prior());
+}
+
 TEST(Place, ReachesNinetyNinePercentOfTheOptimum) {
   for (unsigned seed = 0; seed < 30; ++seed) {
     auto const problem = random_placement(seed, 24);

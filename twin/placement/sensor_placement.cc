@@ -203,7 +203,7 @@ EnsembleOptions Judge::unseen_options() const {
 }
 
 models::Placement Judge::best(Index count, Index dead) const {
-  if (dead == 0 && models::number_of_sets(candidates_, count) <= most_sets)
+  if (dead == 0 && models::number_of_sets(candidates_, count, prices_) <= most_sets)
     return models::exhaustive_placement(problem_, count);
   auto placement = models::place(problem_, count, dead);
   placement.sensors = spares_last(placement.sensors);
@@ -373,7 +373,7 @@ PlacementReport Judge::operator()() {
 
   Index const count = options_.sensors, dead = options_.dead;
   auto chosen = best(count, dead);
-  report.proved = dead == 0 && models::number_of_sets(candidates_, count) <= most_sets;
+  report.proved = dead == 0 && models::number_of_sets(candidates_, count, prices_) <= most_sets;
   report.bound_um = report.proved ? std::sqrt(chosen.variance) : std::sqrt(models::placement_bound(problem_, count));
   if (options_.distinguish) {
     chosen.sensors = distinguishing(report.distinction.emplace(), chosen.sensors);
