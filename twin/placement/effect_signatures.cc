@@ -75,10 +75,10 @@ models::Signatures gram_matrices(std::vector<Eigen::MatrixXd> const& courses) {
   return signatures;
 }
 
-std::size_t keep_pairs_apart(models::Signatures& signatures, Index effects) {
+std::size_t keep_pairs_apart(models::Signatures& signatures, Index effects, Index candidates) {
   for (Index a = 0; a < effects; ++a)
     for (Index b = a + 1; b < effects; ++b) signatures.pairs.emplace_back(a, b);
-  std::vector<Index> every(signatures.gram.size());
+  std::vector<Index> every(static_cast<std::size_t>(candidates));
   std::iota(every.begin(), every.end(), Index(0));
   auto const apart = models::angles(signatures, every);
   std::vector<std::pair<Index, Index>> kept;
@@ -91,7 +91,7 @@ std::size_t keep_pairs_apart(models::Signatures& signatures, Index effects) {
 
 }  // namespace
 
-EffectSignatures effect_signatures(Value const& document, std::vector<CandidateSite> const& sites,
+EffectSignatures effect_signatures(Value const& document, std::vector<CandidateSite> const& sites, Index candidates,
                                    EnsembleOptions const& options) {
   Value const with_sites = with_sensors_at(document, sites);
   Machine const nominal = Machine::build(with_sites);
@@ -111,13 +111,13 @@ EffectSignatures effect_signatures(Value const& document, std::vector<CandidateS
   EffectSignatures result;
   std::vector<Eigen::MatrixXd> courses;
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    if (!differences[e] || differences[e]->cwiseAbs().maxCoeff() < least_rise) continue;
+    if (!differences[e] || differences[e]->leftCols(candidates).cwiseAbs().maxCoeff() < least_rise) continue;
     result.effects.push_back(effects[e].label());
     courses.push_back(*differences[e] / differences[e]->norm());
   }
   if (courses.size() < 2) throw thermal::InputError("the machine has no two missing effects that its sites would show");
   result.signatures = gram_matrices(courses);
-  result.alike = keep_pairs_apart(result.signatures, Index(courses.size()));
+  result.alike = keep_pairs_apart(result.signatures, Index(courses.size()), candidates);
   if (result.signatures.pairs.empty())
     throw thermal::InputError("no two missing effects are told apart, not even by a sensor at every site");
   return result;

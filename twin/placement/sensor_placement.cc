@@ -327,7 +327,7 @@ std::optional<double> Judge::widest_angle(models::Signatures const& signatures, 
 }
 
 Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacement) const {
-  auto const found = effect_signatures(document_, sites_, options_.design);
+  auto const found = effect_signatures(document_, sites_, candidates_, options_.design);
   auto signatures = found.signatures;
   signatures.gram.resize(std::size_t(candidates_));
   auto const set = widest_set(signatures, options_.sensors);

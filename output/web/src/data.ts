@@ -209,7 +209,8 @@ export interface PlacementSection {
   one_fewer?: SensorSet;
   one_more?: SensorSet;
   proposed?: SensorSet;
-  distinction?: {effects: number; recommended_deg: number; for_displacement_deg: number; all_candidates_deg: number; closest: [string, string]};
+  distinction?: {effects: number; recommended_deg: number; for_displacement_deg: number; all_candidates_deg: number;
+    proposed_deg?: number; closest: [string, string]};
   /** The machine, its field going from what one sensor tells alone (0) to beside the recommended ones (1). */
   shape?: Machine | null;
   remarks: string[];

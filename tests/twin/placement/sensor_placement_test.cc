@@ -314,6 +314,22 @@ TEST(PlaceSensors, TellsMissingEffectsApart) {
   EXPECT_THAT(placement_text(report), HasSubstr("no set of 2 has a wider one: all were looked at"));
 }
 
+/// What a proposal sees, and no candidate, is not what the others are chosen and judged by.
+TEST(PlaceSensors, TellsEffectsApartRegardlessOfWhatIsProposed) {
+  Value const document = parse_toml(RandomMachine(3, 4, 1).text(), "random");
+  auto options = quick(2);
+  options.design.members = options.unseen_members = 3;
+  options.distinguish = true;
+  options.rules.sites = {{"a", {"loop_0"}}, {"b", {"loop_1"}}, {"c", {"loop_2"}}};
+  auto const alone = place_sensors(document, options);
+  options.proposed = {"loop_3", "beside_0"};
+  auto const beside = place_sensors(document, options);
+  EXPECT_EQ(beside.distinction->effects, alone.distinction->effects);
+  EXPECT_EQ(beside.distinction->pairs, alone.distinction->pairs);
+  EXPECT_NEAR(beside.distinction->recommended, alone.distinction->recommended, 1e-6);
+  EXPECT_NEAR(beside.distinction->of_all, alone.distinction->of_all, 1e-6);
+}
+
 /// Without the sites that tell effects apart best, which nobody can pay.
 TEST(PlaceSensors, TellsMissingEffectsApartWithinTheBudget) {
   Value const document = parse_toml(RandomMachine(3, 4, 1).text(), "random");

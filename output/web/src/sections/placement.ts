@@ -87,6 +87,7 @@ function channelsPanel(best: SensorSet): HTMLElement {
 
 function distinctionPanel(d: NonNullable<PlacementSection['distinction']>): HTMLElement {
   const rows: [string, number][] = [['recommended', d.recommended_deg], ['chosen for the displacement', d.for_displacement_deg], ['all candidates', d.all_candidates_deg]];
+  if (d.proposed_deg !== undefined) rows.splice(1, 0, ['proposed', d.proposed_deg]);
   return panel(`Telling ${d.effects} missing effects apart`, 'distinction', () => [
     {name: 'set', values: rows.map(([n]) => n)}, {name: 'smallest_angle_deg', values: rows.map(([, x]) => x)},
   ], make('table', {}, make('tr', {}, make('th', {}, 'set'), make('th', {class: 'number'}, 'smallest angle / °')),
