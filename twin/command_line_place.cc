@@ -122,11 +122,12 @@ void PlaceCommand::write_map(PlacementReport const& report, Machine const& built
   }
   if (picture.empty()) return;
   output::Frame frame;
-  frame.temperature_degC = report.map->alone_um;
+  frame.temperature_degC = report.map->alone_um.array().isNaN().select(0.0, report.map->alone_um);
   output::PictureOptions page;
   page.title = built.title;
-  page.remark = fmt::format("what one sensor there takes off an error of {:.1f} µm; dots: the {} recommended ones",
-                            report.prior_um, report.recommended.sensors.size());
+  page.remark = fmt::format(
+      "what one sensor there takes off an error of {:.1f} µm, 0 where none may sit; dots: the {} recommended",
+      report.prior_um, report.recommended.sensors.size());
   page.quantity = "error removed [µm]";
   page.up = built.up;
   int number = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
-#include <set>
 
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
@@ -182,13 +181,10 @@ std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules
   Bodies const bodies(tables);
   RulesCheck const check(rules, bodies);
   check();
-  auto const turning = turning_bodies(document);
-  std::set<std::string> without(rules.forbidden.begin(), rules.forbidden.end());
+  auto const without = bodies_without_candidates(document, rules);
   auto sites = rules.sites;
   if (sites.empty()) {
-    auto not_meshed = without;
-    not_meshed.insert(turning.begin(), turning.end());
-    sites = mesh_of_sites(bodies, not_meshed, rules.most);
+    sites = mesh_of_sites(bodies, without, rules.most);
     for (auto& site : sites)
       for (auto const& body : rules.bodies)
         if (body_of(site.at.front()) == body.name) site.cost = body.cost;
@@ -201,6 +197,15 @@ std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules
   if (sites.empty()) throw InputError("no site is left on which a sensor could sit");
   check.affordable(sites);
   return sites;
+}
+
+std::set<std::string> bodies_without_candidates(Value const& document, CandidateRules const& rules) {
+  std::set<std::string> without;
+  for (auto const& body : turning_bodies(document)) without.insert(body);
+  for (auto const& site : rules.sites)
+    for (auto const& at : site.at) without.erase(body_of(at));
+  without.insert(rules.forbidden.begin(), rules.forbidden.end());
+  return without;
 }
 
 void check_place(std::string const& place, Bodies const& bodies) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,9 @@ struct CandidateRules {
 /// own diagonal. Where the rules name a body that is not there or a place beyond it, or a budget that buys no sensor:
 /// FileError with the place in their file. InputError for a machine without any site.
 [[nodiscard]] std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules const& rules);
+
+/// Bodies that carry no candidate since they are forbidden or turn; one that turns does carry sites of the rules' own.
+[[nodiscard]] std::set<std::string> bodies_without_candidates(Value const& document, CandidateRules const& rules);
 
 /// InputError unless a sensor could be there: a place on a body, or "ambient".
 void check_place(std::string const& place, Bodies const& bodies);

@@ -106,6 +106,15 @@ Sites without(Sites sites, Index site) {
   return sites;
 }
 
+/// Nodes of some bodies.
+std::vector<Index> nodes_of(thermal::Geometry const& geometry, std::set<std::string> const& bodies) {
+  std::vector<Index> nodes;
+  for (auto const& body : geometry)
+    if (bodies.contains(body.name))
+      for (std::size_t cell = 0; cell < body.cells.size(); ++cell) nodes.push_back(body.first_node + Index(cell));
+  return nodes;
+}
+
 /// Rows of an ensemble, less their mean.
 struct Snapshots {
   Eigen::MatrixXd rise, displacements;
@@ -151,6 +160,7 @@ class Judge {
   Sites proposed_;
   std::string machine_;
   std::vector<Eigen::Vector3d> positions_;
+  std::vector<Index> barred_nodes_;  ///< of bodies on which no sensor may sit
   Ensemble design_, unseen_;
   std::optional<SnapshotMoments> moments_;
   models::PlacementProblem problem_;  ///< of the candidates
@@ -171,6 +181,7 @@ Judge::Judge(Value const& document, PlacementOptions const& options)
   machine_ = machine.name;
   for (std::size_t s = machine.sensors.size() - sites_.size(); s < machine.sensors.size(); ++s)
     positions_.push_back(machine.sensors[s].position);
+  barred_nodes_ = nodes_of(machine.geometry, bodies_without_candidates(document, options.rules));
   EnsembleOptions design = options.design;
   design.every_node = options.map;
   double const share = double(design.members) / (design.members + options.unseen_members);
@@ -310,7 +321,9 @@ InformationMap Judge::map(Sites const& set) const {
   }
   auto const lessened = [&](double variance, Eigen::VectorXd const& gains) {
     auto const left = (variance - gains.array() / double(moments_->groups().size())).cwiseMax(0.0);
-    return Eigen::VectorXd(std::sqrt(variance) - left.sqrt());
+    Eigen::VectorXd less = std::sqrt(variance) - left.sqrt();
+    less(barred_nodes_).setConstant(std::nan(""));
+    return less;
   };
   return {lessened(all_.prior(), alone), lessened(models::remaining_variance(all_, set), beside)};
 }

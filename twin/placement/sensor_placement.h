@@ -54,7 +54,7 @@ struct SetFigures {
   std::vector<Channel> channels;
 };
 
-/// How informative places are.
+/// How informative places are; NaN on bodies without candidates, where no sensor may sit.
 struct InformationMap {
   Eigen::VectorXd alone_um;   ///< per node: by how much one sensor there lessens the error
   Eigen::VectorXd beside_um;  ///< the same beside the recommended set
@@ -81,7 +81,7 @@ struct Proposed {
 
 struct PlacementReport {
   std::string machine;
-  std::vector<std::string> remarks;  ///< what a budget, a forbidden body or one that turns means for these sets
+  std::vector<std::string> remarks;  ///< of these sets: what a budget ends, is idle, turns or is forbidden
   std::size_t candidates = 0;
   int members = 0, unseen_members = 0, dead = 0;
   std::size_t numbers = 0, ranged = 0;  ///< of the file: drawn for each member, and within a range that it states

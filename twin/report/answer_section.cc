@@ -44,9 +44,12 @@ Json study_json(Json study) {
   return study;
 }
 
-Eigen::VectorXd vector_of(Json const& list) {
-  auto const values = list.get<std::vector<double>>();
-  return Eigen::Map<Eigen::VectorXd const>(values.data(), Eigen::Index(values.size()));
+/// A map over the nodes: nothing is to be had where no sensor may sit.
+Eigen::VectorXd map_of(Json const& list) {
+  Eigen::VectorXd values(Eigen::Index(list.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values[i] = list[std::size_t(i)].is_null() ? 0.0 : list[std::size_t(i)].get<double>();
+  return values;
 }
 
 /// The recommended sensors by their numbers; those in the air have no place.
@@ -64,7 +67,7 @@ std::vector<MarkedPlace> marks_of(Json const& sensors) {
 
 /// Without a machine or a map the section says why nothing is drawn.
 Json placement_json(Json placement, fs::path const& machine, ReportPage& page) {
-  placement["remarks"] = Json::array();
+  if (!placement.contains("remarks")) placement["remarks"] = Json::array();
   if (!placement.contains("map")) {
     placement["remarks"].push_back(
         "No map is drawn: this answer holds none. `thermotwin place … --report DIR` has it.");
@@ -73,7 +76,7 @@ Json placement_json(Json placement, fs::path const& machine, ReportPage& page) {
   try {
     auto const built = Machine::read(machine.empty() ? machine_file(placement["machine"].get<std::string>()) : machine);
     auto const& map = placement["map"];
-    placement["shape"] = painted_machine_json(built, vector_of(map["alone_um"]), vector_of(map["beside_um"]),
+    placement["shape"] = painted_machine_json(built, map_of(map["alone_um"]), map_of(map["beside_um"]),
                                               marks_of(placement["recommended"]["sensors"]), page);
   } catch (thermal::InputError const& error) {
     placement["remarks"].push_back(fmt::format("No map is drawn: {} Name the machine with --machine.", error.what()));

@@ -245,7 +245,7 @@ TEST(PlaceSensors, ForAModelTrainedOnTheMachineLeavesLess) {
   EXPECT_LT(report.recommended.model_um, one_for_all.recommended.model_um);
   EXPECT_GE(report.recommended.predicted_um, report.recommended.model_um);
   EXPECT_LT(report.recommended.unseen_um, 2.0 * report.recommended.predicted_um);
-  EXPECT_LE(report.map->beside_um.maxCoeff(), report.recommended.model_um);
+  EXPECT_LE(report.map->beside_um.maxCoeff<Eigen::PropagateNumbers>(), report.recommended.model_um);
   EXPECT_THAT(placement_text(report), HasSubstr("trained on itself"));
   EXPECT_TRUE(nlohmann::json::parse(placement_json(report))["trained_on_the_machine"]);
 }
@@ -272,8 +272,8 @@ TEST(PlaceSensors, TellsWhatSensorsAreWorth) {
   for (auto const& sensor : best.sensors) EXPECT_GE(sensor.error_without_um, best.model_um);
   auto const machine = Machine::build(v450());
   ASSERT_EQ(report.map->alone_um.size(), machine.network().nodes());
-  EXPECT_GE(report.map->alone_um.minCoeff(), 0.0);
-  EXPECT_LE(report.map->alone_um.maxCoeff(), report.prior_um);
+  EXPECT_GE(report.map->alone_um.minCoeff<Eigen::PropagateNumbers>(), 0.0);
+  EXPECT_LE(report.map->alone_um.maxCoeff<Eigen::PropagateNumbers>(), report.prior_um);
 }
 
 /// T6 sits on head_front: one of the two tells nothing that the other does not.

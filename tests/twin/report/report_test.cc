@@ -257,6 +257,19 @@ TEST_F(Report, PaintsWhereSensorsTellMost) {
     EXPECT_NEAR(scale * change[p], start[p], 0.01);
 }
 
+/// What the answer says of its sets, and nothing off the error where no sensor may sit.
+TEST_F(Report, KeepsTheRemarksOfAPlacement) {
+  auto const nodes = Machine::read(machine_file("v450")).network().nodes();
+  auto placement = nlohmann::json::parse(placement_of("v450", nodes));
+  placement["remarks"] = {"2 would do"};
+  for (auto* map : {&placement["map"]["alone_um"], &placement["map"]["beside_um"]})
+    for (auto& value : *map) value = nullptr;
+  auto const page = report({text("placement.json", placement.dump())});
+  auto const& found = section(page, "placement");
+  EXPECT_EQ(found["remarks"], nlohmann::json::array({"2 would do"}));
+  EXPECT_THAT(page.numbers<float>(found["shape"]["field"]["start"]), testing::Each(0.0F));
+}
+
 TEST_F(Report, SaysWhyNoMapIsDrawn) {
   auto const remark = [&](std::string const& placement) {
     return section(report({text("placement.json", placement)}), "placement")["remarks"].dump();
