@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -9,21 +10,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double percent(double part, double whole) { return whole > 0.0 ? 100.0 * (part / whole - 1.0) : 0.0; }
+/// By how much a part is more than the whole; nothing smaller than what is printed, which would be "-0.0".
+double percent(double part, double whole) {
+  double const more = whole > 0.0 ? 100.0 * (part / whole - 1.0) : 0.0;
+  return std::abs(more) < 0.05 ? 0.0 : more;
+}
 
-std::string set_table(SetFigures const& set, int dead) {
+/// In millimetres; the air has no place.
+std::string position_text(SetFigures::Sensor const& sensor) {
+  Eigen::Vector3d const p = 1e3 * sensor.position;
+  if (sensor.site.at == std::vector<std::string>{"ambient"}) return "room air";
+  return fmt::format("{:.0f} {:.0f} {:.0f}", p.x(), p.y(), p.z());
+}
+
+/// `idle`: how a sensor is called without which the error hardly changes.
+std::string set_table(SetFigures const& set, std::string const& idle) {
   std::size_t width = 4;
   for (auto const& sensor : set.sensors) width = std::max(width, sensor.site.name.size());
   std::string text = fmt::format("  {:<3} {:<{}}  {:>22}  {:>5}  {:>16}\n", "", "site", width, "position [mm]", "cost",
                                  "error without it");
   int number = 0;
-  for (auto const& sensor : set.sensors) {
-    Eigen::Vector3d const p = 1e3 * sensor.position;
+  for (auto const& sensor : set.sensors)
     text += fmt::format("  {:<3} {:<{}}  {:>22}  {:>5g}  {:>8.2f} um {:+4.0f} %{}\n", ++number, sensor.site.name, width,
-                        fmt::format("{:.0f} {:.0f} {:.0f}", p.x(), p.y(), p.z()), sensor.site.cost,
-                        sensor.error_without_um, percent(sensor.error_without_um, set.model_um),
-                        sensor.idle ? (dead > 0 ? "  spare" : "  idle") : "");
-  }
+                        position_text(sensor), sensor.site.cost, sensor.error_without_um,
+                        percent(sensor.error_without_um, set.model_um), sensor.idle ? "  " + idle : "");
   text += fmt::format("\n  {:<14} {:>14} {:>14} {:>14}\n", "error [um]", "no sensor", "predicted 1s", "unseen rms");
   for (auto const& channel : set.channels)
     text += fmt::format("  {:<14} {:>14.2f} {:>14.2f} {:>14.2f}\n", channel.name, channel.prior_um,
@@ -59,8 +69,8 @@ std::string distinction_text(Distinction const& d, std::size_t count) {
       "  recommended      {:6.2f} degrees ({} and {})\n"
       "  for displacement {:6.2f} degrees: the set that would be chosen for the smallest error\n",
       d.effects, degrees(d.recommended), d.first, d.second, degrees(d.for_displacement));
-  if (d.fewer) text += fmt::format("  best {:<11} {:6.2f} degrees\n", count - 1, degrees(*d.fewer));
-  if (d.more) text += fmt::format("  best {:<11} {:6.2f} degrees\n", count + 1, degrees(*d.more));
+  if (d.fewer) text += fmt::format("  widest of {:<6} {:6.2f} degrees\n", count - 1, degrees(*d.fewer));
+  if (d.more) text += fmt::format("  widest of {:<6} {:6.2f} degrees\n", count + 1, degrees(*d.more));
   if (d.proposed) text += fmt::format("  proposed         {:6.2f} degrees\n", degrees(*d.proposed));
   return text +
          fmt::format(
@@ -85,19 +95,52 @@ Json to_json(Distinction const& d) {
   return json;
 }
 
-/// `dead`: how many sensors may be lost; 0: their loss is not told.
-std::string error_line(std::string const& what, SetFigures const& set, double reference, int dead) {
-  return fmt::format("  {:<26} {:>8.2f} {:>13.2f} {:>12.2f}  {:>6.2f} .. {:<6.2f} {:>+6.1f} %{}\n", what, set.model_um,
-                     set.predicted_um, set.unseen_um, set.unseen_low_um, set.unseen_high_um,
-                     percent(set.model_um, reference), dead > 0 ? fmt::format("  {:>13.2f}", set.worst_um) : "");
-}
+/// What sensors leave of all displacements together, a line for each set.
+class ErrorTable {
+ public:
+  explicit ErrorTable(PlacementReport const& report) : report_(report) {
+    auto const count = report.recommended.sensors.size();
+    std::string const best = report.distinction ? "for displacement" : "best";
+    if (report.fewer) sets_.emplace_back(fmt::format("{} {}", best, count - 1), &*report.fewer);
+    sets_.emplace_back(fmt::format("recommended {}", count), &report.recommended);
+    if (report.more) sets_.emplace_back(fmt::format("{} {}", best, count + 1), &*report.more);
+    if (auto const& proposed = report.proposed) {
+      if (proposed->fewer) sets_.emplace_back("proposed, no " + proposed->without, &*proposed->fewer);
+      sets_.emplace_back(fmt::format("proposed {}", proposed->set.sensors.size()), &proposed->set);
+      if (proposed->more) sets_.emplace_back("proposed + " + proposed->with, &*proposed->more);
+    }
+    for (auto const& [name, set] : sets_) width_ = std::max(width_, name.size());
+  }
 
-std::string proposed_lines(Proposed const& proposed, double reference, int dead) {
-  std::string text;
-  if (proposed.fewer) text += error_line("proposed, no " + proposed.without, *proposed.fewer, reference, dead);
-  text += error_line(fmt::format("proposed {}", proposed.set.sensors.size()), proposed.set, reference, dead);
-  if (proposed.more) text += error_line("proposed + " + proposed.with, *proposed.more, reference, dead);
-  return text;
+  [[nodiscard]] std::string text() const {
+    std::string text = fmt::format("  {:<{}} {:>8} {:>13} {:>12}  {:>16} {:>11}", "all displacements [um]", width_,
+                                   "model", "predicted 1s", "unseen rms", "80 % of machines", "over rec.");
+    if (report_.dead > 0) text += fmt::format("  {:>12}", fmt::format("any {} dead", report_.dead));
+    text += fmt::format("\n  {:<{}} {:>8.2f}\n", "no sensor", width_, report_.prior_um);
+    for (auto const& [name, set] : sets_) text += line(name, *set);
+    return text + fmt::format("  {:<{}} {:>8.2f} {:>13} {:>12}  {:>16} {}\n", fmt::format("all {}", report_.candidates),
+                              width_, report_.floor_um, "", "", "", over_recommended(report_.floor_um));
+  }
+
+ private:
+  [[nodiscard]] std::string over_recommended(double model_um) const {
+    return fmt::format("{:>+9.1f} %", percent(model_um, report_.recommended.model_um));
+  }
+  [[nodiscard]] std::string line(std::string const& name, SetFigures const& set) const {
+    return fmt::format("  {:<{}} {:>8.2f} {:>13.2f} {:>12.2f}  {:>6.2f} .. {:<6.2f} {}{}\n", name, width_, set.model_um,
+                       set.predicted_um, set.unseen_um, set.unseen_low_um, set.unseen_high_um,
+                       over_recommended(set.model_um),
+                       report_.dead > 0 ? fmt::format("  {:>12.2f}", set.worst_um) : "");
+  }
+
+  PlacementReport const& report_;
+  std::vector<std::pair<std::string, SetFigures const*>> sets_;
+  std::size_t width_ = 26;
+};
+
+/// What a sensor is there for without which the error hardly changes.
+std::string idle_text(PlacementReport const& report) {
+  return report.dead > 0 ? "spare" : report.distinction ? "for the effects" : "idle";
 }
 
 Json to_json(SetFigures const& set, int dead) {
@@ -137,21 +180,10 @@ std::string placement_text(PlacementReport const& report) {
       "{} machines that the file could stand for, {} spectra each; judged on {} others with other spectra\n"
       "{}\n{}\n\nrecommended\n\n{}\n",
       count, report.candidates, report.machine, report.noise, report.members, report.experiments.size(),
-      report.unseen_members, numbers_text(report), teacher_text(report.teacher), set_table(best, report.dead));
-  if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(report.proposed->set, 0));
-  text += fmt::format("  {:<26} {:>8} {:>13} {:>12}  {:>16}{}\n", "all displacements [um]", "model", "predicted 1s",
-                      "unseen rms", "80 % of machines",
-                      report.dead > 0 ? fmt::format("           {:>13}", fmt::format("any {} dead", report.dead)) : "");
-  text += fmt::format("  {:<26} {:>8.2f}\n", "no sensor", report.prior_um);
-  if (report.fewer)
-    text += error_line(fmt::format("best {}", report.fewer->sensors.size()), *report.fewer, best.model_um, report.dead);
-  text += error_line(fmt::format("recommended {}", count), best, best.model_um, report.dead);
-  if (report.more)
-    text += error_line(fmt::format("best {}", report.more->sensors.size()), *report.more, best.model_um, report.dead);
-  if (report.proposed) text += proposed_lines(*report.proposed, best.model_um, report.dead);
-  text +=
-      fmt::format("  {:<26} {:>8.2f}                                              {:>+6.1f} %\n",
-                  fmt::format("all {}", report.candidates), report.floor_um, percent(report.floor_um, best.model_um));
+      report.unseen_members, numbers_text(report), teacher_text(report.teacher), set_table(best, idle_text(report)));
+  if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(report.proposed->set, "idle"));
+  text += ErrorTable(report).text();
+  if (!report.remarks.empty()) text += "\n";
   for (auto const& remark : report.remarks) text += remark + "\n";
   if (report.dead > 0)
     text += fmt::format("\nwith any {} of them dead: at most {:.2f} um, {:.2f} times the error of all\n", report.dead,

@@ -37,6 +37,8 @@ void check(PlacementOptions const& options, std::size_t candidates) {
     throw InputError(fmt::format("{} sensors, but only {} candidate sites", options.sensors, candidates));
   if (options.dead < 0 || options.dead >= options.sensors)
     throw InputError(fmt::format("{} of {} sensors dead; at least one must be left", options.dead, options.sensors));
+  if (options.dead > 0 && options.distinguish)
+    throw InputError("sensors are chosen either to outlive dead ones or to tell effects apart, not for both");
   if (!(options.noise > 0.0)) throw InputError(fmt::format("the noise is {} K; it must be positive", options.noise));
   if (options.design.members < 2)
     throw InputError(fmt::format("{} members; at least 2 are due", options.design.members));
@@ -409,6 +411,12 @@ std::vector<std::string> Judge::remarks(PlacementReport const& report) const {
   if (int(report.recommended.sensors.size()) < options_.sensors)
     words.push_back(fmt::format("{} were asked for; the budget of {:g} has room for no better set than these {}",
                                 options_.sensors, rules.budget, report.recommended.sensors.size()));
+  auto const& chosen = report.recommended.sensors;
+  auto const idle = std::count_if(chosen.begin(), chosen.end(), [](auto const& sensor) { return sensor.idle; });
+  if (idle > 0 && options_.dead == 0 && !options_.distinguish)  // those sets need theirs: as spares, for the effects
+    words.push_back(
+        fmt::format("{} would do: without {} the error is less than {:g} % larger", chosen.size() - std::size_t(idle),
+                    idle == 1 ? "the idle one" : fmt::format("the {} idle ones", idle), 100.0 * idle_share));
   auto const turning = turning_bodies(document_);
   auto const about = [&](SetFigures const& set, std::string const& which) {
     std::set<std::string> turn, forbidden;

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "models/placement.h"
 #include "tests/output/temporary_directory.h"
@@ -287,6 +289,26 @@ TEST(PlaceSensors, FindsTheIdleSensorOfAProposal) {
   EXPECT_THAT(idle, testing::ElementsAre(testing::AnyOf("head_front", "T6")));
 }
 
+/// Of three sensors at one place, two are idle: the third and the one elsewhere would do.
+TEST(PlaceSensors, SaysHowManySensorsWouldDo) {
+  auto options = quick(4);
+  options.rules.sites = {{"a", {"head_front"}}, {"b", {"head_front"}}, {"c", {"head_front"}}, {"d", {"column_front"}}};
+  auto const all = place_sensors(v450(), options);
+  EXPECT_THAT(all.remarks,
+              testing::ElementsAre("2 would do: without the 2 idle ones the error is less than 1 % larger"));
+  EXPECT_THAT(placement_text(all), HasSubstr(all.remarks.front()));
+  options.sensors = 3;
+  EXPECT_THAT(place_sensors(v450(), options).remarks,
+              testing::ElementsAre("2 would do: without the idle one the error is less than 1 % larger"));
+  options.sensors = 2;
+  auto const two = place_sensors(v450(), options);
+  EXPECT_THAT(two.remarks, testing::IsEmpty());
+  EXPECT_LT(two.recommended.model_um, 1.01 * all.recommended.model_um);
+  options.sensors = 4;
+  options.dead = 1;  // the others are spares then
+  EXPECT_THAT(place_sensors(v450(), options).remarks, testing::IsEmpty());
+}
+
 /// The best set of all is what one more sensor makes of all but one of it.
 TEST(PlaceSensors, FindsTheSensorThatAProposalLacks) {
   auto options = quick(3);
@@ -377,6 +399,22 @@ TEST(PlaceSensors, SpeaksToPeopleAndPrograms) {
   EXPECT_EQ(std::get<Value::List>(parse_toml(file, "tables").find("temperature_sensor")->content).size(), 2U);
 }
 
+/// Long names, air that has no place, and a set that is no better than another by what is printed.
+TEST(PlaceSensors, TabulatesSets) {
+  auto options = quick(2);
+  options.rules.sites = {{"in the room", {"ambient"}}, {"nose, left of the front ring", {"cartridge[10 mm]"}}};
+  options.proposed = {"in the room"};
+  auto const text = placement_text(place_sensors(v450(), options));
+  EXPECT_THAT(text, HasSubstr(" room air "));
+  EXPECT_THAT(text, Not(HasSubstr("-0.0 %")));
+  std::set<std::size_t> ends;
+  std::istringstream lines(text.substr(text.find("all displacements")));
+  for (std::string line; std::getline(lines, line) && !line.empty();)
+    if (line.ends_with(" %")) ends.insert(line.size());
+  EXPECT_EQ(ends.size(), 1U) << text;
+  EXPECT_THAT(text, HasSubstr("proposed + nose, left of the front ring "));
+}
+
 TEST(PlaceSensors, SaysWhatABudgetLeavesOf) {
   auto options = quick(4);
   options.rules.budget = 2.0;
@@ -409,6 +447,9 @@ TEST(PlaceSensors, RefusesWhatCannotBe) {
   auto options = quick(3);
   options.dead = 3;
   EXPECT_THAT(refusal(v450(), options), HasSubstr("3 of 3 sensors dead"));
+  options.dead = 1;
+  options.distinguish = true;
+  EXPECT_THAT(refusal(v450(), options), HasSubstr("either to outlive dead ones or to tell effects apart"));
   options = quick(3);
   options.proposed = {"T1", "haed_front"};
   EXPECT_THAT(refusal(v450(), options), HasSubstr("did you mean 'head_front'?"));

@@ -46,10 +46,11 @@ function bar(share: number): HTMLElement {
 function sensorsPanel(section: PlacementSection): HTMLElement {
   const {sensors} = section.recommended, worst = Math.max(...sensors.map((s) => s.error_without_um), 1e-12);
   const place = (p: [number, number, number]): string => p.map((x) => (1e3 * x).toFixed(0).replace('-', '−')).join(', ');
+  const idle = section.dead > 0 ? ', spare' : section.distinction ? ', for the effects' : ', idle';
   const rows = sensors.map((s, i) => make('tr', {}, make('td', {class: 'number'}, String(i + 1)), make('th', {scope: 'row', class: 'site'}, s.name),
     make('td', {class: 'number'}, s.at[0] === 'ambient' ? 'room air' : place(s.position_m)),
     make('td', {class: 'wide'}, bar(s.error_without_um / worst)),
-    make('td', {class: 'number'}, `${short(s.error_without_um)} µm${s.idle ? (section.dead > 0 ? ', spare' : ', idle') : ''}`)));
+    make('td', {class: 'number'}, `${short(s.error_without_um)} µm${s.idle ? idle : ''}`)));
   return panel('Recommended sensors', 'sensors', () => [
     {name: 'site', values: sensors.map((s) => s.name)},
     ...['x', 'y', 'z'].map((axis, i) => ({name: `${axis}_m`, values: sensors.map((s) => s.position_m[i]!)})),
@@ -60,7 +61,8 @@ function sensorsPanel(section: PlacementSection): HTMLElement {
 
 function setsPanel(section: PlacementSection): HTMLElement {
   const named = (what: string, set: SensorSet | undefined): [string, SensorSet][] => (set ? [[`${what} ${set.sensors.length}`, set]] : []);
-  const sets = [...named('best', section.one_fewer), ...named('recommended', section.recommended), ...named('best', section.one_more),
+  const best = section.distinction ? 'for displacement' : 'best';
+  const sets = [...named(best, section.one_fewer), ...named('recommended', section.recommended), ...named(best, section.one_more),
     ...named('proposed', section.proposed)];
   const cells = (name: string, model: number, rest: number[]): HTMLElement => make('tr', {}, make('th', {scope: 'row', class: 'site'}, name),
     make('td', {class: 'wide'}, bar(model / section.no_sensor_um)), ...[model, ...rest].map((x) => make('td', {class: 'number'}, short(x))));
