@@ -8,9 +8,9 @@
 namespace thermotwin::models {
 
 /// Temperature points by ordered clustering (paper 000; methods.md §3): the sensors that the pre-screen keeps, ordered
-/// by their mean rise over all batches, normalised across sensors, parted into k contiguous classes of least loss; of
-/// each class the sensor of most information. Candidates for k are the bends of the loss; the three differ in how they
-/// choose among them. With a count k is the count; where the pre-screen keeps fewer, all sensors are clustered.
+/// by their mean rise over all batches, normalised as the options say, parted into k contiguous classes of least loss;
+/// of each class the sensor of most information. Candidates for k are the bends of the loss; the three differ in how
+/// they choose among them. With a count k is the count; where the pre-screen keeps fewer, all sensors are clustered.
 ///
 /// Throws std::invalid_argument where the samples are too few for a regression on the fewest sensors.
 

@@ -12,6 +12,7 @@
 
 #include "models/batch.h"
 #include "models/mutual_information.h"
+#include "models/ordered_clustering.h"
 
 namespace thermotwin::models {
 
@@ -22,6 +23,7 @@ struct SelectionOptions {
   std::uint64_t seed = 1;                  ///< of permutations, random starts and shuffles
   double resolution = 0.0625;              ///< of the temperature readings [K], for the rank by time characteristic
   MutualInformationOptions information{};  ///< how the pre-screen counts; seed and block are its own
+  Normalisation normalisation = Normalisation::across_sensors;  ///< of the readings that ordered clustering parts
   Eigen::MatrixXd mode_shapes{};  ///< p × modes: temperature of each sensor in each thermal mode, for "thermal_modes"
   std::shared_ptr<SharedScreen> shared{};  ///< with other methods, on the same batches with the same seed; may be none
 };

@@ -22,7 +22,8 @@ OrderedCandidates const& SharedScreen::ordered(Candidates const& from, Selection
     std::vector<Index> order;
     for (Index const place : ascending(from.all.temperature_rise(Eigen::all, clustered)))
       order.push_back(clustered[static_cast<std::size_t>(place)]);
-    OrderedPartitions partitions(class_diameters(normalised(from.all.temperature_rise(Eigen::all, order))));
+    auto const objects = normalised(from.all.temperature_rise(Eigen::all, order), options.normalisation);
+    OrderedPartitions partitions(class_diameters(objects));
     ordered_[which].emplace(OrderedCandidates{std::move(order), std::move(partitions)});
   });
   return *ordered_[which];

@@ -123,6 +123,24 @@ TEST(OrderedClustering, NormalisationsAreWhatTheySayAndDropInstantsWithoutRange)
   EXPECT_TRUE(z.colwise().squaredNorm().isApprox(Eigen::RowVector2d(3, 3)));
 }
 
+/// Six sensors of which, for 20 min, three stand at 1 K and three at 5 K, for 30 min five at 2 K and one at 10 K, and
+/// in one instant two at 1.5 K and four at 20 K. Between the sensors' ranges, parting them in the middle takes 20 · 3/2
+/// + 30/6 + 2/3 of the loss, parting off the hottest 20 · 3/10 + 30 · 5/6 + 1/30; over their deviations, which are
+/// smaller in the 30 min, 120 + 36 + 3 and 24 + 180 + 1/7. Over time, the instant at 20 K leaves of the four nothing
+/// but itself.
+TEST(OrderedClustering, NormalisationsPartTheSameSensorsDifferently) {
+  MatrixXd rise(51, 6);
+  rise.topRows(20) = Eigen::RowVectorXd{{1, 1, 1, 5, 5, 5}}.replicate(20, 1);
+  rise.middleRows(20, 30) = Eigen::RowVectorXd{{2, 2, 2, 2, 2, 10}}.replicate(30, 1);
+  rise.bottomRows(1) = Eigen::RowVectorXd{{1.5, 1.5, 20, 20, 20, 20}};
+  auto const parted = [&](MatrixXd const& objects) {
+    return begins(OrderedPartitions(class_diameters(objects)).classes(2));
+  };
+  EXPECT_THAT(parted(normalised(rise)), ElementsAre(1, 4));
+  EXPECT_THAT(parted(normalised(rise, Normalisation::z_score)), ElementsAre(1, 6));
+  EXPECT_THAT(parted(normalised(rise, Normalisation::over_time)), ElementsAre(1, 3));
+}
+
 TEST(OrderedClustering, RefusesClassesThatCannotBe) {
   OrderedPartitions const partitions(class_diameters(child_growth()));
   EXPECT_THROW(static_cast<void>(partitions.classes(0)), std::invalid_argument);

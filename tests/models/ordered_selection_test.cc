@@ -104,6 +104,35 @@ TEST(OrderedSelection, MethodsThatShareAScreenChooseAsWithoutAndScreenOnce) {
   EXPECT_EQ(shared->screen(second, {}).information, screen_by_information(first, 1).information);
 }
 
+/// Of each class of the sensors so normalised the one of most information, whatever the rule; without a word, between
+/// the sensors at each instant.
+TEST(OrderedSelection, TheRulesPartWhatIsNormalisedAsAsked) {
+  Batch run = random_walks(7, 80, 8);
+  run.components = {"a", "b", "c", "d", "e", "f", "g", "h"};
+  auto const order = ascending(run.temperature_rise);
+  auto const expected = [&](Normalisation how, VectorXd const& information) {
+    std::set<Index> sensors;
+    auto const objects = normalised(run.temperature_rise(Eigen::all, order), how);
+    for (auto const& places : OrderedPartitions(class_diameters(objects)).classes(3))
+      sensors.insert(*std::max_element(order.begin() + places.front(), order.begin() + places.back() + 1,
+                                       [&](Index a, Index b) { return information(a) < information(b); }));
+    return sensors;
+  };
+  for (auto const select : {select_by_ordered_clustering_improved, select_by_ordered_clustering_ratio,
+                            select_by_ordered_clustering_slope}) {
+    std::set<std::set<Index>> different;
+    for (auto const how : {Normalisation::across_sensors, Normalisation::over_time, Normalisation::z_score}) {
+      auto const chosen = select({&run, 1}, {.count = 3, .normalisation = how});
+      std::set<Index> const sensors(chosen.sensors.begin(), chosen.sensors.end());
+      EXPECT_EQ(sensors, expected(how, chosen.score));
+      different.insert(sensors);
+    }
+    EXPECT_GE(different.size(), 2U);
+    EXPECT_EQ(select({&run, 1}, {.count = 3}).sensors,
+              select({&run, 1}, {.count = 3, .normalisation = Normalisation::across_sensors}).sensors);
+  }
+}
+
 TEST(OrderedSelection, RemarkHasTheFiguresThatDecided) {
   Batch const run = four_components(3);
   auto const remark = select_by_ordered_clustering_improved({&run, 1}, {}).remark;

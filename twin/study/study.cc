@@ -19,7 +19,7 @@ namespace {
 using Columns = std::vector<Eigen::Index>;
 
 models::SelectionOptions selection_options(StudyScreening const& screening) {
-  using models::BiasCorrection, models::BinCount, models::BinEdges;
+  using models::BiasCorrection, models::BinCount, models::BinEdges, models::Normalisation;
   static std::map<std::string, BinCount> const counts = {{"cellucci", BinCount::cellucci},
                                                          {"sturges", BinCount::sturges},
                                                          {"square_root", BinCount::square_root},
@@ -27,7 +27,11 @@ models::SelectionOptions selection_options(StudyScreening const& screening) {
   static std::map<std::string, BiasCorrection> const biases = {{"shuffle_null", BiasCorrection::shuffle_null},
                                                                {"miller_madow", BiasCorrection::miller_madow},
                                                                {"none", BiasCorrection::none}};
+  static std::map<std::string, Normalisation> const normalisations = {{"across_sensors", Normalisation::across_sensors},
+                                                                      {"over_time", Normalisation::over_time},
+                                                                      {"z_score", Normalisation::z_score}};
   models::SelectionOptions options;
+  options.normalisation = normalisations.at(screening.normalisation);
   options.resolution = screening.resolution;
   options.information.count = counts.at(screening.bins);
   options.information.bias = biases.at(screening.bias);

@@ -101,9 +101,9 @@ struct StudyClaim {
   }
 };
 
-/// `[screening]`: how methods of selection look at readings (methods.md §3.2, §4.2).
+/// `[screening]`: how methods of selection look at readings (methods.md §3.2, §3.3, §4.2).
 struct StudyScreening {
-  std::string bins = "cellucci", edges = "equal_width", bias = "shuffle_null";
+  std::string bins = "cellucci", edges = "equal_width", bias = "shuffle_null", normalisation = "across_sensors";
   int permutations = 199;
   double resolution = 0.0625;  ///< [K]
 
@@ -114,6 +114,10 @@ struct StudyScreening {
     f.choice("edges", &StudyScreening::edges, {"equal_width", "equal_frequency"}, "of these bins");
     f.choice("bias", &StudyScreening::bias, {"shuffle_null", "miller_madow", "none"}, "that is taken off");
     f("permutations", &StudyScreening::permutations, "that p values are of", Range{19, 100'000});
+    f.choice(
+        "normalisation", &StudyScreening::normalisation, {"across_sensors", "over_time", "z_score"},
+        "of the readings that ordered clustering parts: at each instant to the range of the sensors, each sensor to "
+        "its own range over time, or at each instant to the sensors' mean and deviation");
     f("resolution", &StudyScreening::resolution, thermal::dimension::temperature_difference,
       "of the readings: what a maximum or a pivot must be above", Range{0.0, 5.0});
   }

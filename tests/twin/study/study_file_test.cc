@@ -45,6 +45,8 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
   EXPECT_THAT(with(all, "\"T9\"", "\"T19\""),
               HasSubstr("small.toml:11:24: world 'v450': the machine has no sensor 'T19'; did you mean"));
   EXPECT_THAT(with(all, "error =", "eror ="), HasSubstr("small.toml:10:1: unknown key 'eror'; did you mean 'error'"));
+  EXPECT_THAT(SmallStudy(all + "[screening]\nnormalisation = \"over_tim\"\n").complaint(),
+              HasSubstr("small.toml:15:17: 'normalisation' is 'over_tim'; did you mean 'over_time'?"));
   EXPECT_THAT(SmallStudy(all + "[[claim]]\nsays = \"x\"\ncombination = \"all + linear\"\nat_most = 1\ntolerance = 5\n")
                   .complaint(),
               HasSubstr("small.toml:18:13: a 'tolerance' says no worse than another combination; give 'than'"));
