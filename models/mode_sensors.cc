@@ -1,13 +1,13 @@
 #include "models/mode_sensors.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <numeric>
 #include <stdexcept>
 
 #include "models/candidates.h"
+#include "models/placement.h"
 
 namespace thermotwin::models {
 
@@ -53,60 +53,51 @@ MatrixXd shapes_at(Candidates const& from, MatrixXd const& shapes) {
   return distinct;
 }
 
-/// Rows of W that are pivots above `least`, in the order of pivoting.
-std::vector<Index> spanning_rows(MatrixXd const& W, std::vector<Index> const& rows, double least) {
-  Eigen::ColPivHouseholderQR<MatrixXd> const factors(W(rows, Eigen::all).transpose());
-  std::vector<Index> pivots;
-  for (Index i = 0; i < std::min<Index>(W.cols(), static_cast<Index>(rows.size())); ++i)
-    if (std::abs(factors.matrixQR()(i, i)) > least)
-      pivots.push_back(rows[static_cast<std::size_t>(factors.colsPermutation().indices()(i))]);
-  return pivots;
+/// What the modes make of the readings, and what that has to do with the error, or with the amplitudes.
+PlacementProblem problem_of(MatrixXd const& shapes, Batch const& all, double resolution) {
+  MatrixXd const unit = shapes.colwise().normalized(), readings = centred(all.temperature_rise);
+  MatrixXd const amplitude = unit.completeOrthogonalDecomposition().solve(readings.transpose()).transpose();
+  MatrixXd const error = centred(all.error), asked = error.norm() > 0 ? error : amplitude;
+  auto const degrees = static_cast<double>(std::max<Index>(readings.rows() - 1, 1));
+  PlacementProblem problem;
+  problem.worlds.push_back({unit * (amplitude.transpose() * amplitude) * unit.transpose() / degrees,
+                            unit * (amplitude.transpose() * asked) / degrees, asked.squaredNorm() / degrees});
+  double const rounding = std::max(resolution * resolution / 12.0, 1e-12 * readings.squaredNorm() / degrees);
+  problem.noise = Eigen::VectorXd::Constant(readings.cols(), rounding);
+  return problem;
 }
 
-/// All rows, round after round.
-std::vector<Index> pivot_rounds(MatrixXd const& W, double least) {
-  std::vector<Index> rest(static_cast<std::size_t>(W.rows())), order;
-  std::iota(rest.begin(), rest.end(), 0);
-  while (!rest.empty()) {
-    auto round = spanning_rows(W, rest, least);
-    if (round.empty()) round = rest;
-    for (auto row : round) std::erase(rest, row);
-    order.insert(order.end(), round.begin(), round.end());
+/// How many movements of the readings stand above their rounding; at least one.
+Index movements(PlacementProblem const& problem) {
+  Eigen::SelfAdjointEigenSolver<MatrixXd> const solver(problem.worlds.front().readings, Eigen::EigenvaluesOnly);
+  return std::max<Index>((solver.eigenvalues().array() > problem.noise[0]).count(), 1);
+}
+
+/// The same places, each with the first sensors there: what the modes know of these is the same, and rounding decides
+/// nothing.
+std::vector<Index> first_at_their_places(MatrixXd const& shapes, std::vector<Index> const& chosen) {
+  std::vector<Index> firsts;
+  for (Index const sensor : chosen) {
+    Index first = 0;
+    while (shapes.row(first) != shapes.row(sensor) || std::find(firsts.begin(), firsts.end(), first) != firsts.end())
+      ++first;
+    firsts.push_back(first);
   }
-  return order;
+  return firsts;
 }
 
 }  // namespace
 
-ModeParticipation participation(MatrixXd const& mode_shapes, MatrixXd const& temperature_rise,
-                                Eigen::VectorXd const& error) {
-  Eigen::VectorXd const lengths = mode_shapes.colwise().norm();
-  MatrixXd const unit = mode_shapes.colwise().normalized();
-  MatrixXd const readings = centred(temperature_rise);
-  MatrixXd const amplitude = unit.completeOrthogonalDecomposition().solve(readings.transpose()).transpose();
-  Eigen::VectorXd const deviation =
-      amplitude.colwise().norm() / std::sqrt(static_cast<double>(std::max<Index>(readings.rows() - 1, 1)));
-  Eigen::VectorXd const centred_error = error.array() - error.mean();
-  if (centred_error.norm() == 0) return {deviation, Eigen::VectorXd::Ones(deviation.size())};
-  return {deviation, amplitude.colwise().normalized().transpose() * centred_error.normalized()};
-}
-
 Selection select_for_modes(std::span<Batch const> batches, SelectionOptions const& options) {
   auto const from = candidates(batches, options);
   MatrixXd const shapes = shapes_at(from, options.mode_shapes);
-  auto const share = participation(shapes, from.all.temperature_rise, from.all.error);
-  MatrixXd const W =
-      shapes.colwise().normalized() * share.deviation.cwiseProduct(share.correlation.cwiseAbs()).asDiagonal();
-  double const least = std::max(options.resolution / std::sqrt(12.0), 1e-9 * W.norm());
-  auto order = pivot_rounds(W, least);
-  std::vector<Index> all(static_cast<std::size_t>(from.count()));
-  std::iota(all.begin(), all.end(), 0);
-  auto const seen = std::max<std::size_t>(spanning_rows(W, all, least).size(), 1);
-  order.resize(options.count ? static_cast<std::size_t>(*options.count) : seen);
+  auto const problem = problem_of(shapes, from.all, options.resolution);
+  Index const seen = movements(problem);
+  auto const chosen = place(problem, options.count.value_or(static_cast<int>(seen))).sensors;
   return selection(
-      from, order, W.rowwise().norm(),
+      from, first_at_their_places(shapes, chosen), RemainingVariance(problem, 1).gains(),
       fmt::format("{} of {} thermal modes that the sensors tell apart stand above the rounding of the readings", seen,
-                  W.cols()));
+                  shapes.cols()));
 }
 
 }  // namespace thermotwin::models

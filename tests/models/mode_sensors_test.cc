@@ -1,7 +1,9 @@
 #include "models/mode_sensors.h"
 
+#include <Eigen/Cholesky>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <set>
 
 #include "tests/models/simulated_batch.h"
 
@@ -9,6 +11,7 @@ namespace thermotwin::models {
 namespace {
 
 using testing::ElementsAre;
+using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
 /// Three modes seen by six sensors in pairs, the first of a pair twice as strongly; the third mode does not move the
@@ -39,28 +42,60 @@ SelectionOptions options(std::optional<int> count) {
   return result;
 }
 
-TEST(Participation, FindsAmplitudesAndWhatTheyDo) {
-  auto const data = readings();
-  auto const share = participation(shapes(), data.temperature_rise, data.error);
-  double const deviation = 50 / std::sqrt(499.0) * std::sqrt(5.0);
-  for (Eigen::Index mode = 0; mode < 3; ++mode) EXPECT_NEAR(share.deviation(mode), deviation, 0.01 * deviation);
-  EXPECT_GT(share.correlation(1), share.correlation(0));
-  auto const scaled =
-      participation(shapes() * Eigen::Vector3d(7, -0.1, 3).asDiagonal(), data.temperature_rise, data.error);
-  EXPECT_LT((scaled.deviation - share.deviation).norm(), 1e-9);
-  EXPECT_LT((scaled.correlation.cwiseAbs() - share.correlation.cwiseAbs()).norm(), 1e-9);
+double correlation(Eigen::VectorXd const& a, Eigen::VectorXd const& b) {
+  Eigen::VectorXd const x = a.array() - a.mean(), y = b.array() - b.mean();
+  return x.normalized().dot(y.normalized());
 }
 
-TEST(ModeSensors, SeeEachModeWhereItIsStrongest) {
-  EXPECT_THAT(select_for_modes({{readings()}}, options({})).sensors, UnorderedElementsAre(0, 2, 4));
+TEST(ModeSensors, TellWhatMovesTheError) {
+  EXPECT_THAT(select_for_modes({{readings()}}, options({})).sensors, SizeIs(3));
   EXPECT_THAT(select_for_modes({{readings()}}, options(1)).sensors, ElementsAre(2));
   EXPECT_THAT(select_for_modes({{readings()}}, options(2)).sensors, UnorderedElementsAre(0, 2));
 }
 
-TEST(ModeSensors, SeeModesTwiceWhenMoreAreAskedFor) {
+/// A strong mode that goes with the error because it goes with another one adds nothing to what that one's sensor
+/// tells.
+TEST(ModeSensors, HaveNoUseForAModeThatOnlyGoesWithTheError) {
+  auto const batch = readings();
+  Eigen::MatrixXd rise = batch.temperature_rise;
+  rise.rightCols(2) += 20 * rise.leftCols(2);
+  auto const data = batch_of(rise, batch.error);
+  EXPECT_GT(std::abs(correlation(rise.col(4), data.error)), 0.3);
+  EXPECT_THAT(select_for_modes({{data}}, options(2)).sensors, UnorderedElementsAre(0, 2));
+}
+
+/// Where the modes tell as much as the sensors do, what is left of the error's variance is that of a regression on the
+/// readings whose coefficients are held by their rounding; of all sets, no other leaves less.
+TEST(ModeSensors, LeaveTheLeastOfAllSets) {
+  std::mt19937_64 generator(8);
+  SelectionOptions any;
+  any.resolution = 0.5;
+  any.count = 3;
+  any.mode_shapes = Eigen::MatrixXd::NullaryExpr(7, 7, [&] { return normal(generator); });
+  Eigen::MatrixXd const rise = random_walks(6, 200, 7).temperature_rise * any.mode_shapes.transpose();
+  auto const batch = batch_of(rise, random_walks(9, 200, 2).temperature_rise.col(0) + rise.rowwise().sum());
+  Eigen::MatrixXd x = rise.rowwise() - rise.colwise().mean();
+  Eigen::VectorXd const y = batch.error.array() - batch.error.mean();
+  auto const left = [&](std::vector<Eigen::Index> const& set) {
+    Eigen::MatrixXd const of = x(Eigen::all, set);
+    Eigen::MatrixXd const S = of.transpose() * of / 199.0 + 0.25 / 12.0 * Eigen::MatrixXd::Identity(3, 3);
+    Eigen::VectorXd const s = of.transpose() * y / 199.0;
+    return y.squaredNorm() / 199.0 - s.dot(S.ldlt().solve(s));
+  };
+  auto const chosen = select_for_modes({{batch}}, any);
+  for (Eigen::Index a = 0; a < 7; ++a)
+    for (Eigen::Index b = a + 1; b < 7; ++b)
+      for (Eigen::Index c = b + 1; c < 7; ++c) EXPECT_GE(left({a, b, c}), left(chosen.sensors) * (1 - 1e-9));
+  for (Eigen::Index j = 0; j < 7; ++j)
+    EXPECT_NEAR(chosen.score(j), std::pow(x.col(j).dot(y) / 199.0, 2) / (x.col(j).squaredNorm() / 199.0 + 0.25 / 12.0),
+                1e-9 * y.squaredNorm());
+}
+
+TEST(ModeSensors, BeginWithWhatTellsMostWhenMoreAreAskedForThanThereAreModes) {
   auto const chosen = select_for_modes({{readings()}}, options(5)).sensors;
-  EXPECT_THAT(std::vector(chosen.begin(), chosen.begin() + 3), UnorderedElementsAre(0, 2, 4));
-  EXPECT_EQ(chosen[3], 3);
+  EXPECT_EQ(chosen[0], 2);
+  EXPECT_EQ(chosen[1], 0);
+  EXPECT_EQ(std::set<Eigen::Index>(chosen.begin(), chosen.end()).size(), 5U);
 }
 
 TEST(ModeSensors, WithoutAnErrorFollowTheReadings) {
