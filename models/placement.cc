@@ -307,18 +307,22 @@ Placement place(PlacementProblem const& problem, Index count, Index dead) {
   check(problem, count, dead);
   auto const starts = starts_of(problem, count);
   bool const priced = std::isfinite(problem.budget);
-  Search const intact(problem, count, 0);
-  std::vector<Set> sets(starts.size() * (priced ? 2 : 1));
+  Search const intact(problem, count, 0), robust(problem, count, dead);
+  std::vector<Set> grown(starts.size() * (priced ? 2 : 1)), sets(grown.size());
 #pragma omp parallel for schedule(dynamic)
-  for (std::size_t s = 0; s < sets.size(); ++s)
-    sets[s] = intact.exchanged(intact.grown(starts[s % starts.size()], s >= starts.size()));
-  keep_best(sets, intact, effort(problem, fewest_polished, most_polished));
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    grown[s] = intact.grown(starts[s % starts.size()], s >= starts.size());
+    sets[s] = intact.exchanged(grown[s]);
+  }
+  auto const most = effort(problem, fewest_polished, most_polished);
+  keep_best(sets, intact, most);
   if (problem.sites() <= most_sites_for_pairs) {
 #pragma omp parallel for schedule(dynamic)
     for (auto& set : sets) set = intact.polished(set);
   }
-  Search const robust(problem, count, dead);
   if (dead > 0) {
+    keep_best(grown, robust, most);
+    sets.insert(sets.end(), grown.begin(), grown.end());
 #pragma omp parallel for schedule(dynamic)
     for (auto& set : sets) set = robust.exchanged(set);
   }

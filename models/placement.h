@@ -20,8 +20,9 @@ struct Placement {
 /// Greedy from every site, and from pairs, up to 200 starts (40 in many worlds), those that tell most; then exchanges:
 /// each sensor in turn gives way to the best other site, until none does better; the best sets, 24 in one world and 2
 /// in many, exchange pairs as well, where there are at most 300 sites (Fedorov 1972; Miller, Subset Selection in
-/// Regression, 2002, ch. 3). The set does not depend on the number of threads. std::invalid_argument when there are
-/// fewer sites than sensors, or no more sensors than dead ones.
+/// Regression, 2002, ch. 3). With dead sensors these sets, and as many that greedy grew whose worst loss is least,
+/// exchange once more for that loss. The set does not depend on the number of threads. std::invalid_argument when there
+/// are fewer sites than sensors, or no more sensors than dead ones.
 [[nodiscard]] Placement place(PlacementProblem const& problem, Eigen::Index count, Eigen::Index dead = 0);
 
 /// The set of smallest V, by looking at all sets: the truth where there are few.

@@ -63,6 +63,21 @@ BENCHMARK_CAPTURE(PlacementBound, g200_fine_trained, "g200_fine", Teacher::machi
     ->Unit(benchmark::kMillisecond)
     ->Iterations(1);
 
+/// The same of 12 random machines of 200 lumps.
+void PlacementBoundOfRandomMachines(benchmark::State& state) {
+  std::vector<double> above;
+  for (auto _ : state)
+    for (int const in_loop : {10, 20, 60})
+      for (int seed = 0; seed < 4; ++seed) {
+        RandomMachine const machine(std::uint64_t(seed), in_loop, 200 - in_loop);
+        auto const problem = drawn_at_random(machine, 24, 0).problem();
+        above.push_back(std::sqrt(models::place(problem, 8).variance / models::placement_bound(problem, 8)) - 1.0);
+      }
+  state.counters["error_above_bound_least"] = *std::min_element(above.begin(), above.end());
+  state.counters["error_above_bound_largest"] = *std::max_element(above.begin(), above.end());
+}
+BENCHMARK(PlacementBoundOfRandomMachines)->Unit(benchmark::kMillisecond)->Iterations(1);
+
 void count(benchmark::State& state, ErrorRatios const& ratios, std::string const& what = "") {
   state.counters[what + "of_qr_median"] = median(ratios.to_pivots);
   state.counters[what + "of_qr_below_0.8"] = share_below(ratios.to_pivots, 0.8);
