@@ -191,8 +191,9 @@ std::string placement_text(PlacementReport const& report) {
   if (report.distinction) return text + distinction_text(*report.distinction, count);
   text += report.proved
               ? fmt::format("\nno set of {} is better: all were looked at\n", count)
-              : fmt::format("\nno set of {} has less than {:.2f} um: this one is at most {:.1f} % above the best\n",
-                            count, report.bound_um, percent(best.model_um, report.bound_um));
+              : fmt::format("\nno set of {}{} has less than {:.2f} um: this one is at most {:.1f} % above the best\n",
+                            count, report.dead > 0 ? ", all at work," : "", report.bound_um,
+                            percent(best.model_um, report.bound_um));
   return text;
 }
 

@@ -69,7 +69,7 @@ TEST_P(DemandedPlacementOn, DoublesTheSmallestAngleBetweenTwoEffects) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, DemandedPlacementOn, testing::Values("v450", "vmc850", "g200"),
+INSTANTIATE_TEST_SUITE_P(Machines, DemandedPlacementOn, testing::Values("v450", "vmc850", "g200"),
                          [](auto const& tested) { return std::string(tested.param); });
 
 }  // namespace

@@ -391,6 +391,7 @@ TEST(PlaceSensors, SpeaksToPeopleAndPrograms) {
   auto const text = placement_text(report);
   EXPECT_THAT(text, HasSubstr("recommended"));
   EXPECT_THAT(text, HasSubstr("with any 1 of them dead"));
+  EXPECT_THAT(text, HasSubstr("no set of 2, all at work, has less than"));
   auto const json = nlohmann::json::parse(placement_json(report));
   EXPECT_EQ(json["recommended"]["sensors"].size(), 2U);
   EXPECT_NEAR(json["recommended"]["model_um"], report.recommended.model_um, 1e-9);
