@@ -1,5 +1,5 @@
 // What is demanded of a placement (docs/placement.md, "Measured"), on the machines that the benchmark draws. Each takes
-// 3 to 50 s: hundreds of machines are simulated, or one with a mesh of 200 sites.
+// 3 to 60 s of one core: hundreds of machines are simulated, or one with a mesh of 200 sites.
 #include <chrono>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
