@@ -103,6 +103,7 @@ RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<d
     if (!twin) return result;
     result.course = run.course;
     result.start = run.time[first_reading(run)];
+    result.begins_warm = run.warm_start.has_value();
     auto const values = predict(*twin, run);
     result.said = dataset_of(run, sampling, &values);
     return result;
@@ -144,6 +145,10 @@ ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& 
   result.shown = slope || shown;
   result.fingerprint = fingerprint_of(result);
   return result;
+}
+
+void RecordedRun::remark_observer() {
+  if (begins_warm) remarks.emplace_back("the observer is not told how warm it was: it begins with the room");
 }
 
 VectorXd observed_change(TwinObserver const& observer, RecordedRun const& recorded, ErrorModelRun const& run) {

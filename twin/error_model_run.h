@@ -25,6 +25,10 @@ struct RecordedRun {
   std::vector<std::string> remarks;
   std::shared_ptr<thermal::Course const> course{};  ///< of the inputs, where there is a twin
   double start = 0.0;                               ///< on the course, of the rows' 0 [s]
+  bool begins_warm = false;                         ///< not at rest with the room, as far as a twin tells
+
+  /// Of a run that an observer follows: it begins with the room.
+  void remark_observer();
 };
 
 /// Means over `sampling` [s] where it is given. With a twin, what the machine says that is given the run's inputs.

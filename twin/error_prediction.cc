@@ -78,7 +78,10 @@ ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::pat
   auto const twin = saved.twin ? std::optional(twin_of(*saved.twin)) : std::nullopt;
   auto const observer = twin ? observer_of(saved, *twin) : std::nullopt;
   auto recorded = read_recorded_run(run, saved.sampling, twin ? &*twin : nullptr);
-  if (observer) refuse_other_machine(saved, twin->name, recorded);
+  if (observer) {
+    refuse_other_machine(saved, twin->name, recorded);
+    recorded.remark_observer();
+  }
   ErrorPrediction result;
   result.run = error_model_run(recorded, saved.inputs(), saved.error, false);
   if (observer) result.run.observed = observed_change(*observer, recorded, result.run);

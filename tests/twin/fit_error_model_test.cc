@@ -26,6 +26,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using thermotwin::tests::contents;
 using thermotwin::tests::put;
 using thermotwin::tests::refusal;
@@ -320,8 +321,13 @@ class FitObserver : public FitErrorModel {
   }
   static VectorXd missed(ErrorPrediction const& p) { return p.shown() - p.predicted; }
 
-  output::Dataset const train_ = poorly_greased("golden_b_6000"), test_ = poorly_greased("golden_b_4000");
+  static void SetUpTestSuite() {
+    train_ = poorly_greased("golden_b_6000");
+    test_ = poorly_greased("golden_b_4000");
+  }
+  static output::Dataset train_, test_;
 };
+output::Dataset FitObserver::train_, FitObserver::test_;
 
 TEST_F(FitObserver, SeesInTheSensorsWhatTheTwinLacks) {
   auto const train = put_run(train_, "train.h5"), test = put_run(test_, "test.h5");
@@ -403,6 +409,23 @@ TEST_F(FitObserver, IsOfItsMachineOnly) {
   put(folder_ / "mine.toml", contents(folder_ / "mine.toml") + "# changed\n");
   EXPECT_THAT(refusal([&] { (void)predict_error(saved, train); }),
               HasSubstr("mine.toml is no longer the file beside which the model was fitted"));
+}
+
+TEST_F(FitObserver, SaysThatItBeginsWithTheRoom) {
+  Index const left = train_.time_s.size() - 20;
+  output::Dataset late;
+  late.time_s = train_.time_s.tail(left);
+  late.inputs = train_.inputs;
+  late.readings = train_.readings;
+  late.displacements = train_.displacements;
+  for (auto* group : {&late.inputs, &late.readings, &late.displacements})
+    for (auto& channel : *group) channel.values = channel.values.tail(left).eval();
+  auto const file = put_run(late, "late.csv");
+  auto const remark = HasSubstr("late.csv: the observer is not told how warm it was: it begins with the room");
+  auto const saved = observing(file, "twin observer", {"T1"});
+  EXPECT_THAT(remarks_, Contains(remark));
+  EXPECT_THAT(predict_error(saved, file).remarks, Contains(remark));
+  EXPECT_THAT(predict_error(saved, put_run(test_, "test.h5")).remarks, Not(Contains(HasSubstr("observer"))));
 }
 
 TEST_F(FitObserver, RefusesWhatCannotBeObserved) {
