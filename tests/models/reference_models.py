@@ -1,5 +1,6 @@
 """Reads a table (inputs, then the response) from standard input and prints what scikit-learn makes of it.
 
+support_vector: fitted to the first rows, as many as the last number says, it predicts all.
 c_means: inputs are coordinates of points and then their memberships to start from; the response is not looked at. The
 iteration is that of methods.md 4.3, in numpy.
 """
@@ -17,8 +18,9 @@ kind, *numbers = sys.argv[1:]
 numbers = [float(n) for n in numbers]
 
 if kind == "support_vector":
-    cost, g, epsilon = numbers
-    model = SVR(kernel="rbf", C=cost, gamma=g, epsilon=epsilon, tol=1e-9).fit(x, y)
+    cost, g, epsilon, fitted = numbers
+    rows = slice(int(fitted))
+    model = SVR(kernel="rbf", C=cost, gamma=g, epsilon=epsilon, tol=1e-9).fit(x[rows], y[rows])
     result = model.predict(x)
 elif kind == "principal_components":
     z = (x - x.mean(0)) / x.std(0, ddof=1)
