@@ -123,7 +123,10 @@ FuzzyPartitions::FuzzyPartitions(MatrixXd points, FuzzyOptions const& options)
 FuzzyClusters const& FuzzyPartitions::clusters(int count) {
   std::lock_guard const alone(finding_);
   auto found = found_.find(count);
-  if (found == found_.end()) found = found_.emplace(count, fuzzy_c_means(points_, count, options_)).first;
+  if (found == found_.end()) {
+    found = found_.emplace(count, fuzzy_c_means(points_, count, options_)).first;
+    ++made_;
+  }
   return found->second;
 }
 

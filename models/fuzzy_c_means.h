@@ -51,12 +51,15 @@ class FuzzyPartitions {
   [[nodiscard]] FuzzyClusters const& clusters(int count);
   /// The c from 2 to n/2, 10 at most, with the least Xie-Beni index; 1 for fewer than four points.
   [[nodiscard]] int number();
+  /// Clusterings that were made so far.
+  [[nodiscard]] int made() const { return made_; }
 
  private:
   Eigen::MatrixXd points_;
   FuzzyOptions options_;
   std::mutex finding_;
   std::map<int, FuzzyClusters> found_;
+  int made_ = 0;
 };
 
 }  // namespace thermotwin::models

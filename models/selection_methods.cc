@@ -41,7 +41,7 @@ constexpr auto methods = std::to_array<SelectionMethod>({
      "Yin, Liao, Wang 2019 (methods.md 4.3)", select_by_fuzzy_amplitude},
     {"fuzzy_c_means_shape", "the same with courses brought to the same height before they are clustered",
      "Yin, Liao, Wang 2019 (methods.md 4.3)", select_by_fuzzy_shape},
-    {"thermal_modes", "sensors that span the machine's thermal modes, weighted by what these do to the error",
+    {"thermal_modes", "sensors that leave least unknown of the error, which the machine's thermal modes make up",
      "Wu, Zhang, Guo, Wang, Yang 2008 (methods.md 6.1)", select_for_modes},
     {"grey_relational", "the sensors of the highest grey relational grade with the error",
      "Miao, Liu, Dong, Chen 2016 (methods.md 7.4)", select_by_grey_relation},

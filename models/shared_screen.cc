@@ -11,7 +11,10 @@ std::shared_ptr<SharedScreen> shared_screen(SelectionOptions const& options) {
 }
 
 InformationScreen const& SharedScreen::screen(Candidates const& from, SelectionOptions const& options) {
-  std::call_once(screened_, [&] { screen_ = screen_by_information(from, options.seed, options.information); });
+  std::call_once(screened_, [&] {
+    screen_ = screen_by_information(from, options.seed, options.information);
+    ++made_;
+  });
   return screen_;
 }
 
@@ -25,6 +28,7 @@ OrderedCandidates const& SharedScreen::ordered(Candidates const& from, Selection
     auto const objects = normalised(from.all.temperature_rise(Eigen::all, order), options.normalisation);
     OrderedPartitions partitions(class_diameters(objects));
     ordered_[which].emplace(OrderedCandidates{std::move(order), std::move(partitions)});
+    ++made_;
   });
   return *ordered_[which];
 }
@@ -37,6 +41,12 @@ FuzzyPartitions& SharedScreen::fuzzy(Candidates const& from, std::uint64_t seed,
     fuzzy_[which].emplace(course_points(from, scale), options);
   });
   return *fuzzy_[which];
+}
+
+int SharedScreen::made() const {
+  int made = made_;
+  for (auto const& partitions : fuzzy_) made += partitions ? partitions->made() : 0;
+  return made;
 }
 
 }  // namespace thermotwin::models

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -34,7 +35,11 @@ class SharedScreen {
   /// Of the candidates' courses.
   FuzzyPartitions& fuzzy(Candidates const& from, std::uint64_t seed, ClusterScale scale);
 
+  /// Screens and clusterings that were made so far.
+  [[nodiscard]] int made() const;
+
  private:
+  std::atomic<int> made_{0};  ///< but for the fuzzy ones
   std::once_flag screened_;
   InformationScreen screen_;
   std::array<std::once_flag, 2> parted_;

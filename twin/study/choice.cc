@@ -32,25 +32,25 @@ models::Selection given_sensors(std::vector<std::string> const& names, Question 
 }
 
 models::Selection selected(NamedSelection const& method, Question const& question, WorldData const& data,
-                           models::SelectionOptions options) {
+                           ModeShapes const& modes, models::SelectionOptions options) {
   auto const moving = Index(question.columns.size());
   if (method.name == "all") return every_sensor(moving);
   if (!method.sensors.empty()) return given_sensors(method.sensors, question, data);
   options.count = method.count;
-  if (method.name == "thermal_modes") {
-    if (data.mode_shapes.size() == 0) throw std::invalid_argument(data.no_modes);
-    options.mode_shapes = data.mode_shapes(question.columns, Eigen::all);
+  if (method.name == modes_method) {
+    if (!modes.refused.empty()) throw std::invalid_argument(modes.refused);
+    options.mode_shapes = modes.sensors(question.columns, Eigen::all);
   }
   return models::selection_method(method.name).select(question.training, options);
 }
 
 }  // namespace
 
-Choice choose(NamedSelection const& method, Question const& question, WorldData const& data,
+Choice choose(NamedSelection const& method, Question const& question, WorldData const& data, ModeShapes const& modes,
               models::SelectionOptions options) {
   Choice choice;
   try {
-    auto const found = selected(method, question, data, std::move(options));
+    auto const found = selected(method, question, data, modes, std::move(options));
     choice.selection.remark = found.remark;
     choice.selection.evidence = found.evidence;
     choice.selection.score = Eigen::VectorXd::Zero(Index(data.sensors.size()));

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "models/exhaustive_selection.h"
@@ -14,8 +15,11 @@
 #include "models/shared_screen.h"
 #include "models/subset_validation.h"
 #include "twin/study/question.h"
+#include "twin/study/study_modes.h"
 
 namespace thermotwin::twin {
+
+inline constexpr std::string_view modes_method = "thermal_modes";
 
 /// What a method chose for a question, in columns of the world's sensors; or why it could not.
 struct Choice {
@@ -24,9 +28,10 @@ struct Choice {
   std::string refused;                ///< empty if it chose
 };
 
-/// `options` but for the number of sensors; what they share, all methods share that choose for this question with them.
+/// `options` but for the number of sensors and the mode shapes, which only modes_method asks for; what they share, all
+/// methods share that choose for this question with them.
 [[nodiscard]] Choice choose(NamedSelection const& method, Question const& question, WorldData const& data,
-                            models::SelectionOptions options);
+                            ModeShapes const& modes, models::SelectionOptions options);
 
 /// How good a choice is, by the truth of a world.
 struct ChoiceQuality {

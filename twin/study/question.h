@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <compare>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct Asked {
 struct RunPart {
   std::size_t run = 0;  ///< of 'train'
   Eigen::Index first = 0, count = 0;
+
+  auto operator<=>(RunPart const&) const = default;
 };
 
 /// A training set, and what its models are asked.
@@ -46,6 +49,9 @@ struct Questions {
   std::vector<std::string> remarks;
 };
 [[nodiscard]] Questions questions(StudyWorld const& world, WorldData const& data, int repetition, int folds);
+
+/// Whether both are trained on the same readings and errors of the same sensors.
+[[nodiscard]] bool trained_alike(Question const& a, Question const& b);
 
 /// Rows of a batch, as a batch that knows the readings before it: the machine does not rest in the middle of a run.
 [[nodiscard]] models::Batch rows_of(models::Batch const& batch, Eigen::Index first, Eigen::Index count);

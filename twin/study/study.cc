@@ -40,12 +40,25 @@ models::SelectionOptions selection_options(StudyScreening const& screening) {
   return options;
 }
 
+/// What of a machine and its runs selections and models get to see, but for the readings themselves.
+bool see_alike(StudyWorld const& a, StudyWorld const& b) {
+  return a.machine == b.machine && a.added == b.added && a.changes == b.changes && a.sampling == b.sampling &&
+         a.error == b.error;
+}
+
+/// One of a study's questions.
+struct QuestionPlace {
+  std::size_t repetition, question;
+};
+
 /// One repetition of one world: its questions, and what selections and models made of them.
 struct Repetition {
   std::size_t world;
   int number;  ///< within its world
   Questions questions;
   std::vector<Question const*> all;                               ///< fits, then validations
+  std::vector<QuestionPlace> same;                                ///< per question: the first that is trained alike
+  std::vector<ModeShapes const*> modes;                           ///< per question, where a selection asks for them
   std::vector<std::shared_ptr<models::SharedScreen>> screens;     ///< per question, for all selections
   std::vector<std::vector<Choice>> choices;                       ///< per question, per selection
   std::vector<std::vector<std::map<Columns, FittedModel>>> fits;  ///< per question, per single model
@@ -77,6 +90,11 @@ class StudyRunner {
  private:
   [[nodiscard]] std::function<void(double)> progress(std::string what) const;
   void ask();
+  [[nodiscard]] QuestionPlace first_alike(QuestionPlace place) const;
+  [[nodiscard]] bool is_first(QuestionPlace place) const {
+    return repetitions_[place.repetition].same[place.question].repetition == place.repetition;
+  }
+  void find_modes();
   void choose_all();
   void calibrate_twins();
   void fit_all();
@@ -102,6 +120,8 @@ class StudyRunner {
   std::vector<std::vector<std::size_t>> members_;  ///< per model of the study: those whose mean it is
   std::vector<Repetition> repetitions_;
   std::vector<SelectionTruth> truths_;
+  std::vector<std::map<std::vector<RunPart>, ModeShapes>> modes_;  ///< per world, by where it is linearised
+  StudyWork work_;
   std::vector<int> unclaimed_;  ///< per world: the first instants that none of its models is judged by
 };
 
@@ -115,7 +135,7 @@ void StudyRunner::ask() {
     for (int r = 0; r < worlds_[w].repetitions(); ++r) {
       try {
         repetitions_.push_back(
-            {w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}, {}, {}, {}, {}});
+            {w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}, {}, {}, {}, {}, {}, {}});
       } catch (thermal::InputError const& error) {
         throw about(study_.worlds[w], error.what());
       }
@@ -125,9 +145,50 @@ void StudyRunner::ask() {
       for (auto const& question : *list) repetition.all.push_back(&question);
     for (std::size_t q = 0; q < repetition.all.size(); ++q)
       repetition.screens.push_back(std::make_shared<models::SharedScreen>());
+    repetition.modes.assign(repetition.all.size(), nullptr);
     repetition.choices.assign(repetition.all.size(), std::vector<Choice>(selections_.size()));
     repetition.fits.assign(repetition.all.size(), std::vector<std::map<Columns, FittedModel>>(models_.size()));
   }
+  for (std::size_t r = 0; r < repetitions_.size(); ++r)
+    for (std::size_t q = 0; q < repetitions_[r].all.size(); ++q) repetitions_[r].same.push_back(first_alike({r, q}));
+}
+
+/// Of another world's questions: what is tested there changes nothing of what is learnt.
+QuestionPlace StudyRunner::first_alike(QuestionPlace place) const {
+  auto const& own = repetitions_[place.repetition];
+  for (std::size_t r = 0; r < place.repetition; ++r) {
+    auto const& other = repetitions_[r];
+    if (other.world == own.world || other.number != own.number ||
+        !see_alike(study_.worlds[other.world], study_.worlds[own.world]) ||
+        worlds_[other.world].sensors != worlds_[own.world].sensors)
+      continue;
+    for (std::size_t q = 0; q < other.all.size(); ++q)
+      if (trained_alike(*other.all[q], *own.all[place.question])) return other.same[q];
+  }
+  return place;
+}
+
+/// Once for all repetitions, whose inputs are the same.
+void StudyRunner::find_modes() {
+  modes_.resize(worlds_.size());
+  if (std::none_of(selections_.begin(), selections_.end(), [](auto const& one) { return one.name == modes_method; }))
+    return;
+  struct Task {
+    std::size_t world;
+    std::vector<RunPart> const* parts;
+    ModeShapes* shapes;
+  };
+  std::vector<Task> tasks;
+  for (auto& repetition : repetitions_)
+    for (std::size_t q = 0; q < repetition.all.size(); ++q) {
+      auto const [place, fresh] = modes_[repetition.world].try_emplace(of_first_run(repetition.all[q]->parts));
+      repetition.modes[q] = &place->second;
+      if (fresh) tasks.push_back({repetition.world, &place->first, &place->second});
+    }
+  in_parallel(tasks.size(), progress("modes"), options_.stop, [&](std::size_t i) {
+    auto const& [world, parts, shapes] = tasks[i];
+    *shapes = mode_shapes(study_.worlds[world], worlds_[world], *parts);
+  });
 }
 
 void StudyRunner::choose_all() {
@@ -136,16 +197,27 @@ void StudyRunner::choose_all() {
     std::size_t question, selection;
   };
   std::vector<Task> tasks;
-  for (auto& repetition : repetitions_)
-    for (std::size_t q = 0; q < repetition.all.size(); ++q)
-      for (std::size_t s = 0; s < selections_.size(); ++s) tasks.push_back({&repetition, q, s});
+  for (std::size_t r = 0; r < repetitions_.size(); ++r)
+    for (std::size_t q = 0; q < repetitions_[r].all.size(); ++q)
+      for (std::size_t s = 0; s < selections_.size() && is_first({r, q}); ++s)
+        tasks.push_back({&repetitions_[r], q, s});
   in_parallel(tasks.size(), progress("selections"), options_.stop, [&](std::size_t i) {
     auto const& [repetition, q, s] = tasks[i];
     auto options = selection_options(study_.screening);
     options.seed = seed_of(*repetition);
     options.shared = repetition->screens[q];
-    repetition->choices[q][s] = choose(selections_[s], *repetition->all[q], worlds_[repetition->world], options);
+    auto const* modes = repetition->modes[q];
+    repetition->choices[q][s] = choose(selections_[s], *repetition->all[q], worlds_[repetition->world],
+                                       modes ? *modes : ModeShapes{}, std::move(options));
   });
+  for (std::size_t r = 0; r < repetitions_.size(); ++r)
+    for (std::size_t q = 0; q < repetitions_[r].all.size(); ++q) {
+      auto const& [first, question] = repetitions_[r].same[q];
+      if (!is_first({r, q})) repetitions_[r].choices[q] = repetitions_[first].choices[question];
+    }
+  work_.selections = tasks.size();
+  for (auto const& repetition : repetitions_)
+    for (auto const& screen : repetition.screens) work_.clusterings += std::size_t(screen->made());
 }
 
 void StudyRunner::calibrate_twins() {
@@ -166,6 +238,7 @@ void StudyRunner::calibrate_twins() {
   }
   std::vector<std::vector<Asking> const*> tasks;
   for (auto const& [key, askings] : sharing) tasks.push_back(&askings);
+  work_.twins = tasks.size();
   in_parallel(tasks.size(), progress("twins"), options_.stop, [&](std::size_t i) {
     auto const& [first, question] = tasks[i]->front();
     auto const twin =
@@ -188,15 +261,17 @@ void StudyRunner::fit_all() {
     FittedModel* fit;
   };
   std::vector<Task> tasks;
-  for (auto& repetition : repetitions_)
-    for (std::size_t q = 0; q < repetition.all.size(); ++q)
-      for (auto const& choice : repetition.choices[q]) {
+  for (std::size_t r = 0; r < repetitions_.size(); ++r)
+    for (std::size_t q = 0; q < repetitions_[r].all.size(); ++q)
+      for (auto const& choice : repetitions_[r].choices[q]) {
         if (!choice.refused.empty()) continue;
         for (std::size_t m = 0; m < models_.size(); ++m) {
-          auto const [place, fresh] = repetition.fits[q][m].try_emplace(choice.columns);
-          if (fresh) tasks.push_back({&repetition, q, m, &place->first, &place->second});
+          if (!models_[m].twin && !is_first({r, q})) continue;
+          auto const [place, fresh] = repetitions_[r].fits[q][m].try_emplace(choice.columns);
+          if (fresh) tasks.push_back({&repetitions_[r], q, m, &place->first, &place->second});
         }
       }
+  work_.fits = tasks.size();
   in_parallel(tasks.size(), progress("models"), options_.stop, [&](std::size_t i) {
     auto const& task = tasks[i];
     auto const& repetition = *task.repetition;
@@ -209,6 +284,13 @@ void StudyRunner::fit_all() {
     else
       *task.fit = fit_model(model, repetition.asked(task.question, model), *task.columns, seed_of(repetition));
   });
+  for (std::size_t r = 0; r < repetitions_.size(); ++r)
+    for (std::size_t q = 0; q < repetitions_[r].all.size(); ++q)
+      for (std::size_t m = 0; m < models_.size() && !is_first({r, q}); ++m)
+        if (!models_[m].twin) {
+          auto const& [first, question] = repetitions_[r].same[q];
+          repetitions_[r].fits[q][m] = repetitions_[first].fits[question][m];
+        }
 }
 
 /// The first instants of each run that one of the world's models does not claim: a model that skips the start of a run
@@ -387,6 +469,7 @@ StudyReport StudyRunner::run() {
   StudyReport report;
   report.description = study_;
   ask();
+  find_modes();
   choose_all();
   calibrate_twins();
   fit_all();
@@ -397,7 +480,9 @@ StudyReport StudyRunner::run() {
   for (std::size_t w = 0; w < worlds_.size(); ++w) {
     report.units.push_back(worlds_[w].unit);
     report.repetitions.push_back(worlds_[w].repetitions());
+    work_.runs += worlds_[w].runs->made;
   }
+  report.work = work_;
   report.remarks = remarks();
   put_verdict(report);
   return report;

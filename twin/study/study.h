@@ -41,6 +41,15 @@ struct ClaimVerdict {
   std::string words;
 };
 
+/// What a study made for its combinations, which share it.
+struct StudyWork {
+  std::size_t runs = 0;         ///< simulated or read
+  std::size_t selections = 0;   ///< each for one training set
+  std::size_t clusterings = 0;  ///< and screens, which selections share
+  std::size_t twins = 0;        ///< calibrated
+  std::size_t fits = 0;         ///< of models, each for one set of sensors and one training set
+};
+
 /// Everything a study found.
 struct StudyReport {
   StudyDescription description;
@@ -52,6 +61,7 @@ struct StudyReport {
   std::vector<ClaimVerdict> claims;
   std::vector<std::string> verdict;  ///< sentences
   std::vector<std::string> remarks;  ///< with the worlds: sensors left out, what measured runs lack
+  StudyWork work{};
 };
 
 /// Of a combination, and "selection." of what its selection is worth.

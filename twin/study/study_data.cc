@@ -272,13 +272,6 @@ WorldData WorldReader::read() {
   remark_repeated();
   remark_measured();
   check_instants();
-  data_.no_modes = runs_.no_modes;
-  if (runs_.mode_shapes.size() == 0) return std::move(data_);
-  std::vector<Index> rows;
-  for (auto const& name : data_.sensors)
-    for (std::size_t s = 0; s < runs_.machine.sensors.size(); ++s)
-      if (runs_.machine.sensors[s].description.name == name) rows.push_back(Index(s));
-  data_.mode_shapes = runs_.mode_shapes(rows, Eigen::all);
   return std::move(data_);
 }
 

@@ -35,8 +35,6 @@ struct WorldData {
   std::vector<std::vector<StudyRun>> train, test;  ///< per repetition, per run, as the file lists them
   std::vector<std::string> sensors;                ///< candidates
   std::string unit;                                ///< of the error
-  Eigen::MatrixXd mode_shapes;                     ///< of the sensors, for "thermal_modes"; empty: `no_modes` says why
-  std::string no_modes;
   std::vector<std::string> remarks;
   std::shared_ptr<WorldRuns const> runs;  ///< what all of it was read from
 

@@ -158,6 +158,17 @@ std::string_view name_of(ClaimVerdict::Answer answer) {
   return "cannot be judged";
 }
 
+/// "12 runs, 34 selections with 6 screens and clusterings, 56 fits, each made once".
+std::string words_of(StudyWork const& work) {
+  auto const counted = [](std::size_t count, std::string const& what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  std::string text = counted(work.runs, "run") + ", " + counted(work.selections, "selection");
+  if (work.clusterings > 0) text += fmt::format(" with {} screens and clusterings", work.clusterings);
+  if (work.twins > 0) text += ", " + counted(work.twins, "calibrated twin");
+  return text + ", " + counted(work.fits, "fit") + ", each made once";
+}
+
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : ""; }
 
 Json json_of(Figures const& figures) {
@@ -215,6 +226,7 @@ std::string study_text(StudyReport const& report) {
     text += "\nmean of worlds\n\n" + combination_table(of_world(report.means, std::string(mean_of_worlds)));
   text += fmt::format("\nintervals: 95 % over the seeds; better: {} of cross-prediction against {}\n",
                       report.description.metric, report.description.reference);
+  text += words_of(report.work) + "\n";
   for (auto const& remark : report.remarks) text += remark + "\n";
   text += "\nverdict\n";
   for (auto const& sentence : report.verdict) text += "  " + sentence + "\n";
@@ -256,6 +268,11 @@ std::string study_json(StudyReport const& report) {
                               {"answer", name_of(claim.answer)},
                               {"words", claim.words}});
   json["remarks"] = report.remarks;
+  json["work"] = {{"runs", report.work.runs},
+                  {"selections", report.work.selections},
+                  {"clusterings", report.work.clusterings},
+                  {"twins", report.work.twins},
+                  {"fits", report.work.fits}};
   json["worlds"] = Json::array();
   for (std::size_t w = 0; w < report.units.size(); ++w)
     json["worlds"].push_back({{"name", report.description.worlds[w].name},

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "scenarios/course.h"
@@ -16,7 +17,6 @@
 #include "twin/history.h"
 #include "twin/parallel.h"
 #include "twin/run.h"
-#include "twin/thermal_modes.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -175,28 +175,6 @@ output::Dataset simulated(Job const& job, std::atomic<bool> const* stop) {
   return run(job.order->machine, experiment, options).dataset;
 }
 
-/// Of a measured run, the times of the rows that models are trained on.
-std::vector<double> trained_times(MeasuredRun const& run, std::optional<double> split) {
-  auto const first = first_reading(run);
-  std::vector<double> times;
-  for (Eigen::Index i = first; i < run.time.size(); ++i)
-    if (run.time[i] - run.time[first] < split.value_or(INFINITY)) times.push_back(run.time[i]);
-  return times;
-}
-
-/// Of the machine, linearised at the mean of the first run in 'train'; empty, and why, where that cannot be.
-void find_modes(Order const& order, MeasuredRun const* measured, WorldRuns& runs) {
-  auto const& machine = order.machine;
-  try {
-    auto const state = measured ? mean_state(machine, *measured->course, trained_times(*measured, order.world->split))
-                                : mean_state(machine, experiment_of(order, order.sources.front()));
-    int const count = std::min(machine.network().nodes(), int(machine.sensors.size()));
-    runs.mode_shapes = thermal_modes(machine, state, count).sensors;
-  } catch (thermal::InputError const& error) {
-    runs.no_modes = error.what();
-  }
-}
-
 /// What no world has, nobody can choose. What only some have, the others refuse.
 void check_selections(Study const& study, std::vector<Order> const& orders) {
   std::vector<std::string> known;
@@ -239,6 +217,7 @@ std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)
   std::vector<Job> jobs;
   std::map<std::string, std::size_t> made;
   std::vector<std::vector<std::vector<std::size_t>>> used;  // world, repetition, run → job
+  std::vector<std::size_t> made_for;
   for (auto const& order : orders) {
     bool const simulated = std::any_of(order.sources.begin(), order.sources.end(), [](auto& s) { return !s.measured; });
     auto& repetitions = used.emplace_back(std::size_t(simulated ? study.description.seeds : 1));
@@ -249,6 +228,7 @@ std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)
         if (fresh) jobs.push_back({&order, source, seed, {}, {}});
         repetitions[r].push_back(place->second);
       }
+    made_for.push_back(jobs.size() - std::accumulate(made_for.begin(), made_for.end(), std::size_t(0)));
   }
   in_parallel(jobs.size(), progress, stop, [&](std::size_t j) {
     in_world(*jobs[j].order->world, [&] {
@@ -264,8 +244,7 @@ std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)
 
   std::vector<WorldRuns> worlds;
   for (std::size_t w = 0; w < orders.size(); ++w) {
-    WorldRuns runs{orders[w].machine, {}, {}, {}, orders[w].nominal, {}, {}};
-    find_modes(orders[w], jobs[used[w].front().front()].run.get(), runs);
+    WorldRuns runs{orders[w].machine, {}, orders[w].nominal, {}, {}, made_for[w]};
     for (auto const& source : orders[w].sources)
       runs.experiments.push_back(source.measured ? std::nullopt : std::optional(experiment_of(orders[w], source)));
     for (auto const& repetition : used[w]) {

@@ -20,11 +20,10 @@ namespace thermotwin::twin {
 struct WorldRuns {
   Machine machine;
   std::vector<std::vector<output::Dataset>> runs;  ///< per repetition: those of 'train', then those of 'test'
-  Eigen::MatrixXd mode_shapes;                     ///< all sensors of the machine × modes; empty: `no_modes` says why
-  std::string no_modes;
   Value nominal;  ///< the document of a user's machine: without the changes, where these are what was simulated
   std::vector<std::optional<scenarios::Experiment>> experiments;  ///< of each run; none where it was measured
   std::vector<std::shared_ptr<MeasuredRun const>> measured;       ///< of each run; none where it is simulated
+  std::size_t made = 0;  ///< data sets that were simulated or read for this world, and for none before it
 };
 
 /// FileError where a world names a machine, a run or an error that is not there, or an experiment that the machine

@@ -5,11 +5,15 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
+#include <random>
 
 #include "output/dataset_file.h"
 #include "tests/twin/study/small_study.h"
 #include "twin/experiment_file.h"
 #include "twin/run.h"
+#include "twin/study/question.h"
+#include "twin/study/study_modes.h"
 #include "twin/study/study_page.h"
 #include "twin/study/study_runs.h"
 
@@ -68,11 +72,74 @@ TEST(StudyModes, OfAMeasuredRunAreThoseOfItsExperiment) {
   SmallStudy const simulated(head + world + "sampling = \"3 min\"\n"), recorded(measured_world("3 min"));
   measure(recorded, [](output::Dataset&) {});
   auto const modes = [](SmallStudy const& study) {
-    return study_data(read_study(study.file()), {}, nullptr).front().mode_shapes;
+    auto const description = read_study(study.file());
+    auto const data = study_data(description, {}, nullptr).front();
+    return mode_shapes(description.description.worlds.front(), data,
+                       {{0, 0, data.train.front().front().seen.time.size()}})
+        .sensors;
   };
   auto const known = modes(simulated), found = modes(recorded);
   ASSERT_EQ(found.rows(), 3);
   EXPECT_LT((found - known).cwiseAbs().maxCoeff(), 1e-3 * known.cwiseAbs().maxCoeff());
+}
+
+/// A fold that leaves out the first run is linearised where its own first run is, and a stretch where the machine was
+/// in it: what is predicted takes no part in the choice.
+TEST(StudyModes, OfAFoldAreThoseOfWhatItIsTrainedOn) {
+  auto both = head + world;
+  both.replace(both.find("[\"fast.toml\"]"), 13, "[\"fast.toml\", \"slow.toml\"]");
+  both.replace(both.find("test = [\"slow.toml\"]"), 20, "test = [\"spindle_standard\"]");
+  auto slow = head + world;
+  slow.replace(slow.find("[\"fast.toml\"]"), 13, "[\"slow.toml\"]");
+  slow.replace(slow.find("test = [\"slow.toml\"]"), 20, "test = [\"spindle_standard\"]");
+  auto const asked = [](std::string const& text, auto question) {
+    SmallStudy const study(text);
+    auto const description = read_study(study.file());
+    auto const& own = description.description.worlds.front();
+    auto const data = study_data(description, {}, nullptr).front();
+    return mode_shapes(own, data, of_first_run(question(questions(own, data, 0, 2)).parts)).sensors;
+  };
+  auto const fit = [](Questions const& all) { return all.fits.front(); };
+  auto const first_fold = [](Questions const& all) { return all.validations.front(); };
+  auto const second_fold = [](Questions const& all) { return all.validations.back(); };
+  auto const of_fast = asked(both, fit), of_slow = asked(slow, fit);
+  EXPECT_GT((of_fast - of_slow).norm(), 1e-3 * of_fast.norm());
+  EXPECT_EQ(asked(both, first_fold), of_slow);
+  EXPECT_EQ(asked(both, second_fold), of_fast);
+  EXPECT_GT((asked(slow, first_fold) - of_slow).norm(), 1e-3 * of_slow.norm());  // most of it at rest
+}
+
+/// methods.md §11, B6: the methods that do not look at the error choose the same when it is replaced by noise; those
+/// that do look at it do not.
+TEST(StudySelections, WithoutTheErrorAreTheSameWhenItIsNoise) {
+  std::vector<std::string> const blind{"time_characteristic 2",
+                                       "time_of_first_maximum 2",
+                                       "fuzzy_c_means 2",
+                                       "fuzzy_c_means_shape 2",
+                                       "qr_pivot 2",
+                                       "d_optimal 2"};
+  std::vector<std::string> const seeing{"grey_relational 2", "forward 2"};
+  auto text = measured_world("3 min");
+  text.replace(text.find("\"all\", \"forward 2\""), 18,
+               fmt::format("\"{}\", \"{}\"", fmt::join(blind, "\", \""), fmt::join(seeing, "\", \"")));
+  text.replace(text.find("sensors = [\"T1\", \"T8\", \"T9\"]\n"), 29, "");  // all ten
+  auto const chosen = [&](auto spoil) {
+    SmallStudy const study(text);
+    measure(study, spoil);
+    std::map<std::string, std::vector<std::string>> sensors;
+    for (auto const& row : study.report().rows) sensors[row.selection] = row.sensors;
+    return sensors;
+  };
+  auto const measured = chosen([](output::Dataset&) {}), noise = chosen([](output::Dataset&data) {
+                                                           std::mt19937_64 generator(4);
+                                                           for (auto& error : channel(data.displacements, "E_Z").values)
+                                                             error = double(generator() % 20'000) / 1000.0;
+                                                         });
+  for (auto const& selection : blind) {
+    EXPECT_EQ(noise.at(selection).size(), 2U) << selection;
+    EXPECT_EQ(noise.at(selection), measured.at(selection)) << selection;
+  }
+  for (auto const& selection : seeing) EXPECT_NE(noise.at(selection), measured.at(selection)) << selection;
 }
 
 TEST(Study, SaysWhatMeasuredRunsLack) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/twin/study/small_study.h"
 #include "twin/experiment_file.h"
@@ -167,6 +168,23 @@ TEST(Study, ReportsWhatSelectionsWentBy) {
   for (auto const* p : {"p_F", "p_t", "p_t_autocorrelated"}) EXPECT_LE(double(classes[p]), 1.0) << p;
 }
 
+/// The study says how ordered clustering makes readings comparable.
+TEST(Study, NormalisesTheReadingsThatItClustersAsItsFileSays) {
+  auto const chosen = [&](std::string const& screening) {
+    auto text = head + screening + world;
+    text.replace(text.find("\"forward 2\""), 11, "\"ordered_improved 3\", \"ordered_ratio 3\", \"ordered_slope 3\"");
+    text.replace(text.find("sensors = "), 29, "");  // all ten
+    auto const report = SmallStudy(text).report();
+    for (auto const* rule : {"ordered_ratio 3", "ordered_slope 3"})
+      EXPECT_EQ(row(report, std::string(rule) + " + linear").sensors,
+                row(report, "ordered_improved 3 + linear").sensors);
+    return row(report, "ordered_improved 3 + linear").sensors;
+  };
+  auto const usual = chosen("");
+  EXPECT_EQ(chosen("[screening]\nnormalisation = \"across_sensors\"\n"), usual);
+  EXPECT_NE(chosen("[screening]\nnormalisation = \"over_time\"\n"), usual);
+}
+
 TEST(Study, JudgesAFeedAxisByTheSlopeOfItsError) {
   std::string const axis = R"(
 [[world]]
@@ -189,6 +207,50 @@ instant = [{ experiment = "feed_12000", time = "150 min" }]
   auto const& figures = row(report, "all + linear").figures;
   for (double const rmse : figures.at("feed_12000 at 150 min.rmse")) EXPECT_LT(rmse, 5.0);
   EXPECT_LE(figures.at("feed_12000 at 150 min.mae")[0], figures.at("feed_12000 at 150 min.max")[0]);
+}
+
+/// Two worlds that train on the same: each data set is simulated once, each selection made once for a training set,
+/// each screen and clustering once for all selections, each model fitted once to a set of sensors, whoever chose it;
+/// and each world has the figures that it has alone.
+TEST(Study, MakesOnceWhatIsShared) {
+  std::string const shared = R"(
+title = "Shared"
+seeds = 5
+folds = 3
+selections = ["all", "sensors T1, T8, T9", "sensors T1, T8", "mutual_information 2", "ordered_slope 2", "ordered_ratio 2",
+              "fuzzy_c_means 2", "fuzzy_c_means_shape 2"]
+models = ["linear", "ridge", "linear & ridge"]
+)";
+  auto other = world;
+  other.replace(other.find("name = \"v450\""), 13, "name = \"other\"");
+  other.replace(other.find("slow.toml"), 9, "slower.toml");
+  auto const report_of = [](std::string const& text) {
+    SmallStudy const study(text);
+    tests::put(study.experiment_path("slower.toml"), fmt::format(fmt::runtime(experiment), "120 min", "2000 rpm"));
+    return study.report();
+  };
+  auto const report = report_of(shared + world + other);
+  std::size_t const questions = 5 * (1 + 3);  // seeds, the fit and its folds
+  EXPECT_EQ(report.work.runs, 5U * 3);
+  EXPECT_EQ(report.work.selections, questions * 8);
+  EXPECT_EQ(report.work.clusterings, questions * 4);  // a screen, an ordered clustering, fuzzy ones by height and shape
+  EXPECT_EQ(report.work.twins, 0U);
+  std::set<std::vector<std::string>> sets;
+  for (auto const& one : report.rows) sets.insert(one.sensors);
+  EXPECT_LT(sets.size(), 8U);
+  EXPECT_GE(report.work.fits, questions * 2 * 2);        // two models on two sets of sensors at least
+  EXPECT_LE(report.work.fits, questions * (3 + 1) * 2);  // three pairs of three sensors and all
+  EXPECT_EQ(nlohmann::json::parse(study_json(report))["work"]["selections"], questions * 8);
+  EXPECT_THAT(study_text(report), HasSubstr("\n15 runs, 160 selections with 80 screens and clusterings, "));
+  auto another = world;  // of the same runs
+  another.replace(another.find("E_Z"), 3, "E_Y");
+  auto const alone = report_of(shared + another + other);
+  EXPECT_EQ(alone.work.runs, report.work.runs);
+  EXPECT_EQ(alone.work.selections, 2 * report.work.selections);
+  for (std::size_t i = report.rows.size() / 2; i < report.rows.size(); ++i) {
+    EXPECT_EQ(report.rows[i].sensors, alone.rows[i].sensors);
+    EXPECT_EQ(report.rows[i].figures, alone.rows[i].figures) << report.rows[i].name();
+  }
 }
 
 TEST(Study, RefusedCombinationsStandInTheTable) {
