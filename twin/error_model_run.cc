@@ -82,7 +82,32 @@ void take_changes(output::Dataset const& data, std::string const& error, std::ve
   if (find_channel(data.displacements, error)) batch.error = change(displacement_named(data, error, batch.name));
 }
 
+/// Sensors of which every reading is the same [°C].
+std::map<std::string, double> still_sensors(MeasuredData const& data) {
+  std::map<std::string, double> still;
+  for (auto const& channel : data.readings) {
+    VectorXd const& values = channel.values;
+    Index const read = values.array().isFinite().count();
+    Index first = 0;
+    while (first < values.size() && !std::isfinite(values[first])) ++first;
+    if (read > 1 && (values.array() == values[first]).count() == read)
+      still[channel.name] = thermal::to_unit(thermal::from_unit(values[first], channel.unit), "degC");
+  }
+  return still;
+}
+
 }  // namespace
+
+void RecordedRun::believe_still(std::vector<std::string> const& sensors) {
+  for (auto& channel : shown.readings) {
+    auto const value = still.find(channel.name);
+    if (value == still.end() || std::find(sensors.begin(), sensors.end(), channel.name) == sensors.end()) continue;
+    channel.values.setConstant(value->second);
+    std::erase_if(remarks, [&](auto const& remark) { return remark.starts_with("'" + channel.name + "' is dead"); });
+    remarks.push_back(fmt::format("'{}' shows {:g} degC throughout: its change is taken as 0, unless it is dead",
+                                  channel.name, value->second));
+  }
+}
 
 RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<double> sampling, Machine const* twin) {
   RecordedRun result{path.filename().string(), {}, {}, {}, {}};
@@ -96,6 +121,7 @@ RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<d
     if (sampling && *sampling < own * (1.0 - 1e-6))
       throw InputError(fmt::format("a sampling of {:g} s is finer than the {:g} s between its rows", *sampling, own));
     result.machine = data.machine;
+    result.still = still_sensors(data);
     result.shown = dataset_of(run, sampling);
     take_titles(data, result.shown);
     result.shown.positioning = file.positioning;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,6 +27,10 @@ struct RecordedRun {
   std::shared_ptr<thermal::Course const> course{};  ///< of the inputs, where there is a twin
   double start = 0.0;                               ///< on the course, of the rows' 0 [s]
   bool begins_warm = false;                         ///< not at rest with the room, as far as a twin tells
+  std::map<std::string, double> still{};            ///< sensors that never moved, and what they showed [°C]
+
+  /// Of a model that reads these: one that never moved is taken to live in a place that did not, and that is told.
+  void believe_still(std::vector<std::string> const& sensors);
 
   /// Of a run that an observer follows: it begins with the room.
   void remark_observer();

@@ -82,6 +82,7 @@ ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::pat
     refuse_other_machine(saved, twin->name, recorded);
     recorded.remark_observer();
   }
+  recorded.believe_still(saved.inputs());
   ErrorPrediction result;
   result.run = error_model_run(recorded, saved.inputs(), saved.error, false);
   if (observer) result.run.observed = observed_change(*observer, recorded, result.run);

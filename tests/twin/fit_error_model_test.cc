@@ -186,6 +186,18 @@ TEST_F(FitErrorModel, LeavesOutWhatIsDeadAndSaysSo) {
       HasSubstr("run.csv: none of its 120 rows is complete: no value of T3 in 120; 'T3' is dead: it never moves"));
 }
 
+/// 3 ΔT1 − 2 ΔT2 with ΔT2 = 0: what stands at a place that did not warm is a reading.
+TEST_F(FitErrorModel, PredictsARunInWhichASensorStandsStill) {
+  auto const saved = fitted({{put_run(warming(1.5), "monday.csv")}, "E_Z", {"T1", "T2"}});
+  auto data = warming(0.7);
+  readings(data, "T2").setConstant(21.0);
+  auto const prediction = predict_error(saved, put_run(data, "still.csv"));
+  VectorXd const first = readings(data, "T1");
+  EXPECT_LT((prediction.predicted - 3.0 * (first.array() - first[0]).matrix()).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_THAT(prediction.remarks,
+              ElementsAre("still.csv: 'T2' shows 21 degC throughout: its change is taken as 0, unless it is dead"));
+}
+
 TEST_F(FitErrorModel, LeavesOutRowsWithoutAReadingOfWhatWasNamed) {
   auto data = warming(1.5);
   readings(data, "T1").segment(10, 5).setConstant(std::nan(""));

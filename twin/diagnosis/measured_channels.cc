@@ -172,10 +172,10 @@ void remark_gaps(std::vector<MeasuredChannel> const& channels, MeasuredData cons
     auto const rows = (data.time.array() > gap.from && data.time.array() < gap.to).count();
     std::string const who =
         names.size() == 1 ? fmt::format("'{}' has", names[0]) : fmt::format("{} channels have", names.size());
-    remarks.push_back(fmt::format("{} no reading for {:.2f} h from {:.2f} h on, {}{}", who,
-                                  (gap.to - gap.from) / 3600.0, gap.from / 3600.0,
-                                  rows == 0 ? "where the data have no rows" : fmt::format("in {} rows", rows),
-                                  names.size() == 1 ? "" : fmt::format(": {}", fmt::join(names, ", "))));
+    remarks.push_back(fmt::format(
+        "{} no reading for {:.2f} h from {:.2f} h on, {}{}", who, (gap.to - gap.from) / 3600.0, gap.from / 3600.0,
+        rows == 0 ? "where the data have no rows" : fmt::format("in {} row{}", rows, rows == 1 ? "" : "s"),
+        names.size() == 1 ? "" : fmt::format(": {}", fmt::join(names, ", "))));
   }
 }
 

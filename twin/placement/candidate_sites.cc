@@ -113,7 +113,12 @@ class RulesCheck {
     }
     for (std::size_t i = 0; i < rules_.sites.size(); ++i) {
       auto const& site = rules_.sites[i];
-      for (auto const& place : site.at) at(key("at", item("site", i)), [&] { check_place(place, bodies_); });
+      for (auto const& place : site.at)
+        at(key("at", item("site", i)), [&] {
+          check_place(place, bodies_);
+          if (auto const body = body_of(place); std::count(rules_.forbidden.begin(), rules_.forbidden.end(), body) > 0)
+            throw InputError(fmt::format("a site on '{}', which 'forbidden' names, too", body));
+        });
       at(key("cost", item("site", i)), [&] { require_positive("cost", site.cost); });
     }
     at(key("most", whole()), [&] {
@@ -189,9 +194,6 @@ std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules
       for (auto const& body : rules.bodies)
         if (body_of(site.at.front()) == body.name) site.cost = body.cost;
   }
-  std::erase_if(sites, [&](auto const& site) {
-    return std::any_of(site.at.begin(), site.at.end(), [&](auto const& at) { return without.contains(body_of(at)); });
-  });
   for (auto& site : sites)
     if (site.name.empty()) site.name = fmt::format("{}", fmt::join(site.at, " and "));
   if (sites.empty()) throw InputError("no site is left on which a sensor could sit");

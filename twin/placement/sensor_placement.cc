@@ -35,7 +35,8 @@ void check(PlacementOptions const& options, std::size_t candidates) {
   if (options.sensors < 1) throw InputError(fmt::format("{} sensors; at least 1 is due", options.sensors));
   if (std::size_t(options.sensors) > candidates)
     throw InputError(fmt::format("{} sensors, but only {} candidate sites", options.sensors, candidates));
-  if (options.dead < 0 || options.dead >= options.sensors)
+  if (options.dead < 0) throw InputError(fmt::format("{} dead sensors; 0 or more are due", options.dead));
+  if (options.dead >= options.sensors)
     throw InputError(fmt::format("{} of {} sensors dead; at least one must be left", options.dead, options.sensors));
   if (options.dead > 0 && options.distinguish)
     throw InputError("sensors are chosen either to outlive dead ones or to tell effects apart, not for both");

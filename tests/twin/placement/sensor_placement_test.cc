@@ -117,6 +117,8 @@ TEST(CandidateSites, SayWhereTheirFileIsWrong) {
   std::string const motor = "[[site]]\nat = \"motor\"\n";
   EXPECT_THAT(complaint(motor + "[[site]]\nname = \"nose\"\nat = \"cartridge[900 mm]\"\n"),
               HasSubstr("candidates.toml:5:6: 900 mm is outside 'cartridge', which is 320 mm long"));
+  EXPECT_THAT(complaint("forbidden = [\"bed\", \"motor\"]\n" + motor),
+              HasSubstr("candidates.toml:3:6: a site on 'motor', which 'forbidden' names, too"));
   EXPECT_THAT(complaint(motor + "[[site]]\nat = \"cartrige[20 mm]\"\n"),
               HasSubstr("candidates.toml:4:6: unknown body 'cartrige'; did you mean 'cartridge'?"));
   EXPECT_THAT(complaint("most = 0\n"), HasSubstr("candidates.toml:1:8: 'most' is 0; a mesh has at least one site"));
