@@ -34,6 +34,10 @@ Displacement displacement_of(Machine const& machine, std::string const& name) {
     if (displacement.name == name) return displacement;
     known.push_back(displacement.name);
   }
+  for (auto const& screw : machine.screws)
+    if (name.starts_with(screw.description.name + "_"))
+      throw thermal::InputError(fmt::format(
+          "'{}' of the machine is an error along a screw; the twin observes displacements of a structural loop", name));
   throw thermal::InputError(
       fmt::format("the machine has no displacement '{}'; {}", name, thermal::did_you_mean(name, known)));
 }

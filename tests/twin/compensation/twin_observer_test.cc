@@ -209,6 +209,14 @@ TEST(TwinObserver, RefusesWhatItCannotObserve) {
   } catch (thermal::InputError const& error) {
     EXPECT_STREQ(error.what(), "'B' of the machine is an angle; the twin observes displacements in um");
   }
+  try {
+    TwinObserver const observer(Machine::read(machine_file("vmc850")), "E_P_720mm");
+    FAIL() << "not refused";
+  } catch (thermal::InputError const& error) {
+    EXPECT_STREQ(error.what(),
+                 "'E_P_720mm' of the machine is an error along a screw; the twin observes displacements of a "
+                 "structural loop");
+  }
   EXPECT_THROW(TwinObserver(Machine::read(machine_file("v450_fine")), "E_Z"), thermal::InputError);
 }
 
