@@ -1,5 +1,6 @@
 #include "twin/study/figure.h"
 
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <fmt/format.h>
@@ -23,6 +24,22 @@ Interval interval(std::vector<double> const& values) {
   double const t = boost::math::quantile(boost::math::students_t(freedom), 0.975);
   result.half = t * std::sqrt(squares / freedom / result.values);
   return result;
+}
+
+std::vector<double> ratio_of_means(std::vector<double> const& a, std::vector<double> const& b) {
+  std::vector<double> parts(std::min(a.size(), b.size()), std::nan(""));
+  double sum_a = 0, sum_b = 0;
+  int both = 0;
+  for (std::size_t r = 0; r < parts.size(); ++r)
+    if (std::isfinite(a[r]) && std::isfinite(b[r])) {
+      sum_a += a[r];
+      sum_b += b[r];
+      ++both;
+    }
+  double const ratio = sum_a / sum_b;
+  for (std::size_t r = 0; r < parts.size(); ++r)
+    if (std::isfinite(a[r]) && std::isfinite(b[r])) parts[r] = ratio + (a[r] - ratio * b[r]) / (sum_b / both);
+  return parts;
 }
 
 std::vector<double> values_of(Figures const& figures, std::string const& name) {

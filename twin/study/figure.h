@@ -15,6 +15,12 @@ struct Interval {
 /// Of the values that are numbers; without any, the mean is NaN.
 [[nodiscard]] Interval interval(std::vector<double> const& values);
 
+/// Ratio of the means of a and b over the repetitions that have both, R = ā/b̄, as what each repetition makes of it:
+/// R + (a_r − R b_r)/b̄. Their mean is R, and their interval the ratio's, of paired values in first order: half-width
+/// t_{0.975, n−1} s/√n with s² = Σ (a_r − R b_r)²/((n − 1) b̄²) (Cochran, Sampling Techniques, 1977, § 6.4, 6.5). NaN
+/// where a repetition lacks one of the two.
+[[nodiscard]] std::vector<double> ratio_of_means(std::vector<double> const& a, std::vector<double> const& b);
+
 /// Figures by name ("cross.rmse"), each once per repetition; NaN where there is none.
 using Figures = std::map<std::string, std::vector<double>>;
 

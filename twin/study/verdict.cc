@@ -44,12 +44,6 @@ std::string figure_text(Combination const& row, std::string const& figure, std::
   return fmt::format("{} {}", text_of(interval(values_of(row.figures, figure)), 3), unit);
 }
 
-std::vector<double> ratios(std::vector<double> const& a, std::vector<double> const& b) {
-  std::vector<double> result;
-  for (std::size_t r = 0; r < std::min(a.size(), b.size()); ++r) result.push_back(a[r] / b[r]);
-  return result;
-}
-
 std::vector<std::string> sentences(Rows const& rows, std::string const& unit) {
   std::string const figure = "cross.rmse";
   auto const* best = best_of(rows, figure);
@@ -61,10 +55,10 @@ std::vector<std::string> sentences(Rows const& rows, std::string const& unit) {
                                 figure_text(*chosen, figure, unit)));
   auto const* paper = best_of(papers_of(rows), figure);
   if (paper && paper != best)
-    words.push_back(
-        fmt::format("best of the papers' selections and models: {}, {}; the ratio to it is {}", paper->name(),
-                    figure_text(*paper, figure, unit),
-                    text_of(interval(ratios(values_of(best->figures, figure), values_of(paper->figures, figure))), 3)));
+    words.push_back(fmt::format(
+        "best of the papers' selections and models: {}, {}; the ratio to it is {}", paper->name(),
+        figure_text(*paper, figure, unit),
+        text_of(interval(ratio_of_means(values_of(best->figures, figure), values_of(paper->figures, figure))), 3)));
   return words;
 }
 
@@ -115,7 +109,7 @@ std::string other_text(Compared const& compared) {
 }
 
 Margin within_share(double share, Compared const& compared) {
-  auto const own = ratios(compared.values, compared.others);
+  auto const own = ratio_of_means(compared.values, compared.others);
   Margin margin{{}, other_text(compared) + fmt::format("{} of it, against {:g}", text_of(interval(own), 3), share)};
   for (double const ratio : own) margin.values.push_back(share - ratio);
   return margin;

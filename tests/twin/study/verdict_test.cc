@@ -89,6 +89,25 @@ StudyReport of_two_worlds() {
   return report;
 }
 
+/// 2, 1 and 9 against 1, 2 and 3: the line that names the means 4 and 2 gives their ratio, and not the mean 1.83 of the
+/// repetitions' ratios; a claim goes by the same. Half-width: 4.303 √7/√3/2, a − 2 b being 0, −3 and 3.
+TEST(StudyVerdict, GivesTheRatioOfTheMeansThatItNames) {
+  StudyReport report;
+  report.description.worlds.resize(1);
+  report.units = {"um"};
+  report.rows = {{"", "all", "ridge", {{"cross.rmse", {1.0, 2.0, 3.0}}}, {}, {}, {}},
+                 {"", "grey_fuzzy", "linear", {{"cross.rmse", {2.0, 1.0, 9.0}}}, {}, {}, {}}};
+  StudyClaim claim;
+  claim.combination = "grey_fuzzy + linear";
+  claim.than = "all + ridge";
+  claim.share = 1.9;
+  report.description.claims.push_back(claim);
+  put_verdict(report);
+  EXPECT_THAT(report.claims.front().words, HasSubstr("; 2.000 ± 3.726 of it, against 1.9"));
+  EXPECT_THAT(report.verdict,
+              testing::Contains(HasSubstr("grey_fuzzy + linear, 4.000 ± 10.828 um; the ratio to it is 0.500 ± ")));
+}
+
 StudyClaim share_of_papers(double share, std::string const& combination, std::string const& world) {
   StudyClaim claim;
   claim.combination = combination;
