@@ -48,6 +48,7 @@ struct SelectionMethod {
   std::string_view meaning;  ///< one line
   std::string_view source;   ///< paper and section, or literature
   Selection (*select)(std::span<Batch const>, SelectionOptions const&);
+  bool sees_error = true;  ///< false: the same choice whatever the error is
 };
 
 /// Every method, in the order of the papers, then the ones that the papers lacked.

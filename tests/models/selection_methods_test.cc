@@ -64,6 +64,20 @@ TEST(SelectionMethods, EachGivesAsManyAsAskedAndAScoreForEverySensor) {
   }
 }
 
+/// With a sensor's course for the error in place of two others', the methods that see it choose otherwise, or by other
+/// scores.
+TEST(SelectionMethods, EachSaysWhetherItSeesTheError) {
+  Batch const batch = five_sensors(1);
+  auto other = batch;
+  other.error = batch.temperature_rise.col(4).reverse();
+  for (auto const& method : selection_methods()) {
+    auto const chosen = method.select({&batch, 1}, options_for_any()),
+               again = method.select({&other, 1}, options_for_any());
+    bool const same = chosen.sensors == again.sensors && chosen.score == again.score;
+    EXPECT_EQ(same, !method.sees_error) << method.name;
+  }
+}
+
 TEST(SelectionMethods, EachNamesASensorThatNeverMoves) {
   Batch batch = five_sensors(2);
   batch.temperature_rise.col(1).setZero();

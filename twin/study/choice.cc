@@ -46,6 +46,10 @@ models::Selection selected(NamedSelection const& method, Question const& questio
 
 }  // namespace
 
+bool sees_error(NamedSelection const& method) {
+  return method.name != "all" && method.sensors.empty() && models::selection_method(method.name).sees_error;
+}
+
 Choice choose(NamedSelection const& method, Question const& question, WorldData const& data, ModeShapes const& modes,
               models::SelectionOptions options) {
   Choice choice;

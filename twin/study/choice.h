@@ -28,6 +28,9 @@ struct Choice {
   std::string refused;                ///< empty if it chose
 };
 
+/// Whether a method chooses by the errors as well as by the readings.
+[[nodiscard]] bool sees_error(NamedSelection const& method);
+
 /// `options` but for the number of sensors and the mode shapes, which only modes_method asks for; what they share, all
 /// methods share that choose for this question with them.
 [[nodiscard]] Choice choose(NamedSelection const& method, Question const& question, WorldData const& data,

@@ -50,6 +50,9 @@ struct Questions {
 };
 [[nodiscard]] Questions questions(StudyWorld const& world, WorldData const& data, int repetition, int folds);
 
+/// Whether both are trained on the same readings of the same sensors, whatever the errors.
+[[nodiscard]] bool read_alike(Question const& a, Question const& b);
+
 /// Whether both are trained on the same readings and errors of the same sensors.
 [[nodiscard]] bool trained_alike(Question const& a, Question const& b);
 

@@ -40,10 +40,9 @@ models::SelectionOptions selection_options(StudyScreening const& screening) {
   return options;
 }
 
-/// What of a machine and its runs selections and models get to see, but for the readings themselves.
-bool see_alike(StudyWorld const& a, StudyWorld const& b) {
-  return a.machine == b.machine && a.added == b.added && a.changes == b.changes && a.sampling == b.sampling &&
-         a.error == b.error;
+/// What of a machine and its runs selections get to see that do not look at the error, but for the readings themselves.
+bool read_alike(StudyWorld const& a, StudyWorld const& b) {
+  return a.machine == b.machine && a.added == b.added && a.changes == b.changes && a.sampling == b.sampling;
 }
 
 /// One of a study's questions.
@@ -58,6 +57,7 @@ struct Repetition {
   Questions questions;
   std::vector<Question const*> all;                               ///< fits, then validations
   std::vector<QuestionPlace> same;                                ///< per question: the first that is trained alike
+  std::vector<QuestionPlace> same_readings;                       ///< ... but for the errors, which may be others
   std::vector<ModeShapes const*> modes;                           ///< per question, where a selection asks for them
   std::vector<std::shared_ptr<models::SharedScreen>> screens;     ///< per question, for all selections
   std::vector<std::vector<Choice>> choices;                       ///< per question, per selection
@@ -90,7 +90,8 @@ class StudyRunner {
  private:
   [[nodiscard]] std::function<void(double)> progress(std::string what) const;
   void ask();
-  [[nodiscard]] QuestionPlace first_alike(QuestionPlace place) const;
+  [[nodiscard]] QuestionPlace first_alike(QuestionPlace place, bool in_errors) const;
+  [[nodiscard]] QuestionPlace first_choice(QuestionPlace place, std::size_t selection) const;
   [[nodiscard]] bool is_first(QuestionPlace place) const {
     return repetitions_[place.repetition].same[place.question].repetition == place.repetition;
   }
@@ -135,7 +136,7 @@ void StudyRunner::ask() {
     for (int r = 0; r < worlds_[w].repetitions(); ++r) {
       try {
         repetitions_.push_back(
-            {w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}, {}, {}, {}, {}, {}, {}});
+            {w, r, questions(study_.worlds[w], worlds_[w], r, study_.folds), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
       } catch (thermal::InputError const& error) {
         throw about(study_.worlds[w], error.what());
       }
@@ -150,22 +151,35 @@ void StudyRunner::ask() {
     repetition.fits.assign(repetition.all.size(), std::vector<std::map<Columns, FittedModel>>(models_.size()));
   }
   for (std::size_t r = 0; r < repetitions_.size(); ++r)
-    for (std::size_t q = 0; q < repetitions_[r].all.size(); ++q) repetitions_[r].same.push_back(first_alike({r, q}));
+    for (std::size_t q = 0; q < repetitions_[r].all.size(); ++q) {
+      repetitions_[r].same.push_back(first_alike({r, q}, true));
+      repetitions_[r].same_readings.push_back(first_alike({r, q}, false));
+    }
 }
 
-/// Of another world's questions: what is tested there changes nothing of what is learnt.
-QuestionPlace StudyRunner::first_alike(QuestionPlace place) const {
+/// Of another world's questions, alike in their readings and `in_errors`, too: what is tested there changes nothing of
+/// what is learnt.
+QuestionPlace StudyRunner::first_alike(QuestionPlace place, bool in_errors) const {
   auto const& own = repetitions_[place.repetition];
   for (std::size_t r = 0; r < place.repetition; ++r) {
     auto const& other = repetitions_[r];
     if (other.world == own.world || other.number != own.number ||
-        !see_alike(study_.worlds[other.world], study_.worlds[own.world]) ||
+        !read_alike(study_.worlds[other.world], study_.worlds[own.world]) ||
+        (in_errors && study_.worlds[other.world].error != study_.worlds[own.world].error) ||
         worlds_[other.world].sensors != worlds_[own.world].sensors)
       continue;
     for (std::size_t q = 0; q < other.all.size(); ++q)
-      if (trained_alike(*other.all[q], *own.all[place.question])) return other.same[q];
+      if (auto const& asked = *own.all[place.question];
+          in_errors ? trained_alike(*other.all[q], asked) : read_alike(*other.all[q], asked))
+        return in_errors ? other.same[q] : other.same_readings[q];
   }
   return place;
+}
+
+/// Where the selection chooses for all that it sees alike.
+QuestionPlace StudyRunner::first_choice(QuestionPlace place, std::size_t selection) const {
+  auto const& repetition = repetitions_[place.repetition];
+  return (sees_error(selections_[selection]) ? repetition.same : repetition.same_readings)[place.question];
 }
 
 /// Once for all repetitions, whose inputs are the same.
@@ -199,8 +213,8 @@ void StudyRunner::choose_all() {
   std::vector<Task> tasks;
   for (std::size_t r = 0; r < repetitions_.size(); ++r)
     for (std::size_t q = 0; q < repetitions_[r].all.size(); ++q)
-      for (std::size_t s = 0; s < selections_.size() && is_first({r, q}); ++s)
-        tasks.push_back({&repetitions_[r], q, s});
+      for (std::size_t s = 0; s < selections_.size(); ++s)
+        if (first_choice({r, q}, s).repetition == r) tasks.push_back({&repetitions_[r], q, s});
   in_parallel(tasks.size(), progress("selections"), options_.stop, [&](std::size_t i) {
     auto const& [repetition, q, s] = tasks[i];
     auto options = selection_options(study_.screening);
@@ -211,10 +225,10 @@ void StudyRunner::choose_all() {
                                        modes ? *modes : ModeShapes{}, std::move(options));
   });
   for (std::size_t r = 0; r < repetitions_.size(); ++r)
-    for (std::size_t q = 0; q < repetitions_[r].all.size(); ++q) {
-      auto const& [first, question] = repetitions_[r].same[q];
-      if (!is_first({r, q})) repetitions_[r].choices[q] = repetitions_[first].choices[question];
-    }
+    for (std::size_t q = 0; q < repetitions_[r].all.size(); ++q)
+      for (std::size_t s = 0; s < selections_.size(); ++s)
+        if (auto const [first, question] = first_choice({r, q}, s); first != r)
+          repetitions_[r].choices[q][s] = repetitions_[first].choices[question][s];
   work_.selections = tasks.size();
   for (auto const& repetition : repetitions_)
     for (auto const& screen : repetition.screens) work_.clusterings += std::size_t(screen->made());

@@ -72,9 +72,9 @@ struct StudyOptions {
   std::atomic<bool> const* stop = nullptr;
 };
 
-/// Every data set once, every selection once per training set (screens and ordered clusters once for all selections
-/// that share them), every model once per set of sensors and training set; all of it in parallel, the same bytes
-/// whatever the threads.
+/// Every data set once, every selection once per training set (screens and clusters once for all selections that share
+/// them; what does not look at the error once for all errors), every model once per set of sensors and training set;
+/// all of it in parallel, the same bytes whatever the threads.
 [[nodiscard]] StudyReport run_study(Study const& study, StudyOptions const& options = {});
 
 }  // namespace thermotwin::twin
