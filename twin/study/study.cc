@@ -45,6 +45,11 @@ bool read_alike(StudyWorld const& a, StudyWorld const& b) {
   return a.machine == b.machine && a.added == b.added && a.changes == b.changes && a.sampling == b.sampling;
 }
 
+/// "in 1 of 5 repetitions, T10 stands still", of what is not so in all.
+std::string in_some(std::string const& what, int repetitions, int of) {
+  return repetitions == of ? what : fmt::format("in {} of {} repetitions, {}", repetitions, of, what);
+}
+
 /// One of a study's questions.
 struct QuestionPlace {
   std::size_t repetition, question;
@@ -104,6 +109,7 @@ class StudyRunner {
   void put_improvements(StudyReport& report) const;
   void put_means(StudyReport& report) const;
   [[nodiscard]] std::vector<std::string> remarks() const;
+  [[nodiscard]] int repetitions_remarking(std::size_t world, std::string const& remark) const;
   [[nodiscard]] std::string answers_of(Repetition const& repetition, std::size_t selection, std::size_t model,
                                        std::vector<Answer>& fits, std::vector<Answer>& validations) const;
   [[nodiscard]] Combination combination(std::size_t world, std::size_t selection, std::size_t model) const;
@@ -341,11 +347,17 @@ std::string StudyRunner::answers_of(Repetition const& repetition, std::size_t se
 
 Combination StudyRunner::combination(std::size_t world, std::size_t selection, std::size_t model) const {
   Combination row{study_.worlds[world].name, study_.selections[selection], study_.models[model], {}, {}, {}, {}, {}};
+  int refusals = 0;
+  auto const refuse = [&](std::string const& why) {
+    if (refusals++ == 0) row.refused = why;
+  };
   for (auto const& repetition : repetitions_) {
     if (repetition.world != world) continue;
     std::vector<Answer> fits, validations;
-    row.refused = answers_of(repetition, selection, model, fits, validations);
-    if (!row.refused.empty()) break;
+    if (auto const why = answers_of(repetition, selection, model, fits, validations); !why.empty()) {
+      refuse(why);
+      continue;
+    }
     try {
       auto const judgement = judged(fits, validations, study_.worlds[world].train.size(), unclaimed_[world]);
       auto figures = judgement.figures;
@@ -356,8 +368,8 @@ Combination StudyRunner::combination(std::size_t world, std::size_t selection, s
                                       *fits.front().parts.front().model));
       for (auto const& [name, value] : figures) row.figures[name].push_back(value);
     } catch (std::invalid_argument const& error) {
-      row.refused = error.what();
-      break;
+      refuse(error.what());
+      continue;
     }
     if (repetition.number > 0) continue;
     auto const& parts = fits.front().parts;
@@ -367,7 +379,10 @@ Combination StudyRunner::combination(std::size_t world, std::size_t selection, s
       if (!part.model->remark.empty()) remarks.push_back(part.model->remark);
     row.remark = fmt::format("{}", fmt::join(remarks, "; "));
   }
-  if (!row.refused.empty()) row.figures.clear();
+  if (refusals > 0) {
+    row.refused = in_some(row.refused, refusals, worlds_[world].repetitions());
+    row.figures.clear();
+  }
   return row;
 }
 
@@ -382,14 +397,18 @@ void StudyRunner::judge_combinations(StudyReport& report) {
 
 SelectionFigures StudyRunner::selection_figures(std::size_t world, std::size_t selection) const {
   SelectionFigures result{study_.worlds[world].name, study_.selections[selection], {}, {}, {}};
+  std::string refused;
+  int refusals = 0;
   for (auto const& repetition : repetitions_) {
     if (repetition.world != world) continue;
+    bool chose = true;
     std::map<std::string, std::vector<double>> values;
     std::vector<Choice const*> choices;
     for (std::size_t q = 0; q < repetition.questions.fits.size(); ++q) {
       auto const& choice = repetition.choices[q][selection];
       if (!choice.refused.empty()) {
-        result.remark = "refused: " + choice.refused;
+        if (refused.empty()) refused = choice.refused;
+        chose = false;
         continue;
       }
       if (result.remark.empty()) result.remark = choice.selection.remark;
@@ -405,6 +424,11 @@ SelectionFigures StudyRunner::selection_figures(std::size_t world, std::size_t s
     }
     for (auto const& [name, of_questions] : values) result.figures[name].push_back(interval(of_questions).mean);
     if (auto const share = switch_share(choices)) result.figures["switches"].push_back(*share);
+    refusals += chose ? 0 : 1;
+  }
+  if (refusals > 0) {
+    result.remark = "refused: " + in_some(refused, refusals, worlds_[world].repetitions());
+    result.figures.clear();
   }
   return result;
 }
@@ -462,6 +486,14 @@ void StudyRunner::put_means(StudyReport& report) const {
   }
 }
 
+/// Of that world's, those whose questions say so.
+int StudyRunner::repetitions_remarking(std::size_t world, std::string const& remark) const {
+  return int(std::count_if(repetitions_.begin(), repetitions_.end(), [&](auto const& repetition) {
+    auto const& remarks = repetition.questions.remarks;
+    return repetition.world == world && std::find(remarks.begin(), remarks.end(), remark) != remarks.end();
+  }));
+}
+
 /// Each once, with the worlds that it is about.
 std::vector<std::string> StudyRunner::remarks() const {
   std::vector<std::pair<std::string, std::vector<std::string>>> told;
@@ -473,7 +505,11 @@ std::vector<std::string> StudyRunner::remarks() const {
   for (std::size_t w = 0; w < worlds_.size(); ++w)
     for (auto const& remark : worlds_[w].remarks) tell(remark, study_.worlds[w].name);
   for (auto const& repetition : repetitions_)
-    for (auto const& remark : repetition.questions.remarks) tell(remark, study_.worlds[repetition.world].name);
+    for (auto const& remark : repetition.questions.remarks) {
+      auto const world = repetition.world;
+      tell(in_some(remark, repetitions_remarking(world, remark), worlds_[world].repetitions()),
+           study_.worlds[world].name);
+    }
   std::vector<std::string> texts;
   for (auto const& [remark, worlds] : told) texts.push_back(fmt::format("{}: {}", fmt::join(worlds, ", "), remark));
   return texts;

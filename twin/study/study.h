@@ -28,7 +28,7 @@ struct Combination {
 /// What a selection is worth, whatever the model.
 struct SelectionFigures {
   std::string world, selection;
-  Figures figures;  ///< regret, informative, found, rank_correlation, switches, count
+  Figures figures;  ///< regret, informative, found, rank_correlation, switches, count; none where it was refused once
   std::string remark;
   std::vector<models::Evidence> evidence{};  ///< in the first repetition, for the first training set
 };

@@ -10,6 +10,7 @@
 #include "tests/twin/study/small_study.h"
 #include "twin/experiment_file.h"
 #include "twin/run.h"
+#include "twin/study/study_data.h"
 #include "twin/study/study_page.h"
 
 namespace thermotwin::twin {
@@ -261,11 +262,50 @@ TEST(Study, RefusedCombinationsStandInTheTable) {
   text.replace(text.find("sensors = [\"T1\", \"T8\", \"T9\"]\n"), 29, "");
   auto const report = SmallStudy(text).report();  // 31 readings, 29 of them after the lags
   auto const& refused = row(report, "all + distributed_lag");
-  EXPECT_EQ(refused.refused, "29 samples are too few for 30 regressors: at least 32");
+  EXPECT_EQ(refused.refused, "in 4 of 5 repetitions, 29 samples are too few for 30 regressors: at least 32");
+  EXPECT_THAT(report.remarks,  // there nine sensors are left, and 27 regressors
+              testing::Contains("v450: in 1 of 5 repetitions, T10 stands still in fast.toml, and is left out there"));
   EXPECT_TRUE(refused.figures.empty());
   EXPECT_FALSE(row(report, "forward 2 + distributed_lag").figures.empty());
   EXPECT_THAT(study_text(report), HasSubstr("refused: "));
   EXPECT_THAT(study_csv(report), HasSubstr(",distributed_lag,"));
+}
+
+/// T10 of v450 shows a room at rest by its last digit: in some draws of golden_b_4000 it never moves. What is refused
+/// for it says in how many, and has no figures of the others.
+TEST(Study, SaysInHowManyRepetitionsSomethingIsRefused) {
+  SmallStudy const small(R"(
+title = "T10"
+seeds = 5
+folds = 0
+selections = ["sensors T1, T10", "all"]
+models = ["linear"]
+[[world]]
+name = "v450"
+machine = "v450"
+error = "E_Z"
+train = ["golden_b_4000"]
+test = ["golden_b_6000"]
+)");
+  auto const study = read_study(small.file());
+  auto const data = study_data(study, {}, nullptr).front();
+  auto const place = std::find(data.sensors.begin(), data.sensors.end(), "T10") - data.sensors.begin();
+  auto const still = std::count_if(data.train.begin(), data.train.end(), [&](auto const& runs) {
+    auto const rise = runs.front().seen.temperature_rise.col(place);
+    return rise.maxCoeff() == rise.minCoeff();
+  });
+  ASSERT_GT(still, 0);
+  ASSERT_LT(still, 5);
+  auto const report = run_study(study);
+  auto const draws = fmt::format("in {} of 5 repetitions, ", still);
+  EXPECT_THAT(report.remarks,
+              testing::Contains("v450: " + draws + "T10 stands still in golden_b_4000, and is left out there"));
+  auto const& refused = row(report, "sensors T1, T10 + linear");
+  EXPECT_THAT(refused.refused, testing::StartsWith(draws + "there is no sensor 'T10' here"));
+  EXPECT_TRUE(refused.figures.empty());
+  EXPECT_EQ(report.selections.front().remark, "refused: " + refused.refused);
+  EXPECT_TRUE(report.selections.front().figures.empty());
+  EXPECT_FALSE(report.selections.back().figures.empty());
 }
 
 TEST(Study, RemarksOfFitsStandInTheTable) {
