@@ -27,6 +27,19 @@ bool moves(std::vector<Batch> const& batches, Index column) {
   });
 }
 
+/// Of the same sensors.
+bool same_readings(Batch const& x, Batch const& y) {
+  return x.time.size() == y.time.size() && x.time == y.time && x.temperature_rise == y.temperature_rise;
+}
+
+/// Whether what is learnt there is of the one run and not of the other.
+bool parts_runs(Question const& question, std::size_t one, std::size_t other) {
+  auto const has = [&](std::size_t run) {
+    return std::any_of(question.parts.begin(), question.parts.end(), [&](auto const& part) { return part.run == run; });
+  };
+  return has(one) != has(other);
+}
+
 class QuestionWriter {
  public:
   QuestionWriter(StudyWorld const& world, WorldData const& data, int repetition)
@@ -44,6 +57,7 @@ class QuestionWriter {
   void each();
   void folds_of_run(Index rows, int folds);
   void folds_of_runs(int folds);
+  void remark_repeated();
   [[nodiscard]] Index split_row() const;
 
   StudyWorld const& world_;
@@ -145,6 +159,22 @@ void QuestionWriter::folds_of_runs(int folds) {
   }
 }
 
+/// Training runs that hold the same data.
+void QuestionWriter::remark_repeated() {
+  for (std::size_t l = 1; l < train_.size(); ++l)
+    for (std::size_t k = 0; k < l; ++k) {
+      auto const &later = train_[l].seen, &first = train_[k].seen;
+      if (!same_readings(later, first) || later.error != first.error) continue;
+      bool const parted = std::any_of(questions_.validations.begin(), questions_.validations.end(),
+                                      [&](auto const& question) { return parts_runs(question, k, l); });
+      questions_.remarks.push_back(
+          fmt::format("{} has the same data as {}; {}", later.name, first.name,
+                      world_.fit == "each" ? "neither tests the other's models" : "they count once more") +
+          (parted ? ", and where cross-validation leaves out one, it learns from the other" : ""));
+      break;
+    }
+}
+
 Questions QuestionWriter::write(int folds) {
   if (world_.split)
     split_run();
@@ -152,13 +182,13 @@ Questions QuestionWriter::write(int folds) {
     each();
   else
     together();
-  if (folds == 0 || world_.fit == "each") return std::move(questions_);
-  auto const& first = train_.front();
-  if (train_.size() > 1) {
-    folds_of_runs(folds);
-  } else {
-    folds_of_run(world_.split ? split_row() : first.seen.time.size(), folds);
+  if (folds > 0 && world_.fit != "each") {
+    if (train_.size() > 1)
+      folds_of_runs(folds);
+    else
+      folds_of_run(world_.split ? split_row() : train_.front().seen.time.size(), folds);
   }
+  remark_repeated();
   return std::move(questions_);
 }
 
@@ -170,8 +200,8 @@ Questions questions(StudyWorld const& world, WorldData const& data, int repetiti
 
 bool read_alike(Question const& a, Question const& b) {
   auto const same = [](Batch const& x, Batch const& y) {
-    return x.name == y.name && x.sensors == y.sensors && x.time.size() == y.time.size() && x.time == y.time &&
-           x.before.rows() == y.before.rows() && x.before == y.before && x.temperature_rise == y.temperature_rise;
+    return x.name == y.name && x.sensors == y.sensors && same_readings(x, y) && x.before.rows() == y.before.rows() &&
+           x.before == y.before;
   };
   return a.columns == b.columns && a.parts == b.parts &&
          std::equal(a.training.begin(), a.training.end(), b.training.begin(), b.training.end(), same);

@@ -42,8 +42,8 @@ struct Question {
 
 /// The questions of one repetition of a world: one, or one per run of 'train' (fit = "each"); then those of the
 /// cross-validation: `folds` stretches of a single run, or groups of whole runs. A sensor that stands still in a
-/// training set is left out of it; `remarks` say so. A row that is a mean over `sampling` is trained on only if all of
-/// it is before `split`.
+/// training set is left out of it; `remarks` say so, and where runs of 'train' hold the same data. A row that is a mean
+/// over `sampling` is trained on only if all of it is before `split`.
 struct Questions {
   std::vector<Question> fits, validations;
   std::vector<std::string> remarks;

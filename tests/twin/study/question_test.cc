@@ -76,6 +76,26 @@ TEST(StudyQuestions, FoldsOfSeveralRunsTrainOnOtherRuns) {
     for (auto const& one : question.asked) EXPECT_EQ(one.count, one.batch.time.size());
 }
 
+/// The last of four runs is the second: alone, by folds that part the two, and by models of each.
+TEST(StudyQuestions, SayWhichTrainingRunsHoldTheSameData) {
+  auto data = runs_of({30, 50, 20, 40});
+  for (std::size_t k = 0; k < 4; ++k) data.train[0][k].seen.name = "run " + std::to_string(k);
+  EXPECT_THAT(questions({}, data, 0, 4).remarks, testing::IsEmpty());
+  data.train[0][3].seen.time = data.train[0][1].seen.time;
+  data.train[0][3].seen.temperature_rise = data.train[0][1].seen.temperature_rise;
+  data.train[0][3].seen.error = 1.001 * data.train[0][1].seen.error;
+  EXPECT_THAT(questions({}, data, 0, 4).remarks, testing::IsEmpty());
+  data.train[0][3].seen.error = data.train[0][1].seen.error;
+  std::string const said = "run 3 has the same data as run 1; they count once more";
+  EXPECT_THAT(questions({}, data, 0, 0).remarks, testing::ElementsAre(said));
+  EXPECT_THAT(questions({}, data, 0, 4).remarks,
+              testing::ElementsAre(said + ", and where cross-validation leaves out one, it learns from the other"));
+  StudyWorld each;
+  each.fit = "each";
+  EXPECT_THAT(questions(each, data, 0, 4).remarks,
+              testing::ElementsAre("run 3 has the same data as run 1; neither tests the other's models"));
+}
+
 /// What lies behind the cut is asked by no fold, and learnt from by none.
 TEST(StudyQuestions, FoldsOfARunThatIsCutStayBeforeTheCut) {
   StudyWorld world;

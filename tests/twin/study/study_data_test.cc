@@ -280,6 +280,16 @@ TEST(Study, SaysThatATestWasTrainedOn) {
               testing::Contains("v450: copy.h5 has the same data as fast.h5, which is trained on: it tests nothing"));
 }
 
+TEST(Study, SaysThatATrainingRunIsGivenTwice) {
+  auto text = measured_world("3 min");
+  text.replace(text.find("[\"fast.h5\"]"), 11, "[\"fast.h5\", \"copy.h5\"]");
+  SmallStudy const study(text);
+  measure(study, [](output::Dataset&) {});
+  std::filesystem::copy_file(study.experiment_path("fast.h5"), study.experiment_path("copy.h5"));
+  EXPECT_THAT(study.report().remarks,
+              testing::Contains("v450: copy.h5 has the same data as fast.h5; they count once more"));
+}
+
 /// Rows are left out as `fit` leaves them out, and not the sensor, for three empty cells; lags do not reach across
 /// them.
 TEST(Study, LeavesOutRowsWhereFewReadingsAreMissing) {
