@@ -49,8 +49,10 @@ std::vector<double> values_of(Figures const& figures, std::string const& name) {
 
 std::string text_of(Interval const& interval, int decimals) {
   if (interval.values == 0) return "-";
-  if (interval.values == 1) return fmt::format("{:.{}f}", interval.mean, decimals);
-  return fmt::format("{:.{}f} ± {:.{}f}", interval.mean, decimals, interval.half, decimals);
+  auto mean = fmt::format("{:.{}f}", interval.mean, decimals);
+  if (std::stod(mean) == 0.0) mean = fmt::format("{:.{}f}", 0.0, decimals);
+  if (interval.values == 1) return mean;
+  return fmt::format("{} ± {:.{}f}", mean, interval.half, decimals);
 }
 
 }  // namespace thermotwin::twin

@@ -27,7 +27,7 @@ using Figures = std::map<std::string, std::vector<double>>;
 /// The values of a figure; empty when the figures have none of that name.
 [[nodiscard]] std::vector<double> values_of(Figures const& figures, std::string const& name);
 
-/// "3.21 ± 0.04", "3.21" without an interval, "-" without a value.
+/// "3.21 ± 0.04", "3.21" without an interval, "-" without a value. What rounds to zero has no sign.
 [[nodiscard]] std::string text_of(Interval const& interval, int decimals = 2);
 
 }  // namespace thermotwin::twin

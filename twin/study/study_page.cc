@@ -169,6 +169,18 @@ std::string words_of(StudyWork const& work) {
   return text + ", " + counted(work.fits, "fit") + ", each made once";
 }
 
+/// Of the intervals and of "better %", where the tables have them.
+std::string legend(StudyReport const& report) {
+  std::vector<std::string> words;
+  if (std::any_of(report.repetitions.begin(), report.repetitions.end(), [](int count) { return count > 1; }))
+    words.push_back("intervals: 95 % over the seeds");
+  if (std::any_of(report.rows.begin(), report.rows.end(),
+                  [](auto const& row) { return row.figures.contains("improvement"); }))
+    words.push_back(fmt::format("better: {} of cross-prediction against {}", report.description.metric,
+                                report.description.reference));
+  return words.empty() ? "" : fmt::format("{}\n", fmt::join(words, "; "));
+}
+
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : ""; }
 
 Json json_of(Figures const& figures) {
@@ -224,9 +236,7 @@ std::string study_text(StudyReport const& report) {
   }
   if (!report.means.empty())
     text += "\nmean of worlds\n\n" + combination_table(of_world(report.means, std::string(mean_of_worlds)));
-  text += fmt::format("\nintervals: 95 % over the seeds; better: {} of cross-prediction against {}\n",
-                      report.description.metric, report.description.reference);
-  text += words_of(report.work) + "\n";
+  text += "\n" + legend(report) + words_of(report.work) + "\n";
   for (auto const& remark : report.remarks) text += remark + "\n";
   text += "\nverdict\n";
   for (auto const& sentence : report.verdict) text += "  " + sentence + "\n";

@@ -15,6 +15,13 @@ TEST(StudyIntervals, AreStudentsOnes) {
   EXPECT_EQ(text_of(interval({})), "-");
 }
 
+TEST(StudyIntervals, HaveNoNegativeZero) {
+  EXPECT_EQ(text_of(interval({-1e-17, -2e-17})), "0.00 ± 0.00");
+  EXPECT_EQ(text_of(interval({-0.004})), "0.00");
+  EXPECT_EQ(text_of(interval({-0.006})), "-0.01");
+  EXPECT_EQ(text_of(interval({-0.004}), 3), "-0.004");
+}
+
 /// A constant denominator leaves the interval of a, in units of it. Paired: R = 2, a − R b is 0, −1 and 1, over b̄ = 2.
 /// A small denominator in one repetition does not make the ratio large.
 TEST(StudyRatios, AreOfTheMeans) {
