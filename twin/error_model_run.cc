@@ -115,7 +115,7 @@ RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<d
   auto const file = whole ? output::read(path) : output::Dataset();
   auto const data = whole ? measured_data(file) : read_measured_data(path);
   try {
-    auto const run = twin ? measured_run(data, *twin, result.file) : without_machine(data);
+    auto run = twin ? measured_run(data, *twin, result.file) : without_machine(data);
     result.remarks = run.remarks;
     double const own = usual_interval({run.time.data(), std::size_t(run.time.size())});
     if (sampling && *sampling < own * (1.0 - 1e-6))
@@ -127,11 +127,10 @@ RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<d
     result.shown.positioning = file.positioning;
     for (auto& laser : result.shown.positioning) laser.time_s.array() -= file.time_s[0] + run.time[first_reading(run)];
     if (!twin) return result;
-    result.course = run.course;
-    result.start = run.time[first_reading(run)];
-    result.begins_warm = run.warm_start.has_value();
     auto const values = predict(*twin, run);
     result.said = dataset_of(run, sampling, &values);
+    result.sampling = sampling;
+    result.run = std::make_shared<MeasuredRun const>(std::move(run));
     return result;
   } catch (InputError const& error) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
@@ -174,12 +173,12 @@ ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& 
 }
 
 void RecordedRun::remark_observer() {
-  if (begins_warm) remarks.emplace_back("the observer is not told how warm it was: it begins with the room");
+  if (run->warm_start) remarks.emplace_back("the observer is not told how warm it was: it begins with the room");
 }
 
 VectorXd observed_change(TwinObserver const& observer, RecordedRun const& recorded, ErrorModelRun const& run) {
   try {
-    VectorXd const error = observed_error(observer, recorded.shown, *recorded.course, recorded.start)(run.rows);
+    VectorXd const error = observed_error(observer, *recorded.run, recorded.sampling)(run.rows);
     return error.array() - error[0];
   } catch (InputError const& error) {
     throw InputError(fmt::format("{}: the observer: {}", recorded.file, error.what()));

@@ -9,8 +9,8 @@
 
 #include "models/feed_axis.h"
 #include "output/dataset.h"
-#include "thermal/operating_point.h"
 #include "twin/compensation/twin_observer.h"
+#include "twin/diagnosis/measured_run.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -24,10 +24,9 @@ struct RecordedRun {
   output::Dataset shown;                ///< dead sensors and missing readings are NaN
   std::optional<output::Dataset> said;  ///< by the twin, in the same rows
   std::vector<std::string> remarks;
-  std::shared_ptr<thermal::Course const> course{};  ///< of the inputs, where there is a twin
-  double start = 0.0;                               ///< on the course, of the rows' 0 [s]
-  bool begins_warm = false;                         ///< not at rest with the room, as far as a twin tells
-  std::map<std::string, double> still{};            ///< sensors that never moved, and what they showed [°C]
+  std::optional<double> sampling{};          ///< that what it showed and what the twin says are means over [s]
+  std::shared_ptr<MeasuredRun const> run{};  ///< its own rows, where there is a twin
+  std::map<std::string, double> still{};     ///< sensors that never moved, and what they showed [°C]
 
   /// Of a model that reads these: one that never moved is taken to live in a place that did not, and that is told.
   void believe_still(std::vector<std::string> const& sensors);
@@ -63,7 +62,7 @@ struct ErrorModelRun {
 [[nodiscard]] ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& sensors,
                                             std::string const& error, bool must_show);
 
-/// The error that an observer tells in the rows of a run whose record has a course, counted from the first of them.
+/// The error that an observer tells in the rows of a run that was read with a twin, counted from the first of them.
 /// InputError that names the run.
 [[nodiscard]] Eigen::VectorXd observed_change(TwinObserver const& observer, RecordedRun const& recorded,
                                               ErrorModelRun const& run);

@@ -118,7 +118,8 @@ ModelPart fitted_observer(Machine const& twin, std::string const& error, std::ve
   auto const& first = runs.front().batch;
   ModelPart best;
   double least = std::numeric_limits<double>::infinity();
-  for (auto const& choice : observer_choices(usual_interval({first.time.data(), std::size_t(first.time.size())}))) {
+  auto const& time = recorded.front().run->time;
+  for (auto const& choice : observer_choices(usual_interval({time.data(), std::size_t(time.size())}))) {
     TwinObserver const observer(twin, error, choice, first.sensors);
     std::vector<Eigen::VectorXd> told;
     double missed = 0.0;

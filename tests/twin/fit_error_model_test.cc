@@ -328,8 +328,8 @@ class FitObserver : public FitErrorModel {
  protected:
   FitObserver() { std::filesystem::copy_file(machine_file("v450"), folder_ / "mine.toml"); }
   SavedErrorModel observing(std::filesystem::path const& run, std::string const& method = "twin observer",
-                            std::vector<std::string> const& sensors = {}) {
-    return fitted({{run}, "E_Z", sensors, method, 1, folder_ / "mine.toml"});
+                            std::vector<std::string> const& sensors = {}, std::optional<double> sampling = {}) {
+    return fitted({{run}, "E_Z", sensors, method, 1, folder_ / "mine.toml", sampling});
   }
   static VectorXd missed(ErrorPrediction const& p) { return p.shown() - p.predicted; }
 
@@ -389,6 +389,31 @@ TEST_F(FitObserver, HasAPartInAMean) {
     sum += predict_error(observing(train, part, {"T3", "T1"}), test).predicted;
   sum += predict_error(fitted({{train}, "E_Z", {"T3", "T1"}, "ridge"}), test).predicted;
   EXPECT_TRUE(predict_error(mean, test).predicted.isApprox(sum / 4.0, 1e-9));
+}
+
+/// What it tells of the rows is averaged: told means, at their stretches' starts, it would lack the warming of half of
+/// one.
+TEST_F(FitObserver, FollowsTheRowsWhereMeansAreFitted) {
+  auto const recorded = [&](std::string const& name) {
+    auto programme = read_experiment(read_toml(experiment_file(name)), experiment_file(name));
+    programme.sampling = 30.0;
+    return put_run(run(Machine::read(machine_file("v450")), programme, {}).dataset, name + ".h5");
+  };
+  auto const train = recorded("golden_b_6000"), test = recorded("golden_b_4000");
+  auto const of_rows = observing(train, "twin observer", {"T1", "T3"}),
+             of_means = read_back(observing(train, "twin observer", {"T1", "T3"}, 300.0));
+  EXPECT_EQ(of_means.parts.at(0).observer, of_rows.parts.at(0).observer);
+  auto const rows = predict_error(of_rows, test), means = predict_error(of_means, test);
+  auto const rms = [](ErrorPrediction const& p) { return missed(p).norm() / std::sqrt(double(p.predicted.rows())); };
+  EXPECT_LT(rms(rows), 0.3);
+  EXPECT_NEAR(rms(means), rms(rows), 0.1);
+  VectorXd const told = rows.predicted.col(0);
+  constexpr Index in_stretch = 10;
+  ASSERT_EQ(means.predicted.rows(), (told.size() + in_stretch - 1) / in_stretch);
+  for (Index k = 0; k < told.size() / in_stretch; ++k)
+    EXPECT_NEAR(means.predicted(k, 0), told.segment(in_stretch * k, in_stretch).mean() - told.head(in_stretch).mean(),
+                1e-9)
+        << k;
 }
 
 TEST_F(FitObserver, FindsItsSensorsByNameAndRefusesARunWithoutOne) {

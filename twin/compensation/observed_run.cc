@@ -8,6 +8,7 @@
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
+#include "twin/study/study_runs.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -101,6 +102,16 @@ Eigen::VectorXd observed_error(TwinObserver observer, output::Dataset const& sho
     error[row] = observer.error(shown.time_s[row], run.at_row(row));
   }
   return error;
+}
+
+Eigen::VectorXd observed_error(TwinObserver const& observer, MeasuredRun const& run, std::optional<double> sampling) {
+  auto const shown = dataset_of(run, std::nullopt);
+  auto const error = observed_error(observer, shown, *run.course, run.time[first_reading(run)]);
+  if (!sampling) return error;
+  output::Dataset said;
+  said.time_s = shown.time_s;
+  said.displacements = {{"said", "um", "", error}};
+  return averaged(said, *sampling).displacements.front().values;
 }
 
 }  // namespace thermotwin::twin

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "output/dataset.h"
 #include "thermal/operating_point.h"
 #include "twin/compensation/twin_observer.h"
+#include "twin/diagnosis/measured_run.h"
 
 namespace thermotwin::twin {
 
@@ -22,5 +24,11 @@ namespace thermotwin::twin {
 /// told the inputs at every longest step. InputError, with the nearest name, for an input that the course lacks.
 [[nodiscard]] Eigen::VectorXd observed_error(TwinObserver observer, output::Dataset const& shown,
                                              thermal::Course const& course, double start);
+
+/// The same of a measured run, in the rows of dataset_of(run, sampling): the observer follows the run's own rows from
+/// the first reading on, and what it says is averaged over `sampling` [s] as what the run shows is. A mean is no
+/// reading of the instant at which its stretch begins: it is of half of `sampling` later, and so is the error's.
+[[nodiscard]] Eigen::VectorXd observed_error(TwinObserver const& observer, MeasuredRun const& run,
+                                             std::optional<double> sampling);
 
 }  // namespace thermotwin::twin

@@ -135,13 +135,20 @@ std::vector<std::string> observing(Machine const& twin, std::set<std::string> co
 }
 
 /// What the observer says at every row of a run's data set [µm].
-VectorXd followed(WorldData const& data, int repetition, std::size_t run, TwinObserver const& observer) {
+VectorXd followed(StudyWorld const& world, WorldData const& data, int repetition, std::size_t run,
+                  TwinObserver const& observer) {
   auto const& runs = *data.runs;
-  auto const& shown = runs.runs[std::size_t(repetition)][run];
-  if (auto const* measured = runs.measured[run].get())
-    return observed_error(observer, shown, *measured->course, measured->time[first_reading(*measured)]);
+  if (runs.measured[run]) return observed_error(observer, *runs.measured[run], world.sampling);
   scenarios::ExperimentCourse const programmed(*runs.experiments[run], runs.machine.limits);
-  return observed_error(observer, shown, programmed, 0.0);
+  return observed_error(observer, runs.runs[std::size_t(repetition)][run], programmed, 0.0);
+}
+
+/// Between the rows of the first run trained on, as an observer follows them: a measured run's own [s].
+double followed_interval(WorldData const& data, Question const& question) {
+  if (auto const* measured = data.runs->measured[question.parts.front().run].get())
+    return usual_interval({measured->time.data(), std::size_t(measured->time.size())});
+  auto const& time = question.training.front().time;
+  return time[1] - time[0];
 }
 
 /// Σ (measured − said)² over the rows trained on.
@@ -214,13 +221,12 @@ FittedModel observed(StudyWorld const& world, WorldData const& data, int repetit
   FittedModel result{nothing_more({chosen.begin(), chosen.end()}), "", {}};
   try {
     double least = std::numeric_limits<double>::infinity();
-    auto const& time = question.training.front().time;
-    for (auto const& options : observer_choices(time[1] - time[0])) {
+    for (auto const& options : observer_choices(followed_interval(data, question))) {
       TwinObserver const observer(twin, world.error, options, observing(twin, chosen));
       std::map<std::size_t, VectorXd> said;
       for (auto const run : runs_of(question)) {
         auto const& shown = run_of(data, repetition, run);
-        VectorXd own = followed(data, repetition, run, observer)(shown.kept);
+        VectorXd own = followed(world, data, repetition, run, observer)(shown.kept);
         if (data.runs->measured[run]) own.array() += zero_of(question, run, shown.seen.error, own);
         said.emplace(run, std::move(own));
       }

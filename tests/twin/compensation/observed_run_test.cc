@@ -7,6 +7,7 @@
 #include "scenarios/course.h"
 #include "tests/scenarios/refusal.h"
 #include "tests/twin/compensation/closed_loop.h"
+#include "twin/diagnosis/measured_run.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -65,6 +66,21 @@ TEST_F(ObservedRun, TellsTheSensorsRowByRow) {
     for (auto const& input : observer.inputs())
       values.push_back(find_channel(input.sensor ? shown.readings : shown.inputs, input.name)->values[row]);
     ASSERT_NEAR(observer.error(shown.time_s[row], values), error[row], 1e-9) << row;
+  }
+}
+
+/// The readings of its own rows are told, at their times: a mean over half an hour is of a quarter later than its own.
+TEST_F(ObservedRun, OfMeansIsTheMeanOfWhatItSaysAtTheRows) {
+  auto const shown = tests::simulated("duty_003", 60.0, {{"bearing.front.grease_factor", "0.55"}});
+  auto const run = measured_run(shown, g200(), "measured");
+  TwinObserver const observer(g200(), "E_X", {.longest_step = 60.0}, std::vector<std::string>{"T10", "T2"});
+  Eigen::VectorXd const rows = observed_error(observer, run, std::nullopt),
+                        means = observed_error(observer, run, 1800.0);
+  EXPECT_LT((rows - observed_error(observer, shown, *run.course, 0.0)).cwiseAbs().maxCoeff(), 1e-9);
+  ASSERT_EQ(means.size(), (rows.size() + 29) / 30);
+  for (Eigen::Index k = 0; k < means.size(); ++k) {
+    auto const stretch = rows.segment(30 * k, std::min<Eigen::Index>(30, rows.size() - 30 * k));
+    EXPECT_NEAR(means[k], stretch.mean(), 1e-9) << k;
   }
 }
 

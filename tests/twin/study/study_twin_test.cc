@@ -59,28 +59,51 @@ TEST(Study, ObserverSeesInTheSensorsWhatTheTwinLacks) {
   EXPECT_THAT(row(report, "all + twin observer").remark, testing::HasSubstr("extended Kalman filter"));
 }
 
-/// Somebody's machine, whose bearings rub less than the file says, measured by a probe whose zero is anywhere.
-TEST(Study, MeasuredRunsHaveATwinToo) {
+/// The small study's world on measured files, with this model beside the linear one.
+std::string measured_world(std::string const& model) {
   auto text = "folds = 2\n" + head + world;
   for (auto const* name : {"fast", "slow"})
     text.replace(text.find(std::string(name) + ".toml"), 9, std::string(name) + ".h5");
-  text.replace(text.find("\"ridge\""), 7, "\"twin\"");
-  SmallStudy const study(text);
+  return text.replace(text.find("ridge"), 5, model);
+}
+
+/// Somebody's machine, whose bearings rub less than the file says, measured by a probe whose zero is anywhere.
+void measure_poorly_greased(SmallStudy const& study, double sampling) {
   Value document = read_toml(machine_file("v450"));
   set_parameter(document, "bearing.front.grease_factor", "0.7");
   double zero = 40.0;
   for (std::string const name : {"fast", "slow"}) {
     auto const programme = study.experiment_path(name + ".toml");
-    auto data = run(Machine::build(document), read_experiment(read_toml(programme), programme), {}).dataset;
+    auto experiment = read_experiment(read_toml(programme), programme);
+    experiment.sampling = sampling;
+    auto data = run(Machine::build(document), experiment, {}).dataset;
     for (auto& channel : data.displacements) channel.values.array() += zero;
     zero = -70.0;
     output::write(data, study.experiment_path(name + ".h5"));
   }
+}
+
+TEST(Study, MeasuredRunsHaveATwinToo) {
+  SmallStudy const study(measured_world("twin"));
+  measure_poorly_greased(study, 180.0);
   auto const report = study.report();
   auto const& twin = row(report, "all + twin").figures;
   EXPECT_LT(twin.at("self.rmse").front(), 1.0);
   EXPECT_LT(twin.at("cross.rmse").front(), 1.5);
   EXPECT_LT(twin.at("validation.rmse").front(), 2.0);
+}
+
+/// An observer follows the rows of a record, of whatever means its error is asked. Told the means at the
+/// times of their stretches' starts, and asked there, it is off by micrometres.
+TEST(Study, ObserverFollowsTheRowsOfMeasuredMeans) {
+  auto const figure = [](std::string const& sampling) {
+    SmallStudy const study(measured_world("twin observer") + sampling);
+    measure_poorly_greased(study, 30.0);
+    return row(study.report(), "all + twin observer").figures.at("cross.rmse").front();
+  };
+  double const rows = figure(""), means = figure("sampling = \"10 min\"\n");
+  EXPECT_LT(rows, 1.0);
+  EXPECT_NEAR(means, rows, 0.1);
 }
 
 }  // namespace
