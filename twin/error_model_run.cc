@@ -172,7 +172,10 @@ ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& 
   return result;
 }
 
-void RecordedRun::remark_observer() {
+void RecordedRun::admit_observer(std::string const& observed) {
+  if (!machine.empty() && !is_same_machine(machine, observed))
+    throw InputError(fmt::format("{} is a run of '{}'; '{} {}' observes '{}'", file, machine, twin_alone,
+                                 observer_method, observed));
   if (run->warm_start) remarks.emplace_back("the observer is not told how warm it was: it begins with the room");
 }
 

@@ -31,8 +31,9 @@ struct RecordedRun {
   /// Of a model that reads these: one that never moved is taken to live in a place that did not, and that is told.
   void believe_still(std::vector<std::string> const& sensors);
 
-  /// Of a run that an observer follows: it begins with the room.
-  void remark_observer();
+  /// Of a run that an observer of this machine follows: InputError where it is of another one, whatever the names of
+  /// sensors and inputs; a remark where it begins warm, and the observer with the room.
+  void admit_observer(std::string const& observed);
 };
 
 /// Means over `sampling` [s] where it is given. With a twin, what the machine says that is given the run's inputs.

@@ -7,7 +7,6 @@
 
 #include "models/metrics.h"
 #include "thermal/error.h"
-#include "twin/diagnosis/measured_run.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -29,17 +28,6 @@ std::vector<std::string> fitted_machines(SavedErrorModel const& saved) {
     if (!run.machine.empty() && std::find(fitted.begin(), fitted.end(), run.machine) == fitted.end())
       fitted.push_back(run.machine);
   return fitted;
-}
-
-/// An observer is of its machine, whatever the names of sensors and inputs.
-void refuse_other_machine(SavedErrorModel const& saved, std::string const& twin, RecordedRun const& run) {
-  auto known = fitted_machines(saved);
-  known.push_back(twin);
-  if (run.machine.empty() ||
-      std::any_of(known.begin(), known.end(), [&](auto const& name) { return is_same_machine(name, run.machine); }))
-    return;
-  throw thermal::InputError(
-      fmt::format("{} is a run of '{}'; '{}' observes '{}'", run.file, run.machine, saved.method(), twin));
 }
 
 void remark_machine(SavedErrorModel const& saved, std::string const& machine, std::vector<std::string>& remarks) {
@@ -78,10 +66,7 @@ ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::pat
   auto const twin = saved.twin ? std::optional(twin_of(*saved.twin)) : std::nullopt;
   auto const observer = twin ? observer_of(saved, *twin) : std::nullopt;
   auto recorded = read_recorded_run(run, saved.sampling, twin ? &*twin : nullptr);
-  if (observer) {
-    refuse_other_machine(saved, twin->name, recorded);
-    recorded.remark_observer();
-  }
+  if (observer) recorded.admit_observer(twin->name);
   recorded.believe_still(saved.inputs());
   ErrorPrediction result;
   result.run = error_model_run(recorded, saved.inputs(), saved.error, false);

@@ -169,7 +169,7 @@ SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::strin
   std::vector<RecordedRun> recorded;
   for (auto const& file : fit.runs) recorded.push_back(read_recorded_run(file, fit.sampling, twin ? &*twin : nullptr));
   if (observing)
-    for (auto& run : recorded) run.remark_observer();
+    for (auto& run : recorded) run.admit_observer(twin->name);
   auto const sensors = fit.sensors.empty() ? usable_sensors(recorded, observing ? &*observing : nullptr) : fit.sensors;
   std::vector<ErrorModelRun> runs;
   for (auto& run : recorded) runs.push_back(error_model_run(run, sensors, fit.error, true));

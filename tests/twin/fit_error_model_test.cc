@@ -441,8 +441,13 @@ TEST_F(FitObserver, IsOfItsMachineOnly) {
   other.provenance["machine.file"] = "name = \"v450_fine\"\n";
   EXPECT_EQ(predict_error(saved, put_run(other, "fine.h5")).predicted.rows(), other.time_s.size());
   other.provenance["machine.file"] = "name = \"g200\"\n";
-  EXPECT_THAT(refusal([&] { (void)predict_error(saved, put_run(other, "other.h5")); }),
-              HasSubstr("other.h5 is a run of 'g200'; 'twin observer' observes 'v450'"));
+  auto const refused = HasSubstr("other.h5 is a run of 'g200'; 'twin observer' observes 'v450'");
+  EXPECT_THAT(refusal([&] { (void)predict_error(saved, put_run(other, "other.h5")); }), refused);
+  EXPECT_THAT(refusal([&] { observing(folder_ / "other.h5", "twin observer", {"T1"}); }), refused);
+  auto fitted_elsewhere = saved;
+  fitted_elsewhere.runs[0].machine = "g200";
+  EXPECT_THAT(refusal([&] { (void)predict_error(fitted_elsewhere, folder_ / "other.h5"); }), refused);
+  EXPECT_THAT(predict_error(fitted_elsewhere, train).predicted, predict_error(saved, train).predicted);
   put(folder_ / "mine.toml", contents(folder_ / "mine.toml") + "# changed\n");
   EXPECT_THAT(refusal([&] { (void)predict_error(saved, train); }),
               HasSubstr("mine.toml is no longer the file beside which the model was fitted"));
