@@ -180,6 +180,7 @@ void RecordedRun::admit_observer(std::string const& observed) {
 }
 
 VectorXd observed_change(TwinObserver const& observer, RecordedRun const& recorded, ErrorModelRun const& run) {
+  models::check(run.batch);
   try {
     VectorXd const error = observed_error(observer, *recorded.run, recorded.sampling)(run.rows);
     return error.array() - error[0];

@@ -64,7 +64,7 @@ struct ErrorModelRun {
                                             std::string const& error, bool must_show);
 
 /// The error that an observer tells in the rows of a run that was read with a twin, counted from the first of them.
-/// InputError that names the run.
+/// InputError that names the run; std::invalid_argument for a batch that no model would take (models::check).
 [[nodiscard]] Eigen::VectorXd observed_change(TwinObserver const& observer, RecordedRun const& recorded,
                                               ErrorModelRun const& run);
 

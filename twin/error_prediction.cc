@@ -14,8 +14,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-MatrixXd predicted_of(SavedErrorModel const& saved, ErrorModelRun const& run) {
+/// The run knows what the observer tells, where there is one.
+MatrixXd predicted_of(SavedErrorModel const& saved, std::optional<TwinObserver> const& observer,
+                      RecordedRun const& recorded, ErrorModelRun& run) {
   try {
+    if (observer) run.observed = observed_change(*observer, recorded, run);
     return saved.predict(run);
   } catch (std::invalid_argument const& error) {
     throw thermal::InputError(error.what());
@@ -70,11 +73,10 @@ ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::pat
   recorded.believe_still(saved.inputs());
   ErrorPrediction result;
   result.run = error_model_run(recorded, saved.inputs(), saved.error, false);
-  if (observer) result.run.observed = observed_change(*observer, recorded, result.run);
   if (result.run.shown && result.run.unit != saved.unit)
     throw thermal::InputError(fmt::format("{} shows {} in {}; the model predicts {}", recorded.file, saved.error,
                                           result.run.unit, saved.unit));
-  result.predicted = predicted_of(saved, result.run);
+  result.predicted = predicted_of(saved, observer, recorded, result.run);
   result.unclaimed = saved.unclaimed_instants();
   result.unit = result.run.axis ? "um" : saved.unit;
   result.seen_before = std::any_of(saved.runs.begin(), saved.runs.end(),

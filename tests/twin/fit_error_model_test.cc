@@ -479,6 +479,11 @@ TEST_F(FitObserver, RefusesWhatCannotBeObserved) {
   EXPECT_THAT(complaint("E_W", {"T1"}), HasSubstr("the machine has no displacement 'E_W'; did you mean 'E_X'?"));
   EXPECT_THAT(complaint("A", {"T1"}), HasSubstr("'A' of the machine is an angle; the twin observes displacements"));
   EXPECT_THAT(complaint("E_Z", {"T1", "T10"}), HasSubstr("the twin has no sensor 'T10' on a body; did you mean 'T1'?"));
+  auto const twice = HasSubstr("batch 'train.h5': sensor 'T1' occurs twice");
+  EXPECT_THAT(complaint("E_Z", {"T1", "T3", "T1"}), twice);
+  auto saved = observing(train, "twin observer", {"T1"});
+  saved.parts[0] = observing_part({"T1", "T1"}, *saved.parts[0].observer);
+  EXPECT_THAT(refusal([&] { (void)predict_error(saved, train); }), twice);
   for (auto const* error : {"E_Z", "slope z"})
     EXPECT_THAT(refusal([&] {
                   fitted({{train}, error, {"T1"}, "twin observer & ridge"});
