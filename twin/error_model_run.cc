@@ -176,7 +176,7 @@ void RecordedRun::admit_observer(std::string const& observed) {
   if (!machine.empty() && !is_same_machine(machine, observed))
     throw InputError(fmt::format("{} is a run of '{}'; '{} {}' observes '{}'", file, machine, twin_alone,
                                  observer_method, observed));
-  if (run->warm_start) remarks.emplace_back("the observer is not told how warm it was: it begins with the room");
+  if (auto const remark = observer_remark(*run); !remark.empty()) remarks.push_back(remark);
 }
 
 VectorXd observed_change(TwinObserver const& observer, RecordedRun const& recorded, ErrorModelRun const& run) {

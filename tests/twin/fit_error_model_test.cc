@@ -10,6 +10,7 @@
 #include "output/dataset_file.h"
 #include "tests/output/temporary_directory.h"
 #include "tests/scenarios/refusal.h"
+#include "tests/twin/late_record.h"
 #include "twin/axis_record.h"
 #include "twin/error_model_file.h"
 #include "twin/error_prediction.h"
@@ -454,15 +455,7 @@ TEST_F(FitObserver, IsOfItsMachineOnly) {
 }
 
 TEST_F(FitObserver, SaysThatItBeginsWithTheRoom) {
-  Index const left = train_.time_s.size() - 20;
-  output::Dataset late;
-  late.time_s = train_.time_s.tail(left);
-  late.inputs = train_.inputs;
-  late.readings = train_.readings;
-  late.displacements = train_.displacements;
-  for (auto* group : {&late.inputs, &late.readings, &late.displacements})
-    for (auto& channel : *group) channel.values = channel.values.tail(left).eval();
-  auto const file = put_run(late, "late.csv");
+  auto const file = put_run(tests::without_first(20, train_), "late.csv");
   auto const remark = HasSubstr("late.csv: the observer is not told how warm it was: it begins with the room");
   auto const saved = observing(file, "twin observer", {"T1"});
   EXPECT_THAT(remarks_, Contains(remark));

@@ -114,4 +114,8 @@ Eigen::VectorXd observed_error(TwinObserver const& observer, MeasuredRun const& 
   return averaged(said, *sampling).displacements.front().values;
 }
 
+std::string observer_remark(MeasuredRun const& run) {
+  return run.warm_start ? "the observer is not told how warm it was: it begins with the room" : std::string();
+}
+
 }  // namespace thermotwin::twin

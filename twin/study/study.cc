@@ -108,6 +108,7 @@ class StudyRunner {
   void judge_combinations(StudyReport& report);
   void put_improvements(StudyReport& report) const;
   void put_means(StudyReport& report) const;
+  [[nodiscard]] bool observes(std::size_t world) const;
   [[nodiscard]] std::vector<std::string> remarks() const;
   [[nodiscard]] int repetitions_remarking(std::size_t world, std::string const& remark) const;
   [[nodiscard]] std::string answers_of(Repetition const& repetition, std::size_t selection, std::size_t model,
@@ -494,6 +495,18 @@ int StudyRunner::repetitions_remarking(std::size_t world, std::string const& rem
   }));
 }
 
+/// Whether an observer was fitted for a combination of the world.
+bool StudyRunner::observes(std::size_t world) const {
+  for (auto const& repetition : repetitions_)
+    for (auto const& question : repetition.fits)
+      for (std::size_t m = 0; m < models_.size(); ++m)
+        if (repetition.world == world && models_[m].observes() &&
+            std::any_of(question[m].begin(), question[m].end(),
+                        [](auto const& fit) { return fit.second.refused.empty(); }))
+          return true;
+  return false;
+}
+
 /// Each once, with the worlds that it is about.
 std::vector<std::string> StudyRunner::remarks() const {
   std::vector<std::pair<std::string, std::vector<std::string>>> told;
@@ -502,8 +515,11 @@ std::vector<std::string> StudyRunner::remarks() const {
     if (it == told.end()) it = told.insert(it, {remark, {}});
     if (it->second.empty() || it->second.back() != world) it->second.push_back(world);
   };
-  for (std::size_t w = 0; w < worlds_.size(); ++w)
+  for (std::size_t w = 0; w < worlds_.size(); ++w) {
     for (auto const& remark : worlds_[w].remarks) tell(remark, study_.worlds[w].name);
+    if (!observes(w)) continue;
+    for (auto const& remark : observer_remarks(study_.worlds[w], *worlds_[w].runs)) tell(remark, study_.worlds[w].name);
+  }
   for (auto const& repetition : repetitions_)
     for (auto const& remark : repetition.questions.remarks) {
       auto const world = repetition.world;

@@ -244,4 +244,14 @@ FittedModel observed(StudyWorld const& world, WorldData const& data, int repetit
   return result;
 }
 
+std::vector<std::string> observer_remarks(StudyWorld const& world, WorldRuns const& runs) {
+  std::vector<std::string> remarks;
+  for (std::size_t r = 0; r < runs.measured.size(); ++r) {
+    auto const remark = runs.measured[r] ? observer_remark(*runs.measured[r]) : std::string();
+    auto const trained = world.train.size();
+    if (!remark.empty()) remarks.push_back((r < trained ? world.train[r] : world.test[r - trained]) + ": " + remark);
+  }
+  return remarks;
+}
+
 }  // namespace thermotwin::twin

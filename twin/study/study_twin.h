@@ -50,4 +50,7 @@ struct TwinRuns {
                                    Question const& question, Machine const& twin,
                                    std::vector<Eigen::Index> const& columns);
 
+/// What is to be said of a world's measured runs where an observer follows them, under their names.
+[[nodiscard]] std::vector<std::string> observer_remarks(StudyWorld const& world, WorldRuns const& runs);
+
 }  // namespace thermotwin::twin

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "output/dataset_file.h"
+#include "tests/twin/late_record.h"
 #include "tests/twin/study/small_study.h"
 #include "twin/experiment_file.h"
 #include "twin/run.h"
@@ -68,7 +69,7 @@ std::string measured_world(std::string const& model) {
 }
 
 /// Somebody's machine, whose bearings rub less than the file says, measured by a probe whose zero is anywhere.
-void measure_poorly_greased(SmallStudy const& study, double sampling) {
+void measure_poorly_greased(SmallStudy const& study, double sampling, Eigen::Index before_logger = 0) {
   Value document = read_toml(machine_file("v450"));
   set_parameter(document, "bearing.front.grease_factor", "0.7");
   double zero = 40.0;
@@ -79,6 +80,7 @@ void measure_poorly_greased(SmallStudy const& study, double sampling) {
     auto data = run(Machine::build(document), experiment, {}).dataset;
     for (auto& channel : data.displacements) channel.values.array() += zero;
     zero = -70.0;
+    if (name == "slow") data = tests::without_first(before_logger, data);
     output::write(data, study.experiment_path(name + ".h5"));
   }
 }
@@ -104,6 +106,20 @@ TEST(Study, ObserverFollowsTheRowsOfMeasuredMeans) {
   double const rows = figure(""), means = figure("sampling = \"10 min\"\n");
   EXPECT_LT(rows, 1.0);
   EXPECT_NEAR(means, rows, 0.1);
+}
+
+/// Of a run whose machine was warm when the logger was switched on, a twin alone is told how warm; an observer is not.
+TEST(Study, SaysThatAnObserverBeginsWithTheRoom) {
+  auto const remarks = [](std::string const& model, Eigen::Index before_logger) {
+    SmallStudy const study(measured_world(model));
+    measure_poorly_greased(study, 180.0, before_logger);
+    return study.report().remarks;
+  };
+  auto const remark =
+      testing::Contains("v450: slow.h5: the observer is not told how warm it was: it begins with the room");
+  EXPECT_THAT(remarks("twin observer", 12), remark);
+  EXPECT_THAT(remarks("twin", 12), testing::Not(remark));
+  EXPECT_THAT(remarks("twin observer", 0), testing::Not(remark));
 }
 
 }  // namespace
