@@ -102,8 +102,9 @@ void RecordedRun::believe_still(std::vector<std::string> const& sensors) {
   for (auto& channel : shown.readings) {
     auto const value = still.find(channel.name);
     if (value == still.end() || std::find(sensors.begin(), sensors.end(), channel.name) == sensors.end()) continue;
+    // A value that no sensor of a machine shows is no reading: of that, the remark is another one.
+    if (std::erase(remarks, fmt::format("'{}' is dead: it never moves", channel.name)) == 0) continue;
     channel.values.setConstant(value->second);
-    std::erase_if(remarks, [&](auto const& remark) { return remark.starts_with("'" + channel.name + "' is dead"); });
     remarks.push_back(fmt::format("'{}' shows {:g} degC throughout: its change is taken as 0, unless it is dead",
                                   channel.name, value->second));
   }

@@ -25,16 +25,11 @@ MatrixXd predicted_of(SavedErrorModel const& saved, std::optional<TwinObserver> 
   }
 }
 
-std::vector<std::string> fitted_machines(SavedErrorModel const& saved) {
+void remark_machine(SavedErrorModel const& saved, std::string const& machine, std::vector<std::string>& remarks) {
   std::vector<std::string> fitted;
   for (auto const& run : saved.runs)
     if (!run.machine.empty() && std::find(fitted.begin(), fitted.end(), run.machine) == fitted.end())
       fitted.push_back(run.machine);
-  return fitted;
-}
-
-void remark_machine(SavedErrorModel const& saved, std::string const& machine, std::vector<std::string>& remarks) {
-  auto const fitted = fitted_machines(saved);
   if (machine.empty() || fitted.empty() || std::find(fitted.begin(), fitted.end(), machine) != fitted.end()) return;
   remarks.push_back(fmt::format("of '{}'; the model was fitted to '{}'", machine, fmt::join(fitted, "', '")));
 }

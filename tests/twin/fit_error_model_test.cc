@@ -197,6 +197,9 @@ TEST_F(FitErrorModel, PredictsARunInWhichASensorStandsStill) {
   EXPECT_LT((prediction.predicted - 3.0 * (first.array() - first[0]).matrix()).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_THAT(prediction.remarks,
               ElementsAre("still.csv: 'T2' shows 21 degC throughout: its change is taken as 0, unless it is dead"));
+  readings(data, "T2").setConstant(-127.0);
+  EXPECT_THAT(refusal([&] { (void)predict_error(saved, put_run(data, "dead.csv")); }),
+              HasSubstr("no value of T2 in 120; 'T2' reads -127.0 degC in 120 rows"));
 }
 
 TEST_F(FitErrorModel, LeavesOutRowsWithoutAReadingOfWhatWasNamed) {
