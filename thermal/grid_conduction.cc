@@ -22,14 +22,14 @@ GridConduction::GridConduction(std::vector<Grid> const& grids, std::span<int con
     else
       others_.push_back({a, b, conductances[k]});
   }
+  for (auto const& grid : grids_) alike_.push_back(layers_alike<double>(grid, links(), {}));
 }
 
 void GridConduction::add_heat_flows(double const* temperature, double* heat) const {
-  std::array<double const*, 3> const g{g_[0].data(), g_[1].data(), g_[2].data()};
-  for (auto const& grid : grids_)
-    for_blocks(grid.count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      for_balances(grid, g, temperature, grid.first + int(begin), grid.first + int(end),
-                   [heat](int i, double sum) { heat[i] += sum; });
+  for (std::size_t n = 0; n < grids_.size(); ++n)
+    for_blocks(grids_[n].count(), [&, first = grids_[n].first](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for_balances(grids_[n], links(), alike_[n], temperature, first + int(begin), first + int(end),
+                   [heat](int i, int, double sum) { heat[i] += sum; });
     });
   for (auto const& [a, b, conductance] : others_) {
     double const into_a = conductance * (temperature[b] - temperature[a]);

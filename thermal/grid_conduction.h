@@ -23,8 +23,11 @@ class GridConduction {
     double conductance;
   };
 
+  [[nodiscard]] std::array<double const*, 3> links() const { return {g_[0].data(), g_[1].data(), g_[2].data()}; }
+
   std::vector<Grid> grids_;               ///< of more than one node
   std::array<std::vector<double>, 3> g_;  ///< of each node, to the next along each direction [W/K]
+  std::vector<bool> alike_;               ///< of each grid: its layers
   std::vector<Link> others_;
 };
 

@@ -66,7 +66,8 @@ Between between(int fine, int by, int fine_count, int coarse_count) {
 template <class Visit>
 void Multigrid::for_pieces(Level const& level, Visit const& visit) {
   auto const visit_piece = [&](Piece const& piece) {
-    visit(level.network.grids[std::size_t(piece.grid)], piece.begin, piece.end);
+    auto const g = std::size_t(piece.grid);
+    visit(level.network.grids[g], level.alike[g], piece.begin, piece.end);
   };
   if (level.network.size() < worth_a_thread) {
     for (auto const& piece : level.pieces) visit_piece(piece);
@@ -195,6 +196,11 @@ void Multigrid::add_up(Level& level) {
   for (std::size_t a = 0; a < net.averages.size(); ++a)
     for (auto const& [node, weight] : net.averages[a])
       level.around[std::size_t(node)] += weight * weight * std::max(0.0F, net.average_couplings[a]);
+  level.alike.clear();
+  for (auto const& grid : net.grids) {
+    std::array const fields{net.capacity.data(), net.outside.data(), std::as_const(level.around).data()};
+    level.alike.push_back(layers_alike<float>(grid, net.links(), fields));
+  }
 }
 
 bool Multigrid::shift(double identity, double gamma) {
@@ -262,10 +268,11 @@ void Multigrid::lay_out_coarsest(std::span<PortCoupling const> couplings) {
 template <class X>
 void Multigrid::multiply(X const* x, X* y) const {
   auto const& level = levels_.front();
+  auto const* base = level.base.data();
   auto const gamma = X(gamma_);
-  for_pieces(level, [&](Grid const& grid, int begin, int end) {
-    for_balances(grid, level.network.links(), x, begin, end,
-                 [&](int i, X heat) { y[i] = X(level.base[std::size_t(i)]) * x[i] - gamma * heat; });
+  for_pieces(level, [&](Grid const& grid, bool alike, int begin, int end) {
+    for_balances(grid, level.network.links(), alike, x, begin, end,
+                 [&](int i, int k, X heat) { y[i] = X(base[k]) * x[i] - gamma * heat; });
   });
 }
 template void Multigrid::multiply(float const*, float*) const;
@@ -290,10 +297,10 @@ void Multigrid::smooth_from_zero(Level& level, float const* b, float* x) const {
   auto* first = level.y.data();
   auto const gamma = float(gamma_);
   for_terms(level.network.size(), [=](std::ptrdiff_t i) { first[i] = inverse[i] * b[i] * (1.0F / middle); });
-  for_pieces(level, [&](Grid const& grid, int begin, int end) {
-    for_balances(grid, level.network.links(), first, begin, end, [&](int i, float heat) {
-      float const residual = b[i] - base[i] * first[i] + gamma * heat;
-      x[i] = (1.0F + momentum) * first[i] + step * inverse[i] * residual;
+  for_pieces(level, [&](Grid const& grid, bool alike, int begin, int end) {
+    for_balances(grid, level.network.links(), alike, first, begin, end, [&](int i, int k, float heat) {
+      float const residual = b[i] - base[k] * first[i] + gamma * heat;
+      x[i] = (1.0F + momentum) * first[i] + step * inverse[k] * residual;
     });
   });
 }
@@ -303,16 +310,16 @@ void Multigrid::smooth(Level& level, float const* b, float* x) const {
   auto const* base = level.base.data();
   auto* first = level.y.data();
   auto const gamma = float(gamma_);
-  for_pieces(level, [&](Grid const& grid, int begin, int end) {
-    for_balances(grid, level.network.links(), x, begin, end, [&](int i, float heat) {
-      float const residual = b[i] - base[i] * x[i] + gamma * heat;
-      first[i] = x[i] + inverse[i] * residual * (1.0F / middle);
+  for_pieces(level, [&](Grid const& grid, bool alike, int begin, int end) {
+    for_balances(grid, level.network.links(), alike, x, begin, end, [&](int i, int k, float heat) {
+      float const residual = b[i] - base[k] * x[i] + gamma * heat;
+      first[i] = x[i] + inverse[k] * residual * (1.0F / middle);
     });
   });
-  for_pieces(level, [&](Grid const& grid, int begin, int end) {
-    for_balances(grid, level.network.links(), first, begin, end, [&](int i, float heat) {
-      float const residual = b[i] - base[i] * first[i] + gamma * heat;
-      x[i] = first[i] + momentum * (first[i] - x[i]) + step * inverse[i] * residual;
+  for_pieces(level, [&](Grid const& grid, bool alike, int begin, int end) {
+    for_balances(grid, level.network.links(), alike, first, begin, end, [&](int i, int k, float heat) {
+      float const residual = b[i] - base[k] * first[i] + gamma * heat;
+      x[i] = first[i] + momentum * (first[i] - x[i]) + step * inverse[k] * residual;
     });
   });
 }
@@ -321,9 +328,9 @@ void Multigrid::restrict_residual(Level& fine, float const* b, float const* x, L
   auto const* base = fine.base.data();
   auto* residual = fine.y.data();
   auto const gamma = float(gamma_);
-  for_pieces(fine, [&](Grid const& grid, int begin, int end) {
-    for_balances(grid, fine.network.links(), x, begin, end,
-                 [&](int i, float heat) { residual[i] = b[i] - base[i] * x[i] + gamma * heat; });
+  for_pieces(fine, [&](Grid const& grid, bool alike, int begin, int end) {
+    for_balances(grid, fine.network.links(), alike, x, begin, end,
+                 [&](int i, int k, float heat) { residual[i] = b[i] - base[k] * x[i] + gamma * heat; });
   });
   for (std::size_t g = 0; g < fine.by.size(); ++g) {
     auto const &grid = fine.network.grids[g], &target = coarse.network.grids[g];

@@ -68,6 +68,7 @@ class Multigrid {
     ConductionLevel network;
     std::vector<Piece> pieces;           ///< of at most block_length cells, none of them across grids
     std::vector<std::array<int, 3>> by;  ///< of each grid: how many cells are joined along each direction, to the next
+    std::vector<bool> alike;             ///< of each grid: its layers (grid_balance.h)
     std::vector<float> around;           ///< all conductances of a cell added up
     std::vector<float> base, inverse;    ///< s C + γ e; 1/diagonal
     std::vector<float> x, b, y;          ///< on coarser levels: unknowns and right-hand side; scratch
