@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -170,6 +171,20 @@ std::string missing_unit(std::string_view number, Dimension expected) {
 std::string format_number(double value) {
   std::array<char, 64> buffer{};
   return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
+}
+
+double without_rounding(double x, double size) {
+  auto const exponent = [](double number) { return static_cast<int>(std::floor(std::log10(number))); };
+  double const largest = std::max(std::abs(x), std::abs(size));
+  if (x == 0.0 || !std::isfinite(largest)) return x;
+  double nearest = 0.0;
+  if (int const decimals = 11 - exponent(largest) + exponent(std::abs(x)); decimals >= 0) {
+    std::array<char, 64> buffer{};
+    auto const end =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, std::chars_format::scientific, decimals);
+    std::from_chars(buffer.data(), end.ptr, nearest);
+  }
+  return std::abs(nearest - x) <= 4.0 * std::numeric_limits<double>::epsilon() * largest ? nearest : x;
 }
 
 std::string format_quantity(double si, Dimension dimension) {

@@ -56,4 +56,8 @@ std::string format_temperature(double kelvin);
 /// The shortest digits that read back as the same double: "0.1", "1e-05".
 std::string format_number(double value);
 
+/// x without the last bits that arithmetic leaves, 20.33 for 20.330000000000002: the nearest number of twelve digits,
+/// where it is within 4 ε of x, and x itself elsewhere. A difference has the last bits of its parts: `size` is theirs.
+double without_rounding(double x, double size = 0.0);
+
 }  // namespace thermotwin::thermal

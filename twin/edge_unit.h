@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cmath>
 #include <string>
 
 #include "thermal/operating_point.h"
 #include "thermal/unit.h"
+#include "thermal/units.h"
 
 namespace thermotwin::twin {
 
@@ -23,8 +23,7 @@ inline thermal::Unit read_edge_unit(std::string const& unit) {
 
 /// In that unit, without the last bits that two conversions leave: 4000 rpm, not 3999.9999999999995.
 inline double edge_value(double si, thermal::Unit const& unit) {
-  double const number = unit.number(si), given = std::round(1e9 * number) / 1e9;
-  return unit.si(given) == si ? given : number;
+  return thermal::without_rounding(unit.number(si), unit.zero);
 }
 
 }  // namespace thermotwin::twin

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "output/json_text.h"
 #include "twin/summary.h"
 
 namespace thermotwin::twin {
@@ -51,7 +53,7 @@ std::string reduced_json(ReducedTwin const& twin, ReducedResult const& result) {
   for (Eigen::Index c = 0; c < result.bound.displacements.size(); ++c)
     json["displacements"][std::size_t(c)]["bound"] = result.bound.displacements[c];
   json["solver"] = {{"steps", result.steps}, {"rate_evaluations", result.rate_evaluations}};
-  return json.dump(2) + "\n";
+  return output::json_text(std::move(json));
 }
 
 }  // namespace thermotwin::twin

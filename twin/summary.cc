@@ -4,7 +4,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "output/json_text.h"
 #include "twin/drift_test.h"
 
 namespace thermotwin::twin {
@@ -124,7 +126,7 @@ std::string summary_json(Machine const& machine, RunResult const& result) {
                                     {"lower", e.range->lower},
                                     {"upper", e.range->upper},
                                     {"share_of_heat", e.share}});
-  return json.dump(2) + "\n";
+  return output::json_text(std::move(json));
 }
 
 }  // namespace thermotwin::twin

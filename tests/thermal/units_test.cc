@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -197,6 +198,24 @@ TEST(Conversion, GoesBothWays) {
   EXPECT_DOUBLE_EQ(to_unit(200.0 * pi, "rpm"), 6000.0);
   EXPECT_DOUBLE_EQ(from_unit(20.0, "degC"), 293.15);
   EXPECT_DOUBLE_EQ(from_unit(to_unit(0.37, "mm/min"), "mm/min"), 0.37);
+}
+
+TEST(WithoutRounding, TakesOffWhatArithmeticLeaves) {
+  EXPECT_EQ(without_rounding(2033 * 0.01), 20.33);
+  EXPECT_EQ(without_rounding(3 * 0.1), 0.3);
+  EXPECT_EQ(without_rounding(-3 * 0.1), -0.3);
+  EXPECT_EQ(without_rounding(293.55 - 273.15, 273.15), 20.4);
+  EXPECT_EQ(without_rounding(100.3 - 100.2, 100.3), 0.1);
+  EXPECT_EQ(without_rounding(1.2 - 1.1 - 0.1, 1.2), 0.0);
+  EXPECT_EQ(without_rounding(1e-12 * 1234.5e3), 1.2345e-6);
+}
+
+TEST(WithoutRounding, LeavesEveryOtherNumber) {
+  for (double const x : {0.0, 1.0 / 3.0, std::numbers::pi * 1e-9, 0.1 + 1e-15, 22.0 / 7e6, 5e-324, 1e308,
+                         std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(without_rounding(x), x);
+  EXPECT_TRUE(std::isnan(without_rounding(std::nan(""))));
+  EXPECT_TRUE(std::isnan(without_rounding(std::nan(""), 1.0)));
 }
 
 TEST(UnitOf, IsWhatMessagesName) {

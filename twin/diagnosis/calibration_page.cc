@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "output/json_text.h"
 #include "thermal/units.h"
 #include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/estimate_text.h"
@@ -141,7 +142,7 @@ std::string calibration_json(Calibration const& calibration) {
                      {"gaps", list_of(calibration.gaps)},
                      {"remarks", calibration.remarks},
                      {"doubts", doubts_json(calibration.doubts)}};
-  return json.dump(2) + "\n";
+  return output::json_text(json);
 }
 
 }  // namespace thermotwin::twin

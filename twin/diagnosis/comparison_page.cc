@@ -1,7 +1,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "output/json_text.h"
 #include "twin/diagnosis/comparison.h"
 
 namespace thermotwin::twin {
@@ -76,7 +78,7 @@ std::string comparison_json(Comparison const& comparison) {
   for (auto const& run : comparison.runs) json["runs"].push_back(to_json(run));
   for (auto const* unit : units)
     if (auto const gap = total(comparison, unit); gap.samples > 0) json["total"][unit] = to_json(gap);
-  return json.dump(2) + "\n";
+  return output::json_text(std::move(json));
 }
 
 }  // namespace thermotwin::twin

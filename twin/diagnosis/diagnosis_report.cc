@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "output/json_text.h"
 #include "thermal/units.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/separation.h"
@@ -409,7 +411,7 @@ std::string report_json(DiagnosisReport const& report) {
     if (!words.empty()) json["cautions"].push_back(words.substr(0, words.find_last_not_of('\n') + 1));
   json["doubts"] = doubts_json(report.doubts);
   json["remarks"] = report.remarks;
-  return json.dump(2) + "\n";
+  return output::json_text(std::move(json));
 }
 
 std::string report_text(DiagnosisReport const& report) {

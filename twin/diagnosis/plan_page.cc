@@ -1,7 +1,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "output/json_text.h"
 #include "twin/diagnosis/plan.h"
 #include "twin/diagnosis/separation.h"
 
@@ -92,7 +94,7 @@ std::string plan_json(Plan const& plan) {
                                    {"distance", ambiguity.distance},
                                    {"remedies", remedies}});
   }
-  return json.dump(2) + "\n";
+  return output::json_text(std::move(json));
 }
 
 }  // namespace thermotwin::twin

@@ -8,6 +8,7 @@
 
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
+#include "thermal/units.h"
 #include "twin/instruments/first_order_lag.h"
 #include "twin/instruments/random_stream.h"
 #include "twin/instruments/sampling.h"
@@ -163,10 +164,12 @@ Readings read(DisplacementProbe const& probe, InstrumentChannel const& channel, 
   for (Eigen::Index k = 0; k < sample_times.size(); ++k) {
     if (!served[static_cast<std::size_t>(k)]) continue;
     int const count = conversions(probe.averaging_window, probe.conversion_interval, sample_times[k] - last);
-    readings.values[k] = conversion.reading(sample_times[k], count) / micrometre;
+    readings.values[k] = thermal::without_rounding(conversion.reading(sample_times[k], count) / micrometre);
     last = sample_times[k];
   }
-  if (probe.zeroed && readings.values.size() > 0) readings.values.array() -= double(readings.values[0]);
+  if (probe.zeroed && readings.values.size() > 0)
+    for (double const zero = readings.values[0]; double& value : readings.values)
+      value = thermal::without_rounding(value - zero, zero);
   drop_out(readings.values, sample_times, channel, probe.dropout, std::numeric_limits<double>::infinity());
   return readings;
 }

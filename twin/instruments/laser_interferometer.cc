@@ -9,6 +9,7 @@
 
 #include "thermal/error.h"
 #include "thermal/physical_constant.h"
+#include "thermal/units.h"
 #include "twin/instruments/air_refraction.h"
 #include "twin/instruments/first_order_lag.h"
 #include "twin/instruments/random_stream.h"
@@ -115,7 +116,7 @@ class Recording {
     bool const turns_here = !laser_.overrun && target + 1 == static_cast<int>(targets_.size());
     double const actual = nominal + error + (turns_here ? turning_error_ : lost_motion);
     double const y = beam_.shown(actual, t) - nominal + laser_.noise * noise_.normal();
-    shown = quantised(y, laser_.resolution) / um;
+    shown = thermal::without_rounding(quantised(y, laser_.resolution) / um);
     truth = (error + (turns_here ? 0.0 : lost_motion)) / um;
   }
 
@@ -140,7 +141,9 @@ output::Positioning empty_table(std::string const& axis, std::vector<double> con
 void take_off_first_pass(output::Positioning& table) {
   for (Eigen::MatrixXd* errors : {&table.forward_um, &table.backward_um}) {
     Eigen::RowVectorXd const first = errors->row(0);
-    errors->rowwise() -= first;
+    for (auto row : errors->rowwise())
+      row = row.binaryExpr(first,
+                           [](double error, double zero) { return thermal::without_rounding(error - zero, zero); });
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "thermal/error.h"
 #include "thermal/physical_constant.h"
+#include "thermal/units.h"
 #include "twin/instruments/correlated_noise.h"
 #include "twin/instruments/first_order_lag.h"
 #include "twin/instruments/random_stream.h"
@@ -75,7 +76,7 @@ class Converter {
   double reading(double t, int count, double cold_junction) {
     double sum = 0.0;
     for (int i = count - 1; i >= 0; --i) sum += convert(t - i * specimen_.conversion_interval, cold_junction);
-    return sum / count;
+    return thermal::without_rounding(sum / count, zero_celsius);
   }
 
  private:

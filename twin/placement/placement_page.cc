@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
+#include "output/json_text.h"
 #include "twin/placement/sensor_placement.h"
 
 namespace thermotwin::twin {
@@ -227,7 +229,7 @@ std::string placement_json(PlacementReport const& report) {
   if (report.distinction) json["distinction"] = to_json(*report.distinction);
   if (report.map)
     json["map"] = {{"alone_um", list_of(report.map->alone_um)}, {"beside_um", list_of(report.map->beside_um)}};
-  return json.dump(2) + "\n";
+  return output::json_text(std::move(json));
 }
 
 std::string sensor_tables(PlacementReport const& report) {

@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "output/csv.h"
+#include "output/json_text.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -302,7 +304,7 @@ std::string study_json(StudyReport const& report) {
   json["combinations"] = Json::array();
   for (auto const* rows : {&report.rows, &report.means})
     for (auto const& row : *rows) json["combinations"].push_back(json_of(row));
-  return json.dump(2) + "\n";
+  return output::json_text(std::move(json));
 }
 
 }  // namespace thermotwin::twin

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
+
+#include "output/json_text.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -198,7 +201,7 @@ std::string volumetric_json(VolumetricStudy const& study) {
   auto const rotation = rotation_of_identified(study);
   for (int axis = 0; axis < 3; ++axis) json["functions"].push_back(functions_json(study, axis, rotation));
   json["remarks"] = study.remarks;
-  return json.dump(2) + "\n";
+  return output::json_text(std::move(json));
 }
 
 }  // namespace thermotwin::twin

@@ -81,7 +81,7 @@ TEST(DisplacementProbe, ResolutionAndFullScaleBoundTheNumbers) {
   probe.resolution = 0.1e-6;
   probe.full_scale = 60e-6;
   VectorXd const values = read(probe, {"Z"}, course(50e-6, 0.0, 6000.0), every(13.0, 6000.0)).values;
-  for (double const v : values) EXPECT_NEAR(v / 0.1, std::round(v / 0.1), 1e-9);
+  for (double const v : values) EXPECT_EQ(v, std::round(10.0 * v) / 10.0);
   EXPECT_NEAR(values.maxCoeff(), 30.0, 1e-9);
 }
 

@@ -133,6 +133,13 @@ TEST(Ds18b20, ShowsMultiplesOfItsStep) {
   }
 }
 
+TEST(TemperatureSensor, ShowsNoDigitsBelowItsResolution) {
+  TemperatureSensor sensor = ideal();
+  sensor.resolution = 0.01;
+  Readings const readings = read(sensor, {"T1"}, ramp(20.0, 1e-3, 3600.0), every(10.0, 3600.0));
+  for (double const value : readings.values) EXPECT_EQ(value, std::round(100.0 * value) / 100.0);
+}
+
 TEST(Ds18b20, QuantisationErrorOfAMovingSignalIsTheStepOverRootTwelve) {
   TemperatureSensor sensor = ideal();
   sensor.resolution = 0.0625;
