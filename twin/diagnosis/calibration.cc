@@ -143,6 +143,10 @@ std::vector<ChangedValue> changes_of(Calibration const& calibration) {
 double CalibratedNumber::estimate() const { return number.value(logarithm); }
 double CalibratedNumber::standard_error() const { return std::abs(number.slope(logarithm)) * deviation; }
 double CalibratedNumber::departure() const { return std::abs(logarithm) / number.deviation; }
+bool CalibratedNumber::implausible() const {
+  return identified && (std::abs(written) > far_from_file * number.deviation ||
+                        std::abs(written - logarithm) > far_from_file * deviation);
+}
 
 std::vector<std::string> Calibration::shortcomings() const {
   std::vector<std::string> reasons, far;

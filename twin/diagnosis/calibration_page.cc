@@ -16,7 +16,9 @@ constexpr double collinear = 10.0;
 constexpr double told_departure = 2.0;  // beyond it, people are told
 
 std::string verdict_of(CalibratedNumber const& number) {
-  std::string const text = number.identified ? "identified" : "not identified: keep prior";
+  std::string const text = number.implausible() ? "identified, implausible"
+                           : number.identified  ? "identified"
+                                                : "not identified: keep prior";
   if (number.departure() < told_departure) return text;
   return text + fmt::format("; {:.0f} prior deviations from the file", number.departure());
 }
@@ -31,7 +33,8 @@ Json json_of(CalibratedNumber const& number) {
           {"deviation_of_logarithm", number.deviation},
           {"departure", number.departure()},
           {"written", number.number.value(number.written)},
-          {"verdict", number.identified ? "identified" : "not identified"}};
+          {"verdict", number.identified ? "identified" : "not identified"},
+          {"implausible", number.implausible()}};
 }
 
 Json json_of(CalibratedInstrument const& instrument) {
@@ -77,6 +80,18 @@ std::string number_table(Calibration const& calibration) {
                     100.0 * still_uncertain);
 }
 
+std::string implausible_text(Calibration const& calibration) {
+  std::vector<std::string> paths;
+  for (auto const& number : calibration.numbers)
+    if (number.implausible()) paths.push_back(number.number.path);
+  if (paths.empty()) return "";
+  return fmt::format(
+      "implausible: in the file {} would be more than {:g} prior deviations from yours, or {:g} standard errors from "
+      "the "
+      "estimate:\nstands in for numbers that the data do not identify, or for what is missing; do not build on it\n",
+      fmt::join(paths, ", "), far_from_file, far_from_file);
+}
+
 std::string instrument_table(Calibration const& calibration) {
   std::string text = fmt::format("{:<42} {:>14} {:>14}\n", "instrument or run", "estimate", "std. error");
   for (auto const& instrument : calibration.instruments) {
@@ -118,7 +133,8 @@ std::string gap_table(Calibration const& calibration) {
 }  // namespace
 
 std::string calibration_table(Calibration const& calibration) {
-  std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n", doubt_lines(calibration.doubts), number_table(calibration),
+  std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n", doubt_lines(calibration.doubts),
+                                 number_table(calibration) + implausible_text(calibration),
                                  instrument_table(calibration), collinearity_text(calibration), gap_table(calibration));
   text += fmt::format("misfit: {:.2f} of what the expected noise makes; {}\n", calibration.misfit, advice(calibration));
   if (!calibration.converged) text += "note: the fit did not converge; the estimates are where it stopped\n";

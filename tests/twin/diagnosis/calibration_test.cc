@@ -152,6 +152,26 @@ TEST_F(CalibrationTest, TellsWhatFallsShortBesideTheMisfit) {
                         "what is missing\n"));
 }
 
+/// A conductance whose estimate is the file's, while beside numbers at nominal fifty times it fits best.
+TEST_F(CalibrationTest, TellsWhatIsIdentifiedAndYetImplausible) {
+  for (auto const& n : calibration.numbers) EXPECT_FALSE(n.implausible()) << n.number.path;
+  EXPECT_EQ(calibration_table(calibration).find("implausible"), std::string::npos);
+  Calibration odd = calibration;
+  auto it = std::find_if(odd.numbers.begin(), odd.numbers.end(), [](auto const& n) { return n.identified; });
+  ASSERT_NE(it, odd.numbers.end());
+  auto const settled = *it;
+  it->written = 3.1 * it->number.deviation;
+  EXPECT_TRUE(it->implausible());
+  *it = settled;
+  it->written = it->logarithm - 3.1 * it->deviation;
+  EXPECT_TRUE(it->implausible());
+  EXPECT_THAT(calibration_table(odd), HasSubstr("\nimplausible: in the file " + it->number.path + " would be "));
+  EXPECT_THAT(calibration_json(odd), HasSubstr("\"implausible\": true"));
+  it->identified = false;
+  it->written = 0.0;
+  EXPECT_FALSE(it->implausible());
+}
+
 TEST_F(CalibrationTest, ZerosHaveTheUnitOfTheirChannel) {
   std::map<std::string, std::string> units;
   for (auto const& instrument : calibration.instruments) units[instrument.unknown.name] = instrument.unit;
