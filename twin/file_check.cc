@@ -157,6 +157,10 @@ struct CheckedMachine {
   std::filesystem::path file;
   Value document;
   Machine machine;
+
+  [[nodiscard]] bool is_called(std::string const& name) const {
+    return is_same_machine(machine.name, name) || file.filename() == std::filesystem::path(name).filename();
+  }
 };
 
 struct CheckedExperiment {
@@ -283,9 +287,8 @@ void FileChecker::read_record(std::filesystem::path const& file, std::size_t i) 
 /// The only one, or the one that is named; null where that is not among the files.
 CheckedMachine const* FileChecker::machine_among(std::string const& named) const {
   if (machines_.size() == 1) return &machines_[0];
-  auto const found = std::find_if(machines_.begin(), machines_.end(), [&](auto const& machine) {
-    return machine.machine.name == named || machine.file.filename() == std::filesystem::path(named).filename();
-  });
+  auto const found =
+      std::find_if(machines_.begin(), machines_.end(), [&](auto const& machine) { return machine.is_called(named); });
   return found == machines_.end() ? nullptr : &*found;
 }
 
@@ -313,6 +316,9 @@ void FileChecker::check_experiment(CheckedExperiment const& checked, FileCheck& 
     return;
   }
   auto const machine = machine_for(checked);
+  if (!named.empty() && !machine.is_called(named))
+    check.warnings.push_back(fmt::format("{}: it is an experiment of '{}', the machine file is '{}'",
+                                         checked.file.string(), named, machine.machine.name));
   check_together(checked.document, checked.experiment, machine.document, machine.machine);
   auto const remarks = experiment_remarks(checked.document, checked.experiment, machine.machine);
   check.warnings.insert(check.warnings.end(), remarks.begin(), remarks.end());

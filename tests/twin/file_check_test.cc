@@ -447,6 +447,21 @@ TEST(FileCheck, LooksAtMachineAndExperimentTogether) {
 }
 
 /// 314 rad/s would be 314 times the power.
+/// With `run -m` that is as it should be; whoever meant the other machine is told.
+TEST(FileCheck, WarnsOfAnExperimentOfAnotherMachine) {
+  TemporaryDirectory const folder;
+  fs::copy_file(machine_file("v450"), folder / "mine.toml");
+  fs::copy_file(machine_file("vmc850"), folder / "other.toml");
+  auto const warnings = [&](std::string const& named, std::string const& machine) {
+    put(folder / "day.toml", "machine = \"" + named + "\"\nduration = \"1 h\"\n");
+    return check_files({folder / machine, folder / "day.toml"})[1].warnings;
+  };
+  EXPECT_THAT(warnings("v450", "other.toml"),
+              Contains(HasSubstr("day.toml: it is an experiment of 'v450', the machine file is 'vmc850'")));
+  for (auto const* named : {"v450", "v450_fine", "mine.toml"})
+    EXPECT_THAT(warnings(named, "mine.toml"), testing::Not(Contains(HasSubstr("it is an experiment of")))) << named;
+}
+
 TEST(FileCheck, RefusesAFlagThatIsNoShare) {
   TemporaryDirectory const folder;
   put(folder / "experiment.toml", experiment);
