@@ -82,17 +82,11 @@ void take_changes(output::Dataset const& data, std::string const& error, std::ve
   if (find_channel(data.displacements, error)) batch.error = change(displacement_named(data, error, batch.name));
 }
 
-/// Sensors of which every reading is the same [°C].
-std::map<std::string, double> still_sensors(MeasuredData const& data) {
+/// Sensors that never moved, and what they showed [°C].
+std::map<std::string, double> still_sensors(MeasuredRun const& run) {
   std::map<std::string, double> still;
-  for (auto const& channel : data.readings) {
-    VectorXd const& values = channel.values;
-    Index const read = values.array().isFinite().count();
-    Index first = 0;
-    while (first < values.size() && !std::isfinite(values[first])) ++first;
-    if (read > 1 && (values.array() == values[first]).count() == read)
-      still[channel.name] = thermal::to_unit(thermal::from_unit(values[first], channel.unit), "degC");
-  }
+  for (auto const& channel : run.channels)
+    if (channel.still && !channel.displacement) still[channel.name] = thermal::to_unit(*channel.still, "degC");
   return still;
 }
 
@@ -102,8 +96,7 @@ void RecordedRun::believe_still(std::vector<std::string> const& sensors) {
   for (auto& channel : shown.readings) {
     auto const value = still.find(channel.name);
     if (value == still.end() || std::find(sensors.begin(), sensors.end(), channel.name) == sensors.end()) continue;
-    // A value that no sensor of a machine shows is no reading: of that, the remark is another one.
-    if (std::erase(remarks, fmt::format("'{}' is dead: it never moves", channel.name)) == 0) continue;
+    std::erase(remarks, remark_of_still(channel.name));
     channel.values.setConstant(value->second);
     remarks.push_back(fmt::format("'{}' shows {:g} degC throughout: its change is taken as 0, unless it is dead",
                                   channel.name, value->second));
@@ -122,7 +115,7 @@ RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<d
     if (sampling && *sampling < own * (1.0 - 1e-6))
       throw InputError(fmt::format("a sampling of {:g} s is finer than the {:g} s between its rows", *sampling, own));
     result.machine = data.machine;
-    result.still = still_sensors(data);
+    result.still = still_sensors(run);
     result.shown = dataset_of(run, sampling);
     take_titles(data, result.shown);
     result.shown.positioning = file.positioning;

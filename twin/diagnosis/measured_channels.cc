@@ -127,8 +127,10 @@ void bury_dead(std::vector<MeasuredChannel>& channels, Eigen::VectorXd const& ti
   if (!any) throw InputError("none of the machine's channels moves in the data: every sensor is dead");
   for (auto& channel : channels) {
     if (!moves(channel.values)) {
-      bool const empty = !(channel.values.array() == channel.values.array()).any();
-      remarks.push_back(fmt::format("'{}' is dead: {}", channel.name, empty ? "no reading" : "it never moves"));
+      auto const read = rows_read(channel.values);
+      if (read.size() > 1) channel.still = channel.values[read.front()];
+      remarks.push_back(read.empty() ? fmt::format("'{}' is dead: no reading", channel.name)
+                                     : remark_of_still(channel.name));
       channel.values.setConstant(missing);
     } else if (auto const from = stops_moving(channel.values); from < time.size()) {
       remarks.push_back(
@@ -222,6 +224,8 @@ std::vector<MeasuredChannel> living_channels(MeasuredData const& data, std::vect
 }
 
 }  // namespace
+
+std::string remark_of_still(std::string const& channel) { return fmt::format("'{}' is dead: it never moves", channel); }
 
 std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const& machine,
                                          std::vector<std::string>& remarks) {

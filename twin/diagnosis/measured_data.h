@@ -85,6 +85,9 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine);
 /// The same without a machine: every channel that the data have.
 [[nodiscard]] std::vector<MeasuredChannel> channels_of(MeasuredData const& data, std::vector<std::string>& remarks);
 
+/// What they tell of a channel that is dead since all its readings are one value.
+[[nodiscard]] std::string remark_of_still(std::string const& channel);
+
 /// Both together. InputError when the run has less than ten rows.
 [[nodiscard]] MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string const& name);
 

@@ -21,7 +21,8 @@ namespace thermotwin::twin {
 struct MeasuredChannel {
   std::string name;  ///< of a sensor, or of a displacement channel of the machine
   bool displacement = false;
-  Eigen::VectorXd values;  ///< NaN: missing
+  Eigen::VectorXd values;         ///< NaN: missing
+  std::optional<double> still{};  ///< what it showed where all its readings were one value, and `values` are missing
 };
 
 /// What the machine may have been given instead where its inputs were not recorded, or late.
