@@ -65,7 +65,7 @@ struct EffectText {
   std::string meaning;  ///< one line
   std::string equation;
   std::string changes;    ///< source, link, film, boundary, sensor, deformation or input
-  std::string places;     ///< where it can act
+  std::string sites;      ///< where it can act: places, sensors, displacement channels
   std::string signature;  ///< how it shows in data: power of speed, time scale, sign, what happens at stop
   std::string source;
   std::vector<int> numbers = {};             ///< of physics.md §7

@@ -141,7 +141,7 @@ std::vector<std::pair<std::string, std::string>> texts(Effect const& effect) {
   std::vector<std::pair<std::string, std::string>> all = {
       {"Equation", effect.equation},
       {"Changes", effect.changes},
-      {"Places", effect.places},
+      {"Sites", effect.sites},
       {"Signature", effect.signature},
       {"Looks like", fmt::format("{}", fmt::join(effect.confusable, ", "))},
       {"Told apart", effect.separated_by},

@@ -42,7 +42,7 @@ std::string name_of(testing::TestParamInfo<std::string> const& info) { return in
 
 TEST_P(EveryEffect, TellsWhatItIs) {
   EXPECT_EQ(entry().name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string::npos);
-  for (auto const& text : {entry().meaning, entry().equation, entry().places, entry().signature, entry().source}) {
+  for (auto const& text : {entry().meaning, entry().equation, entry().sites, entry().signature, entry().source}) {
     EXPECT_GT(text.size(), 7U) << text;
     EXPECT_NE(text.back(), '.') << text;
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
