@@ -144,8 +144,9 @@ double CalibratedNumber::estimate() const { return number.value(logarithm); }
 double CalibratedNumber::standard_error() const { return std::abs(number.slope(logarithm)) * deviation; }
 double CalibratedNumber::departure() const { return std::abs(logarithm) / number.deviation; }
 bool CalibratedNumber::implausible() const {
-  return identified && (std::abs(written) > far_from_file * number.deviation ||
-                        std::abs(written - logarithm) > far_from_file * deviation);
+  bool const turned =
+      number.value(written) * estimate() < 0.0 && std::abs(estimate()) > far_from_file * standard_error();
+  return identified && (turned || std::abs(written) > far_from_file * number.deviation);
 }
 
 std::vector<std::string> Calibration::shortcomings() const {

@@ -31,10 +31,9 @@ struct CalibratedNumber {
   [[nodiscard]] double estimate() const;
   [[nodiscard]] double standard_error() const;  ///< in the number's unit [SI]
   [[nodiscard]] double departure() const;       ///< of the estimate from the file, in prior standard deviations
-  /// Identified, and yet what is written is hardly the number that its name says: further from the file than
-  /// `far_from_file` prior deviations, or further than as many standard errors from the estimate. The estimate's
-  /// deviation counts whatever the other numbers may be, so that what is most probable with those at nominal lies
-  /// within it, unless they are not: then the number stands in for them, or for what is missing.
+  /// Identified, and yet what is written is not the number that its name says: further than `far_from_file` prior
+  /// deviations from the file, or of the other sign than an estimate that is as many standard errors from 0. The number
+  /// stands in for others, which are at nominal there, or for what is missing.
   [[nodiscard]] bool implausible() const;
 };
 

@@ -86,10 +86,10 @@ std::string implausible_text(Calibration const& calibration) {
     if (number.implausible()) paths.push_back(number.number.path);
   if (paths.empty()) return "";
   return fmt::format(
-      "implausible: in the file {} would be more than {:g} prior deviations from yours, or {:g} standard errors from "
-      "the "
-      "estimate:\nstands in for numbers that the data do not identify, or for what is missing; do not build on it\n",
-      fmt::join(paths, ", "), far_from_file, far_from_file);
+      "implausible, in the file beyond {:g} prior deviations of yours or of another sign than the estimate, standing "
+      "in "
+      "for other numbers or for what is missing: {}\n",
+      far_from_file, fmt::join(paths, ", "));
 }
 
 std::string instrument_table(Calibration const& calibration) {

@@ -163,9 +163,16 @@ TEST_F(CalibrationTest, TellsWhatIsIdentifiedAndYetImplausible) {
   it->written = 3.1 * it->number.deviation;
   EXPECT_TRUE(it->implausible());
   *it = settled;
-  it->written = it->logarithm - 3.1 * it->deviation;
+  it->number.of_either_sign = true;  // a weight
+  it->number.nominal = 0.0;
+  it->number.deviation = 1.0;
+  it->deviation = 0.1;
+  it->written = -0.2;
+  it->logarithm = 0.2;
+  EXPECT_FALSE(it->implausible());
+  it->logarithm = 0.4;
   EXPECT_TRUE(it->implausible());
-  EXPECT_THAT(calibration_table(odd), HasSubstr("\nimplausible: in the file " + it->number.path + " would be "));
+  EXPECT_THAT(calibration_table(odd), HasSubstr("what is missing: " + it->number.path + "\n"));
   EXPECT_THAT(calibration_json(odd), HasSubstr("\"implausible\": true"));
   it->identified = false;
   it->written = 0.0;
