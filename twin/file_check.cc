@@ -263,9 +263,10 @@ void FileChecker::read_machine(std::filesystem::path const& file, Value const& d
   static_cast<void>(ranged_numbers(document));
   find_implausible(document, machine_fields(), check.warnings);
   find_misspelt_inputs(document, machine, check.warnings);
-  check.text = fmt::format("the machine {}: {} nodes, {} parts, {} sensors, {} displacement channels", machine.name,
-                           machine.network().nodes(), machine.network().parts().size(), machine.sensors.size(),
-                           machine.displacements.size());
+  check.text = fmt::format("the machine {}: {}, {}, {}, {}", machine.name,
+                           counted(std::size_t(machine.network().nodes()), "node"),
+                           counted(machine.network().parts().size(), "part"), counted(machine.sensors.size(), "sensor"),
+                           counted(machine.displacements.size(), "displacement channel"));
   machines_.push_back({file, document, machine});
 }
 
