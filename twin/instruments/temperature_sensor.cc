@@ -76,7 +76,8 @@ class Converter {
   double reading(double t, int count, double cold_junction) {
     double sum = 0.0;
     for (int i = count - 1; i >= 0; --i) sum += convert(t - i * specimen_.conversion_interval, cold_junction);
-    return thermal::without_rounding(sum / count, zero_celsius);
+    double const mean = sum / count;
+    return specimen_.resolution > 0.0 ? thermal::without_rounding(mean, zero_celsius) : mean;
   }
 
  private:
