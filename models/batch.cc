@@ -44,6 +44,12 @@ void check(Batch const& batch) {
   }
 }
 
+bool same_readings(Batch const& a, Batch const& b) {
+  return a.time.size() == b.time.size() && a.time == b.time && a.temperature_rise == b.temperature_rise;
+}
+
+bool same_data(Batch const& a, Batch const& b) { return same_readings(a, b) && a.error == b.error; }
+
 Batch stacked(std::span<Batch const> batches) {
   if (batches.empty()) throw std::invalid_argument("no batch at all");
   Batch all = batches.front();

@@ -24,6 +24,12 @@ struct Batch {
 /// time ascends and every number is finite.
 void check(Batch const& batch);
 
+/// Whether two batches of the same sensors hold the same readings at the same times, whatever the errors.
+bool same_readings(Batch const& a, Batch const& b);
+
+/// Whether they hold the same errors, too, whatever they are called.
+bool same_data(Batch const& a, Batch const& b);
+
 /// The batches one below the other; all must have the same sensors in the same order (std::invalid_argument otherwise).
 Batch stacked(std::span<Batch const> batches);
 

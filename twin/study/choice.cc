@@ -46,6 +46,28 @@ models::Selection selected(NamedSelection const& method, Question const& questio
 
 }  // namespace
 
+models::SelectionOptions selection_options(StudyScreening const& screening) {
+  using models::BiasCorrection, models::BinCount, models::BinEdges, models::Normalisation;
+  static std::map<std::string, BinCount> const counts = {{"cellucci", BinCount::cellucci},
+                                                         {"sturges", BinCount::sturges},
+                                                         {"square_root", BinCount::square_root},
+                                                         {"freedman_diaconis", BinCount::freedman_diaconis}};
+  static std::map<std::string, BiasCorrection> const biases = {{"shuffle_null", BiasCorrection::shuffle_null},
+                                                               {"miller_madow", BiasCorrection::miller_madow},
+                                                               {"none", BiasCorrection::none}};
+  static std::map<std::string, Normalisation> const normalisations = {{"across_sensors", Normalisation::across_sensors},
+                                                                      {"over_time", Normalisation::over_time},
+                                                                      {"z_score", Normalisation::z_score}};
+  models::SelectionOptions options;
+  options.normalisation = normalisations.at(screening.normalisation);
+  options.resolution = screening.resolution;
+  options.information.count = counts.at(screening.bins);
+  options.information.bias = biases.at(screening.bias);
+  options.information.edges = screening.edges == "equal_width" ? BinEdges::equal_width : BinEdges::equal_frequency;
+  options.information.permutations = screening.permutations;
+  return options;
+}
+
 bool sees_error(NamedSelection const& method) {
   return method.name != "all" && method.sensors.empty() && models::selection_method(method.name).sees_error;
 }

@@ -31,6 +31,9 @@ struct Choice {
 /// Whether a method chooses by the errors as well as by the readings.
 [[nodiscard]] bool sees_error(NamedSelection const& method);
 
+/// How `[screening]` has methods look at readings.
+[[nodiscard]] models::SelectionOptions selection_options(StudyScreening const& screening);
+
 /// `options` but for the number of sensors and the mode shapes, which only modes_method asks for; what they share, all
 /// methods share that choose for this question with them.
 [[nodiscard]] Choice choose(NamedSelection const& method, Question const& question, WorldData const& data,

@@ -27,11 +27,6 @@ bool moves(std::vector<Batch> const& batches, Index column) {
   });
 }
 
-/// Of the same sensors.
-bool same_readings(Batch const& x, Batch const& y) {
-  return x.time.size() == y.time.size() && x.time == y.time && x.temperature_rise == y.temperature_rise;
-}
-
 /// Whether what is learnt there is of the one run and not of the other.
 bool parts_runs(Question const& question, std::size_t one, std::size_t other) {
   auto const has = [&](std::size_t run) {
@@ -164,7 +159,7 @@ void QuestionWriter::remark_repeated() {
   for (std::size_t l = 1; l < train_.size(); ++l)
     for (std::size_t k = 0; k < l; ++k) {
       auto const &later = train_[l].seen, &first = train_[k].seen;
-      if (!same_readings(later, first) || later.error != first.error) continue;
+      if (!same_data(later, first)) continue;
       bool const parted = std::any_of(questions_.validations.begin(), questions_.validations.end(),
                                       [&](auto const& question) { return parts_runs(question, k, l); });
       questions_.remarks.push_back(

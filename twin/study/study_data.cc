@@ -151,13 +151,9 @@ std::string WorldReader::missing_readings(MeasuredRun const& run) const {
 
 /// What is learnt is no prediction where the same is asked, whatever its file is called.
 void WorldReader::remark_repeated() {
-  auto const same = [](models::Batch const& a, models::Batch const& b) {
-    return a.time.size() == b.time.size() && a.time == b.time && a.temperature_rise == b.temperature_rise &&
-           a.error == b.error;
-  };
   for (std::size_t i = 0; i < data_.test.front().size(); ++i)
     for (std::size_t k = 0; k < data_.train.front().size(); ++k)
-      if (same(data_.test.front()[i].seen, data_.train.front()[k].seen))
+      if (same_data(data_.test.front()[i].seen, data_.train.front()[k].seen))
         data_.remarks.push_back(fmt::format("{} has the same data as {}, which is trained on: it tests nothing",
                                             world_.test[i], world_.train[k]));
 }
