@@ -186,8 +186,11 @@ std::string checked_study(std::filesystem::path const& file) {
   auto const study = read_study(file);
   check_worlds(study);
   auto const& description = study.description;
-  return fmt::format("a study of {}, {} and {}", counted(description.worlds.size(), "world"),
-                     counted(description.selections.size(), "selection"), counted(description.models.size(), "model"));
+  auto const text =
+      fmt::format("a study of {}, {} and {}", counted(description.worlds.size(), "world"),
+                  counted(description.selections.size(), "selection"), counted(description.models.size(), "model"));
+  if (description.also.empty()) return text;
+  return text + fmt::format(", and {} beside them", counted(description.also.size(), "combination"));
 }
 
 class FileChecker {

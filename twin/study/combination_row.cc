@@ -79,7 +79,7 @@ std::string CombinationJudge::judge(Repetition const& repetition, Combination& r
 }
 
 Combination CombinationJudge::row() const {
-  Combination row{world_.description.name, combinations_.selection_name(one_), one_.model_name, {}, {}, {}, {}, {}};
+  Combination row{world_.description.name, one_.named.selection, one_.named.model, {}, {}, {}, {}, {}};
   std::size_t refusals = 0;
   for (auto const& repetition : world_.repetitions)
     if (auto const why = judge(repetition, row); !why.empty() && refusals++ == 0) row.refused = why;

@@ -1,7 +1,10 @@
 #include "twin/study/combinations.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <set>
+
+#include "thermal/error.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -16,13 +19,32 @@ std::size_t number_of(Item const& item, std::vector<Item>& known) {
 
 }  // namespace
 
-Combinations::Combinations(StudyDescription const& study) {
+NamedCombination named_combination(std::string const& text) {
+  std::string const between = " + ";
+  auto const place = text.rfind(between);
+  if (place == std::string::npos)
+    throw thermal::InputError(
+        fmt::format("'{}' is no combination; write \"selection + model\", for example \"all + twin observer\"", text));
+  NamedCombination named{text.substr(0, place), text.substr(place + between.size())};
+  static_cast<void>(named_selection(named.selection));
+  static_cast<void>(named_models(named.model));
+  return named;
+}
+
+std::vector<NamedCombination> named_combinations(StudyDescription const& study) {
+  std::vector<NamedCombination> combinations;
   for (auto const& selection : study.selections)
-    for (auto const& model : study.models) {
-      One one{number_of(selection, selection_names), {}, model};
-      for (auto const& single : named_models(model)) one.models.push_back(number_of(single, models));
-      all.push_back(std::move(one));
-    }
+    for (auto const& model : study.models) combinations.push_back({selection, model});
+  for (auto const& text : study.also) combinations.push_back(named_combination(text));
+  return combinations;
+}
+
+Combinations::Combinations(StudyDescription const& study) {
+  for (auto const& named : named_combinations(study)) {
+    One one{named, number_of(named.selection, selection_names), {}};
+    for (auto const& single : named_models(named.model)) one.models.push_back(number_of(single, models));
+    all.push_back(std::move(one));
+  }
   for (auto const& name : selection_names) selections.push_back(named_selection(name));
 }
 

@@ -8,13 +8,27 @@
 
 namespace thermotwin::twin {
 
+/// A selection and a model, or models whose mean is taken, as a study writes them.
+struct NamedCombination {
+  std::string selection, model;
+
+  [[nodiscard]] std::string name() const { return combination_name(selection, model); }
+};
+
+/// "selection + model". InputError for anything else, and std::invalid_argument for an unknown method, as
+/// named_selection() and named_models() have them.
+[[nodiscard]] NamedCombination named_combination(std::string const& text);
+
+/// Each of the study's `selections` with each of its `models`, selection by selection; then those of `also`.
+[[nodiscard]] std::vector<NamedCombination> named_combinations(StudyDescription const& study);
+
 /// What a study combines: each selection once, and each single model once, whatever it is a part of.
 struct Combinations {
   /// A selection, and the models whose mean is taken on it.
   struct One {
+    NamedCombination named;
     std::size_t selection;
     std::vector<std::size_t> models;
-    std::string model_name;
   };
 
   explicit Combinations(StudyDescription const& study);
@@ -24,7 +38,6 @@ struct Combinations {
   std::vector<NamedModel> models;
   std::vector<One> all;
 
-  [[nodiscard]] std::string const& selection_name(One const& one) const { return selection_names[one.selection]; }
   /// Those that some combination takes on what the selection chooses, ascending.
   [[nodiscard]] std::vector<std::size_t> models_on(std::size_t selection) const;
 };

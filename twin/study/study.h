@@ -55,7 +55,7 @@ struct StudyReport {
   StudyDescription description;
   std::vector<std::string> units;  ///< of the errors, per world
   std::vector<int> repetitions;    ///< per world
-  std::vector<Combination> rows;   ///< world by world, selection by selection
+  std::vector<Combination> rows;   ///< world by world, in the order of named_combinations()
   std::vector<Combination> means;  ///< over the worlds, where there are several: self.rmse, cross.rmse, validation.rmse
   std::vector<SelectionFigures> selections;
   std::vector<ClaimVerdict> claims;

@@ -123,11 +123,11 @@ struct StudyScreening {
   }
 };
 
-/// A study file: worlds × selections × models.
+/// A study file: worlds × (selections × models, and single combinations beside them).
 struct StudyDescription {
   std::string title, metric = "rmse", reference;
   std::vector<StudyWorld> worlds;
-  std::vector<std::string> selections, models;
+  std::vector<std::string> selections, models, also;
   int seeds = 5, folds = 0;
   StudyScreening screening;
   std::vector<StudyClaim> claims;
@@ -144,6 +144,8 @@ struct StudyDescription {
       "from what its readings err by; \"twin observer\": corrected by its sensors; \"twin & ridge\": the mean of what "
       "both "
       "predict");
+    f("also", &StudyDescription::also,
+      "single combinations beside every selection with every model: \"all + twin observer\"");
     f("seeds", &StudyDescription::seeds, "how many times instruments and starts are drawn anew", Range{5, 1000});
     f("folds", &StudyDescription::folds, "of the blocked cross-validation within 'train'; 0: none", Range{0, 20});
     f("screening", &StudyDescription::screening, "how methods of selection look at readings");

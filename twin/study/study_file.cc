@@ -14,6 +14,7 @@
 #include "twin/file/tables.h"
 #include "twin/file/value.h"
 #include "twin/file_kind.h"
+#include "twin/study/combinations.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -164,11 +165,28 @@ Value::List const& tables(Value const& document, std::string const& key) {
   return value ? std::get<Value::List>(value->content) : none;
 }
 
-void check_study(Value const& document, StudyDescription const& study) {
+/// The names of all combinations.
+std::vector<std::string> checked_combinations(Value const& document, StudyDescription const& study) {
   check_items(document, "selections", study.selections, [](auto const& text) { (void)named_selection(text); });
   check_items(document, "models", study.models, [](auto const& name) { (void)named_models(name); });
+  auto const is_in = [](std::string const& name, std::vector<std::string> const& list) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  auto const check = [&](std::string const& text) {
+    auto const named = named_combination(text);
+    if (is_in(named.selection, study.selections) && is_in(named.model, study.models))
+      throw thermal::InputError(fmt::format("'{}' is there already, of 'selections' and 'models'", text));
+  };
+  if (!study.also.empty()) check_items(document, "also", study.also, check);
+  std::vector<std::string> names;
+  for (auto const& named : named_combinations(study)) names.push_back(named.name());
+  return names;
+}
+
+void check_study(Value const& document, StudyDescription const& study) {
+  auto const combinations = checked_combinations(document, study);
   if (study.worlds.empty()) throw FileError(document.where, "the study has no [[world]]");
-  std::vector<std::string> names, combinations;
+  std::vector<std::string> names;
   for (std::size_t w = 0; w < study.worlds.size(); ++w) {
     auto const& world = study.worlds[w];
     auto const& table = tables(document, "world")[w];
@@ -177,8 +195,6 @@ void check_study(Value const& document, StudyDescription const& study) {
     names.push_back(world.name);
     check_world(table, world);
   }
-  for (auto const& selection : study.selections)
-    for (auto const& model : study.models) combinations.push_back(combination_name(selection, model));
   check_combination(document, "reference", study.reference, combinations);
   for (std::size_t c = 0; c < study.claims.size(); ++c)
     check_claim(tables(document, "claim")[c], study.claims[c], combinations, study);

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "scenarios/course.h"
 #include "thermal/course_inputs.h"
@@ -17,6 +18,7 @@
 #include "twin/history.h"
 #include "twin/parallel.h"
 #include "twin/run.h"
+#include "twin/study/combinations.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -185,8 +187,11 @@ void check_selections(Study const& study, std::vector<Order> const& orders) {
       if (std::find(known.begin(), known.end(), sensor.description.name) == known.end())
         known.push_back(sensor.description.name);
   }
-  for (auto const& text : study.description.selections) {
-    auto const selection = named_selection(text);
+  std::vector<std::pair<std::string, NamedSelection>> written;
+  for (auto const& text : study.description.selections) written.emplace_back(text, named_selection(text));
+  for (auto const& text : study.description.also)
+    written.emplace_back(text, named_selection(named_combination(text).selection));
+  for (auto const& [text, selection] : written) {
     for (auto const& name : selection.sensors)
       if (std::find(known.begin(), known.end(), name) == known.end())
         throw about(study.document, fmt::format("'{}': no machine of the study has a sensor '{}'; {}", text, name,

@@ -76,6 +76,26 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
   EXPECT_THAT(with(all, "error = \"E_Z\"", "error = \"slope z\""), HasSubstr("no laser measurement of axis 'z'"));
 }
 
+/// What stands in `also` is "selection + model", of names that are known, and none of the cross product.
+TEST(Study, MistakesOfSingleCombinationsAreNamedWhereTheyStand) {
+  auto const complaint = [](std::string const& second) {
+    return SmallStudy("also = [\"all + distributed_lag\", \"" + second + "\"]\n" + head + world).complaint();
+  };
+  EXPECT_THAT(complaint("al + twin observer"),
+              HasSubstr("small.toml:1:34: no selection method 'al'; did you mean 'all'?"));
+  EXPECT_THAT(complaint("all + twin observr"),
+              HasSubstr("small.toml:1:34: no model 'observr'; did you mean 'observer'?"));
+  EXPECT_THAT(complaint("all & twin observer"),
+              HasSubstr("small.toml:1:34: 'all & twin observer' is no combination; write \"selection + model\""));
+  EXPECT_THAT(complaint("forward 2 + ridge"),
+              HasSubstr("small.toml:1:34: 'forward 2 + ridge' is there already, of 'selections' and 'models'"));
+  EXPECT_THAT(complaint("all + distributed_lag"), HasSubstr("small.toml:1:34: 'all + distributed_lag' is given twice"));
+  EXPECT_THAT(complaint("sensors T1, T18 + linear"),
+              HasSubstr("small.toml:1:34: 'sensors T1, T18 + linear': no machine of the study has a sensor 'T18'"));
+  EXPECT_THAT(SmallStudy("also = [\"all + twin\"]\nreference = \"all + twn\"\n" + head + world).complaint(),
+              HasSubstr("small.toml:2:13: the study has no combination 'all + twn'; did you mean 'all + twin'?"));
+}
+
 TEST(Study, LeavesOutNothingWhereEveryRunPredictsEveryOther) {
   auto text = "folds = 3\n" + head + world;
   text.replace(text.find("train = [\"fast.toml\"]"), 21,

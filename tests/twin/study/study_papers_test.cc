@@ -51,6 +51,7 @@ TEST(ShippedStudies, OfAllMethodsNameEveryOne) {
     for (auto const& method : models::model_methods()) EXPECT_TRUE(models.contains(method.name)) << method.name;
     for (auto const* twin : {"twin", "twin ridge"}) EXPECT_TRUE(models.contains(twin)) << name;
   }
+  EXPECT_THAT(read_study(study_file("all_methods")).description.also, testing::Contains("all + twin observer"));
 }
 
 /// E2: the three rules on the same data, within and beyond the runs that they were fitted to, in thirty draws of the

@@ -256,6 +256,30 @@ models = ["linear", "ridge", "linear & ridge"]
   }
 }
 
+/// Beside every selection with every model stand those that are named alone, and no more: what they name first is
+/// combined with nothing else. They have the figures that they have in a study that crosses all.
+TEST(Study, AddsSingleCombinations) {
+  auto const report =
+      SmallStudy("also = [\"all + linear & distributed_lag\", \"sensors T1, T9 + distributed_lag\"]\n" + head + world)
+          .report();
+  std::vector<std::string> names, selections;
+  for (auto const& one : report.rows) names.push_back(one.name());
+  for (auto const& one : report.selections) selections.push_back(one.selection);
+  EXPECT_THAT(names, testing::ElementsAre("all + linear", "all + ridge", "forward 2 + linear", "forward 2 + ridge",
+                                          "all + linear & distributed_lag", "sensors T1, T9 + distributed_lag"));
+  EXPECT_THAT(selections, testing::ElementsAre("all", "forward 2", "sensors T1, T9"));
+  EXPECT_EQ(report.work.fits, 5U * (2 * 2 + 2));  // the mean has one of its halves from the product
+  auto crossed = head + world;
+  crossed.replace(crossed.find("\"forward 2\""), 11, "\"forward 2\", \"sensors T1, T9\"");
+  crossed.replace(crossed.find("\"ridge\""), 7, "\"ridge\", \"distributed_lag\", \"linear & distributed_lag\"");
+  auto const all = SmallStudy(crossed).report();
+  EXPECT_EQ(all.rows.size(), 3U * 4);
+  for (auto const& one : report.rows) {
+    EXPECT_EQ(one.sensors, row(all, one.name()).sensors) << one.name();
+    EXPECT_EQ(one.figures, row(all, one.name()).figures) << one.name();
+  }
+}
+
 TEST(Study, RefusedCombinationsStandInTheTable) {
   auto text = head + world;
   text.replace(text.find("\"linear\", \"ridge\""), 17, "\"linear\", \"distributed_lag\"");

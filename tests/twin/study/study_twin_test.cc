@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "output/dataset_file.h"
+#include "scenarios/course.h"
 #include "tests/twin/late_record.h"
 #include "tests/twin/study/small_study.h"
+#include "twin/compensation/observed_run.h"
 #include "twin/experiment_file.h"
 #include "twin/run.h"
 #include "twin/setting.h"
@@ -58,6 +60,85 @@ TEST(Study, ObserverSeesInTheSensorsWhatTheTwinLacks) {
   auto const mean = [&](std::string const& name) { return interval(row(report, name).figures.at("cross.rmse")).mean; };
   EXPECT_LT(mean("all + twin observer"), 0.7 * mean("all + twin"));
   EXPECT_THAT(row(report, "all + twin observer").remark, testing::HasSubstr("extended Kalman filter"));
+}
+
+/// Of a machine that an observer cannot tell of, the combination stands in the table with the reason, and so it does in
+/// the mean of the worlds; cross-validation does not choose it there, and what is claimed of it there is not judged.
+/// On the other machine it is as good as any.
+TEST(Study, ObserverIsRefusedWhereItCannotTellTheError) {
+  std::string const screw = R"(
+[[world]]
+name = "screw"
+machine = "vmc850"
+error = "E_P_720mm"
+sampling = "3 min"
+train = ["feed_8000"]
+test = ["feed_12000"]
+)";
+  std::string const claims = R"(
+[[claim]]
+says = "in the mean"
+world = "mean of worlds"
+combination = "all + twin observer"
+at_most = 1e6
+[[claim]]
+says = "chosen in the mean"
+world = "mean of worlds"
+combination = "chosen by cross-validation"
+at_most = 1e6
+[[claim]]
+says = "where it can"
+world = "v450"
+combination = "all + twin observer"
+at_most = 1e6
+)";
+  SmallStudy const small("folds = 2\nalso = [\"all + twin observer\"]\n" + head + world + screw + claims);
+  auto study = read_study(small.file());
+  study.description.seeds = 1;
+  auto const report = run_study(study);
+  auto const& on_screw = report.rows.back();
+  EXPECT_EQ(on_screw.world + ": " + on_screw.name(), "screw: all + twin observer");
+  EXPECT_THAT(on_screw.refused, testing::HasSubstr("the observer: 'E_P_720mm' of the machine is an error along a "
+                                                   "screw; the twin observes displacements of a structural loop"));
+  EXPECT_TRUE(on_screw.figures.empty());
+  EXPECT_EQ(report.means.back().refused, "screw: " + on_screw.refused);
+  EXPECT_TRUE(report.means.back().figures.empty());
+  EXPECT_FALSE(row(report, "all + twin observer").figures.empty());
+  EXPECT_EQ(report.claims.at(0).answer, ClaimVerdict::Answer::refused);
+  EXPECT_EQ(report.claims.at(1).answer, ClaimVerdict::Answer::holds);
+  EXPECT_THAT(report.claims.at(1).words, testing::Not(testing::HasSubstr("observer")));
+  EXPECT_EQ(report.claims.at(2).answer, ClaimVerdict::Answer::holds);
+}
+
+/// What nodes err by is chosen by what is trained on: by the errors of that fold's training run, which an observer of
+/// one of the choices has told, and not by those of the run left out, which another one has.
+TEST(Study, ObserverIsChosenWithoutWhatCrossValidationLeavesOut) {
+  SmallStudy small(head + world);
+  auto study = read_study(small.file());
+  study.description.seeds = 1;
+  auto& only = study.description.worlds.front();
+  only.sensors = {"T1", "T6", "T8", "T9"};
+  only.train = {"fast.toml", "slow.toml"};
+  only.test = {"spindle_constant_50"};
+  auto data = study_data(study, {}, nullptr).front();
+  auto const& machine = data.runs->machine;
+  auto const choices = observer_choices(180.0);
+  auto const told = [&](std::size_t run, ObserverOptions const& options) {
+    scenarios::ExperimentCourse const course(*data.runs->experiments[run], machine.limits);
+    Eigen::VectorXd const all =
+        observed_error(TwinObserver(machine, "E_Z", options, only.sensors), data.runs->runs.front()[run], course, 0.0);
+    return Eigen::VectorXd(all(data.train.front()[run].kept));
+  };
+  for (std::size_t k = 0; k < choices.size(); ++k) {
+    data.train.front()[0].seen.error = told(0, choices[k]);
+    data.train.front()[1].seen.error = told(1, choices[(k + 1) % choices.size()]);
+    auto const folds = questions(only, data, 0, 2).validations;
+    ASSERT_EQ(folds.size(), 2U);
+    for (auto const& fold : folds) {
+      auto const own = (k + fold.parts.front().run) % choices.size();
+      EXPECT_EQ(observed(only, data, 0, fold, machine, {0, 1, 2, 3}).model.remark, text_of(choices[own])) << fold.name;
+    }
+  }
 }
 
 /// The small study's world on measured files, with this model beside the linear one.
