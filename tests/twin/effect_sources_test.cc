@@ -62,6 +62,25 @@ TEST(Bearing, LosesHeatAsItsOilWarmsUnlessTheFeedbackIsOff) {
   EXPECT_NEAR(heat_with(bearing, 313.15, 313.15, {}, without), warm, 1e-6 * warm);
 }
 
+/// Without a load the torque is viscous, M ∝ (νω)^p: its heat has the power p + 1 of the speed and p of the viscosity,
+/// and at 40 degC and full speed it is what it was.
+TEST(Bearing, DragsWithTheViscousExponentThatItStates) {
+  auto const& bearing = snippet("bearing", "other oil");
+  constexpr double cold = 293.15, warm = 313.15;
+  auto const heat = [&](double speed, double temperature, Changes changes) {
+    changes.push_back({"torque_load", "0 N"});
+    return heat_with(bearing, temperature, temperature, {{"spindle.speed", speed}}, changes);
+  };
+  Changes const flat = {{"viscous_exponent", "0.4"}};
+  EXPECT_NEAR(std::log2(heat(500.0, cold, flat) / heat(250.0, cold, flat)), 1.4, 1e-9);
+  EXPECT_NEAR(heat(full_speed, warm, flat), heat(full_speed, warm, {}), 1e-9 * heat(full_speed, warm, {}));
+  EXPECT_NEAR(heat(-300.0, warm, flat), heat(300.0, warm, flat), 1e-9);
+  auto const fall = [&](Changes const& changes) {
+    return std::log(heat(500.0, cold, changes) / heat(500.0, warm, changes));
+  };
+  EXPECT_NEAR(fall(flat), 0.4 / (2.0 / 3.0) * fall({}), 1e-9);
+}
+
 TEST(RotorWindage, GrowsWithTheThirdPowerOfSpeed) {
   EXPECT_NEAR(power_of_speed(snippet("rotor_windage", "known"), 100.0, 600.0), 3.0, 1e-12);
   EXPECT_NEAR(heat_at_speed(snippet("rotor_windage", "known"), 4500.0 / 6000.0 * full_speed), 15.0, 1e-9);

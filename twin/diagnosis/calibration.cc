@@ -9,6 +9,7 @@
 
 #include "thermal/error.h"
 #include "twin/diagnosis/amended_file.h"
+#include "twin/diagnosis/effect_search.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/run_files.h"
@@ -127,7 +128,9 @@ void add_written(Calibration& calibration, Estimation const& estimation) {
 }
 
 std::vector<ChangedValue> changes_of(Calibration const& calibration) {
-  std::vector<ChangedValue> changes = calibration.lags;
+  std::vector<ChangedValue> changes;
+  if (calibration.friction) changes = calibration.friction->changes();
+  changes.insert(changes.end(), calibration.lags.begin(), calibration.lags.end());
   for (auto const& number : calibration.numbers) {
     if (!number.identified) continue;
     auto change = changed_value(number.number, number.written, number.deviation);
@@ -163,7 +166,9 @@ std::vector<std::string> Calibration::shortcomings() const {
 }
 
 Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs, FitWatch watch) {
-  Estimation const estimation = expected_estimation(machine, runs).with_form_of_file().watched(std::move(watch));
+  auto friction = friction_while_moving(machine, runs, DiagnosisOptions().threshold, watch);
+  Value const& document = friction ? friction->document : machine;
+  Estimation const estimation = expected_estimation(document, runs).with_form_of_file().watched(std::move(watch));
   if (estimation.numbers().empty())
     throw thermal::InputError(
         "the machine has no number that calibration could change: no conductance, film, friction, loss, mass or step "
@@ -181,6 +186,7 @@ Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs, 
   calibration.machine = before.name;
   calibration.gaps = gaps(before, after, runs);
   calibration.expected_gap = gap_of_noise(before, runs);
+  calibration.friction = std::move(friction);
   return calibration;
 }
 
@@ -196,6 +202,7 @@ Calibration calibrate_files(CalibrateFiles const& files) {
   auto const found = doubts(machine, runs);
   auto calibration = with_doubts(found, [&] { return calibrate(document, runs, files.watch); });
   calibration.doubts = found;
+  if (calibration.friction) remarks.push_back(calibration.friction->remark());
   calibration.remarks = remarks;
   if (!files.output.empty())
     write_amended(files.machine, files.output,

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "twin/diagnosis/amended_file.h"
+#include "twin/diagnosis/axis_friction.h"
 #include "twin/diagnosis/estimation.h"
 #include "twin/diagnosis/gap.h"
 #include "twin/diagnosis/plausibility.h"
@@ -62,7 +64,8 @@ struct Calibration {
   std::vector<ChannelGap> gaps;    ///< of the nominal machine and of `document`
   Value document;                  ///< the machine with the numbers as written
   std::vector<ChangedValue> lags;  ///< of the sensors, in that
-  std::vector<Doubt> doubts;       ///< of calibrate_files
+  std::optional<FrictionWhileMoving> friction;  ///< where that has it so, and the file does not
+  std::vector<Doubt> doubts;                    ///< of calibrate_files
   std::vector<std::string> remarks;
 
   /// Why something is missing, for people: residuals are larger than noise, numbers had to leave the file by more than

@@ -34,6 +34,7 @@ class Diagnostician {
         hypotheses_(excited_hypotheses()),
         search_(best_search(machine, runs, hypotheses_, options)) {}
   Diagnosis operator()();
+  [[nodiscard]] double misfit() const { return search_.misfit(); }
 
  private:
   void say(std::string const& what) const {
@@ -272,7 +273,16 @@ Explanation const* Diagnostician::unsettled() const {
 
 Diagnosis diagnose(Value const& machine, std::vector<BinnedRun> const& runs, DiagnosisOptions const& options,
                    std::vector<BinnedRun> const& held_out) {
-  return Diagnostician(machine, runs, held_out, options)();
+  Diagnostician as_written(machine, runs, held_out, options);
+  auto friction = friction_while_moving(machine, runs, options.threshold, options.watch);
+  if (!friction) return as_written();
+  Diagnostician other(friction->document, runs, held_out, options);
+  friction->gain = as_written.misfit() - other.misfit();
+  if (friction->gain < options.threshold) return as_written();
+  Diagnosis diagnosis = other();
+  for (auto& change : friction->changes()) diagnosis.changes.push_back(std::move(change));
+  diagnosis.friction = std::move(friction);
+  return diagnosis;
 }
 
 }  // namespace thermotwin::twin

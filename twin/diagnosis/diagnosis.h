@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "twin/diagnosis/amended_file.h"
+#include "twin/diagnosis/axis_friction.h"
 #include "twin/diagnosis/disagreement.h"
 #include "twin/diagnosis/effect_search.h"
 #include "twin/diagnosis/faulty_sensor.h"
@@ -48,6 +49,7 @@ struct Diagnosis {
   Value calibrated_document;          ///< with calibrated values alone
   /// 2 ln of how much likelier the runs held out are by the amended machine than by the calibrated one.
   std::optional<double> vote;
+  std::optional<FrictionWhileMoving> friction;              ///< where the machine has it so, and its file does not
   std::vector<std::pair<std::string, double>> noise_heard;  ///< of every channel, over what was expected
   /// Runs held out speak against the effects by more than the fitted ones speak for them.
   [[nodiscard]] bool is_refuted() const;

@@ -26,6 +26,7 @@ std::optional<double> deviation_of(std::string const& table, std::string const& 
   if (of == dimension::conductance || of == dimension::film_coefficient) return 0.30;
   if (of == dimension::power) return 0.25;
   if (key == "viscosity_temperature") return 0.04;
+  if (key == "viscous_exponent") return 0.30;
   if (key == "mass" || key == "heat_capacity" || key == "capacity_factor" || key == "growth_factor") return 0.10;
   return std::nullopt;
 }
@@ -69,7 +70,7 @@ void add_numbers(Value const& document, std::string const& kind, Value const& ta
                          .dimension = parameter.dimension,
                          .deviation = *deviation,
                          .unit = unit_of(entry.value),
-                         .of_law = entry.key == "viscosity_temperature"});
+                         .of_law = entry.key == "viscosity_temperature" || entry.key == "viscous_exponent"});
   }
 }
 
@@ -79,11 +80,12 @@ bool is_nothing(Value const& value) {
   return (number && *number == 0.0) || (whole && *whole == 0);
 }
 
-void add_factor(Value& table, char const* key) {
-  if (!table.find(key)) std::get<Value::Table>(table.content).push_back({key, table.where, {table.where, 1.0}});
+void add_factor(Value& table, char const* key, double factor = 1.0) {
+  if (!table.find(key)) std::get<Value::Table>(table.content).push_back({key, table.where, {table.where, factor}});
 }
 
-/// A grease has a slope of viscosity of its own, and balls that roll conduct otherwise than balls at rest.
+/// A grease has a slope of viscosity of its own and drags with a power of its own, the lower the more it is sheared
+/// (SKF: 0.6 while cold and slow, 0.3 at full speed); balls that roll conduct otherwise than balls at rest.
 void add_of_bearing(Value const& document, Value& table, std::vector<UncertainNumber>& numbers) {
   Value const* oil = table.find("oil");
   auto const* grade = oil ? std::get_if<std::int64_t>(&oil->content) : nullptr;
@@ -91,6 +93,7 @@ void add_of_bearing(Value const& document, Value& table, std::vector<UncertainNu
     set_key(table, "viscosity_temperature",
             thermal::format_quantity(thermal::mineral_oil_viscosity(grade ? int(*grade) : 22).temperature,
                                      dimension::temperature_difference));
+  add_factor(table, "viscous_exponent", 2.0 / 3.0);
   std::string const path = "bearing." + name_in(table) + ".conductance";
   double const conductance = find_number(document, path).value;
   if (conductance <= 0.0 || table.find("conductance_speed")) return;

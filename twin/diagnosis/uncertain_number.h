@@ -47,6 +47,7 @@ struct UncertainNumber {
 /// | ball screw that has a name               | 0.10      |
 /// | offset of a coolant's inlet              | 0.3 K     |
 /// | viscosity_temperature of a bearing's oil | 0.04      |
+/// | viscous_exponent of a bearing            | 0.30      |
 /// | conductance_speed of a bearing           | 0.1 G     |
 ///
 /// A conductance that a table leaves to its default is known no better than one that it states.
@@ -58,8 +59,8 @@ struct UncertainNumber {
 /// with the deviation of an even distribution there (JCGM 100:2008, 4.3.7).
 ///
 /// `document` gets a growth_factor of 1 wherever a segment or a screw has none, a capacity_factor wherever a bar has
-/// none, a bearing's slope of viscosity and what its conductance gains with speed, and the defaults of conductances, so
-/// that every path can be set.
+/// none, a bearing's slope of viscosity, its viscous exponent and what its conductance gains with speed, and the
+/// defaults of conductances, so that every path can be set.
 [[nodiscard]] std::vector<UncertainNumber> uncertain_numbers(Value& document);
 
 }  // namespace thermotwin::twin

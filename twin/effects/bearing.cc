@@ -12,18 +12,24 @@ namespace thermotwin::twin {
 namespace {
 
 /// Port 0 inner ring, port 1 outer ring; the lubricant has their mean temperature. u = {ω}.
-/// c = {count, f₀, A, B (viscosity), d_m, z, y, P₀/C₀, P₁, inner share}.
+/// c = {count, f₀, A, B (viscosity), d_m, z, y, P₀/C₀, P₁, inner share}, and with a power p of its own {p, ν₄₀ ω_max}:
+/// the viscous torque times (νω/(ν₄₀ ω_max))^(p − 2/3).
+template <bool own_power>
 struct PalmgrenHeat {
   static constexpr std::string_view name = "bearing friction after Palmgren and Harris";
-  static constexpr int ports = 2, coefficients = 10, inputs = 1;
+  static constexpr int ports = 2, coefficients = own_power ? 12 : 10, inputs = 1;
   static constexpr bool conservative = false;
   template <class S>
   static void flows(S const* T, S const* c, double const* u, S* q) {
     if (u[0] == 0.0) return;
     S const speed(u[0]);
     S const viscosity = thermal::vogel_cameron_viscosity<S>(c[2], c[3], 0.5 * (T[0] + T[1]));
-    S const torque = thermal::palmgren_viscous_torque<S>(c[1], viscosity, speed, c[4]) +
-                     thermal::load_torque<S>(c[5], c[6], c[7], c[8], c[4]);
+    S viscous = thermal::palmgren_viscous_torque<S>(c[1], viscosity, speed, c[4]);
+    if constexpr (own_power) {
+      using std::pow;
+      viscous *= pow(viscosity * std::abs(u[0]) / c[11], S(c[10] - 2.0 / 3.0));
+    }
+    S const torque = viscous + thermal::load_torque<S>(c[5], c[6], c[7], c[8], c[4]);
     S const heat = c[0] * thermal::friction_heat<S>(torque, speed);
     q[0] = c[9] * heat;
     q[1] = (1.0 - c[9]) * heat;
@@ -48,6 +54,7 @@ struct Bearing {
   int oil = 22;
   double viscosity_factor = 1.0;
   std::optional<double> viscosity_temperature;  ///< [K]
+  std::optional<double> viscous_exponent;
   double pitch_diameter = required;
   double load_factor = 5e-4, load_exponent = 0.38, load_ratio = 0.003;
   double torque_load = required;
@@ -68,6 +75,8 @@ struct Bearing {
       Range{0.3, 3.0});
     f("viscosity_temperature", &Bearing::viscosity_temperature, dimension::temperature_difference,
       "B, where it is not that grade's; the viscosity at 40 degC stays; 0: no feedback", Range{0.0, 1000.0});
+    f("viscous_exponent", &Bearing::viscous_exponent, dimension::dimensionless,
+      "p of the viscous torque, ∝ (νω)^p, where it is not 2/3; the same at 40 degC and full speed", Range{0.1, 2.0});
     f("pitch_diameter", &Bearing::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0});
     f("load_factor", &Bearing::load_factor, dimension::dimensionless, "z of f1 = z (P0/C0)^y", Range{1e-4, 2e-3});
     f("load_exponent", &Bearing::load_exponent, dimension::dimensionless, "y of it", Range{0.3, 0.6});
@@ -86,10 +95,16 @@ struct Bearing {
   void add_to(Assembly& assembly) const {
     auto const viscosity = base_oil();
     Place const shaft = assembly.place(inner), housing = assembly.place(outer);
-    assembly.network().add<PalmgrenHeat>(assembly.part(), {assembly.port(shaft), assembly.port(housing)},
-                                         {count, grease_factor, viscosity.scale, viscosity.temperature, pitch_diameter,
-                                          load_factor, load_exponent, load_ratio, torque_load, inner_share},
-                                         {assembly.channel("spindle.speed")});
+    std::vector<thermal::Port> const ports{assembly.port(shaft), assembly.port(housing)};
+    std::vector<double> c{count,       grease_factor, viscosity.scale, viscosity.temperature, pitch_diameter,
+                          load_factor, load_exponent, load_ratio,      torque_load,           inner_share};
+    std::vector<int> const speed{assembly.channel("spindle.speed")};
+    if (viscous_exponent) {
+      c.insert(c.end(), {*viscous_exponent, thermal::viscosity(viscosity, 313.15) * assembly.rated_speed({})});
+      assembly.network().add<PalmgrenHeat<true>>(assembly.part(), ports, c, speed);
+    } else {
+      assembly.network().add<PalmgrenHeat<false>>(assembly.part(), ports, c, speed);
+    }
     conduct(assembly, shaft, housing);
   }
 
@@ -124,9 +139,9 @@ Effect const& bearing_effect() {
   static Effect const effect = make_effect<Bearing>(
       {"bearing",
        "friction of a set of spindle bearings, and conduction through its balls",
-       "Q = n (M0 + M1) |ω|;  M0 = 4500.9 f0 (νω)^(2/3) d_m³ (νω ≥ 2.0944e-4 m²/s², else 16 f0 "
-       "d_m³);  M1 = z (P0/C0)^y P1 "
-       "d_m;  ν = A exp(B/(T[°C] + 95)) at the mean of both rings;  q = (G0 + G1 √(n/n_max)) (T_outer − T_inner)",
+       "Q = n (M0 + M1) |ω|;  M0 = 4500.9 f0 (νω)^(2/3) d_m³ (νω ≥ 2.0944e-4 m²/s², else 16 f0 d_m³), with a power p "
+       "of its own times (νω/(ν40 ω_max))^(p − 2/3);  M1 = z (P0/C0)^y P1 d_m;  ν = A exp(B/(T[°C] + 95)) at the mean "
+       "of both rings;  q = (G0 + G1 √(n/n_max)) (T_outer − T_inner)",
        "source, link",
        "shaft and outer ring",
        "power of speed 1.67, falling to 1.0…1.2 in the steady state by the "

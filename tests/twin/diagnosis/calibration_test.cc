@@ -235,12 +235,22 @@ TEST_F(CalibrationTest, TwoBearingsAtOnePlaceAreInseparableAndNeitherIsIdentifie
     [[uncertain]]
     name = "bar.shaft.capacity_factor"
     from = "0.99"
-    to = "1.01")");
+    to = "1.01"
+    [[uncertain]]
+    name = "bearing.front.viscous_exponent"
+    from = "0.66"
+    to = "0.67"
+    [[uncertain]]
+    name = "bearing.double.viscous_exponent"
+    from = "0.66"
+    to = "0.67")");
   auto& bearings = std::get<Value::List>(document.find("bearing")->content);
   bearings.push_back(bearings[0]);
   bearings.back().find("name")->content = std::string("double");
-  for (std::string const name : {"front", "double"})
+  for (std::string const name : {"front", "double"}) {
     set_parameter(document, "bearing." + name + ".grease_factor", "0.3");
+    set_parameter(document, "bearing." + name + ".viscous_exponent", "0.6667");
+  }
   auto const run = read_measured_run(*folder / "run.h5", Machine::build(document));
   auto const both = calibrate(document, {bin(run, fitting_interval(run))});
   EXPECT_THAT(both.inseparable,

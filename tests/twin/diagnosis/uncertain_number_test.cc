@@ -44,6 +44,7 @@ TEST(UncertainNumbers, OfTheLumpedMachineAreItsJointsFilmsLossesMassesAndGrowth)
         Expected{"lump.column_rear.mass", 230.0, 0.10}, Expected{"lump.front_ring.heat_capacity", 282.0, 0.10},
         Expected{"bar.test_bar.capacity_factor", 1.0, 0.10}, Expected{"bar.shaft.capacity_factor", 1.0, 0.10},
         Expected{"bearing.front.viscosity_temperature", 748.0, 0.04},
+        Expected{"bearing.rear.viscous_exponent", 2.0 / 3.0, 0.30},
         Expected{"displacement.E_Z.segment.0.growth_factor", 1.0, 0.10},
         Expected{"displacement.E_Z.segment.6.growth_factor", 1.0, 0.10},
         Expected{"rotation.A.segment.1.growth_factor", 1.0, 0.10}}) {
