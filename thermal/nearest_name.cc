@@ -10,7 +10,7 @@ namespace thermotwin::thermal {
 namespace {
 
 constexpr std::size_t listed_at_most = 10;
-constexpr std::size_t shortest_beginning = 3;  ///< of a name that somebody cut short; less begins too much by chance
+constexpr std::size_t shortest_part = 3;  ///< of a name that somebody cut short; less is in too much by chance
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
@@ -18,17 +18,27 @@ std::pair<int, int> remoteness(std::string_view name, std::string const& other) 
   return {edit_distance(name, other), std::abs(static_cast<int>(name.size()) - static_cast<int>(other.size()))};
 }
 
-std::vector<std::string> nearest_first(std::string_view name, std::span<std::string const> known) {
+bool holds(std::string_view text, std::string_view word) {
+  auto const same = [](char a, char b) { return lower(a) == lower(b); };
+  return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+}
+
+/// Those first that hold the name, or whose meaning does: 'axial_cells' for 'cells', '42CrMo4' for 'steel'.
+std::vector<std::string> nearest_first(std::string_view name, std::span<std::string const> known,
+                                       std::function<std::string(std::string const&)> const& meaning) {
+  auto const is_without = [&](std::string const& other) {
+    return name.size() < shortest_part || !(holds(other, name) || (meaning && holds(meaning(other), name)));
+  };
   std::vector<std::string> names(known.begin(), known.end());
   std::stable_sort(names.begin(), names.end(), [&](std::string const& a, std::string const& b) {
-    return remoteness(name, a) < remoteness(name, b);
+    return std::pair(is_without(a), remoteness(name, a)) < std::pair(is_without(b), remoteness(name, b));
   });
   return names;
 }
 
 /// The only name that begins like this, if it is not twice as long; empty if there is none, or more.
 std::string whole_name(std::string_view beginning, std::span<std::string const> known) {
-  if (beginning.size() < shortest_beginning) return {};
+  if (beginning.size() < shortest_part) return {};
   auto const begins = [&](std::string const& name) { return name.starts_with(beginning); };
   auto const first = std::find_if(known.begin(), known.end(), begins);
   if (first == known.end() || std::find_if(first + 1, known.end(), begins) != known.end()) return {};
@@ -72,7 +82,7 @@ std::string did_you_mean(std::string_view name, std::span<std::string const> kno
   if (known.empty()) return "none is known";
   if (std::string const meant = meant_name(name, known); !meant.empty()) return "did you mean '" + meant + "'?";
   std::string sentence = "known: ";
-  std::vector<std::string> const names = nearest_first(name, known);
+  std::vector<std::string> const names = nearest_first(name, known, meaning);
   for (std::size_t i = 0; i < std::min(names.size(), listed_at_most); ++i) {
     sentence += (i == 0 ? "'" : ", '") + names[i] + "'";
     if (auto const said = meaning ? meaning(names[i]) : ""; !said.empty()) sentence += " (" + said + ")";

@@ -20,8 +20,8 @@ std::string nearest_name(std::string_view name, std::span<std::string const> kno
 std::string meant_name(std::string_view name, std::span<std::string const> known);
 
 /// The end of an error message about an unknown name: "did you mean 'min'?" where that was meant, else "known: 'a',
-/// 'b', …" (the nearest ten, nearest first), else "none is known". Beside the listed ones stands what they mean, where
-/// `meaning` says it: "'GJL-250' (grey cast iron)".
+/// 'b', …" (ten: those first that hold the name or whose meaning does, then the nearest), else "none is known". Beside
+/// the listed ones stands what they mean, where `meaning` says it: "'GJL-250' (grey cast iron)".
 std::string did_you_mean(std::string_view name, std::span<std::string const> known,
                          std::function<std::string(std::string const&)> const& meaning = {});
 

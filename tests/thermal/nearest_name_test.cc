@@ -43,6 +43,13 @@ TEST(DidYouMean, ListsNearestFirstWhenNoneIsClose) {
   EXPECT_EQ(did_you_mean("xmxxs", known), "known: 'mass', 'conductance'");
 }
 
+TEST(DidYouMean, ListsThoseFirstThatHoldTheName) {
+  std::vector<std::string> const known = {"length", "axial_cells", "42CrMo4", "radial_cells"};
+  auto const meaning = [](std::string const& name) { return name == "42CrMo4" ? "Steel, quenched" : ""; };
+  EXPECT_EQ(did_you_mean("cells", known).substr(0, 36), "known: 'axial_cells', 'radial_cells'");
+  EXPECT_EQ(did_you_mean("steel", known, meaning).substr(0, 16), "known: '42CrMo4'");
+}
+
 TEST(DidYouMean, SaysWhatTheListedOnesMean) {
   std::vector<std::string> const known = {"conductance", "mass"};
   auto const meaning = [](std::string const& name) { return name == "mass" ? "how heavy" : ""; };
