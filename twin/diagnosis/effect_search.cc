@@ -51,8 +51,10 @@ bool is_ordinary(Hypothesis const& hypothesis, Fit const& fit, Eigen::Index unkn
   return hypothesis.is_ordinary(fit.x[unknown], std::sqrt(fit.covariance(unknown, unknown)));
 }
 
-bool has_laws(std::vector<UncertainNumber> const& numbers) {
-  return std::any_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.of_law; });
+/// Whether laws are first taken as the file has them: where there are any, and drawings.
+bool has_closed_laws(std::vector<UncertainNumber> const& numbers) {
+  return has_drawings(numbers) &&
+         std::any_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.of_law; });
 }
 
 Eigen::VectorXd shorter(Eigen::VectorXd const& x, Eigen::Index gone) {
@@ -91,7 +93,7 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
     : options_(options), geometry_(Machine::build(document).geometry), hypotheses_(std::move(hypotheses)) {
   say("calibrating");
   estimation_.emplace(expected_estimation(document, runs).watched(options.watch));
-  bool const closed = has_laws(estimation_->numbers());
+  bool const closed = has_closed_laws(estimation_->numbers());
   if (closed) estimation_ = estimation_->with_laws(closed_law);
   expected_ = estimation_->noise();
   bool const drawn = options.start && start == 0;

@@ -17,6 +17,7 @@ namespace {
 namespace dimension = thermal::dimension;
 
 constexpr double inlet_deviation = 0.3;  // [K]
+constexpr char const* viscous_exponent = "viscous_exponent";
 
 std::optional<double> deviation_of(std::string const& table, std::string const& key, thermal::Dimension const& of) {
   bool const friction = key == "grease_factor" || (table == "ball_nut" && key == "preload");
@@ -26,7 +27,7 @@ std::optional<double> deviation_of(std::string const& table, std::string const& 
   if (of == dimension::conductance || of == dimension::film_coefficient) return 0.30;
   if (of == dimension::power) return 0.25;
   if (key == "viscosity_temperature") return 0.04;
-  if (key == "viscous_exponent") return 0.30;
+  if (key == viscous_exponent) return 0.30;
   if (key == "mass" || key == "heat_capacity" || key == "capacity_factor" || key == "growth_factor") return 0.10;
   return std::nullopt;
 }
@@ -70,7 +71,7 @@ void add_numbers(Value const& document, std::string const& kind, Value const& ta
                          .dimension = parameter.dimension,
                          .deviation = *deviation,
                          .unit = unit_of(entry.value),
-                         .of_law = entry.key == "viscosity_temperature" || entry.key == "viscous_exponent"});
+                         .of_law = entry.key == "viscosity_temperature" || entry.key == viscous_exponent});
   }
 }
 
@@ -93,7 +94,7 @@ void add_of_bearing(Value const& document, Value& table, std::vector<UncertainNu
     set_key(table, "viscosity_temperature",
             thermal::format_quantity(thermal::mineral_oil_viscosity(grade ? int(*grade) : 22).temperature,
                                      dimension::temperature_difference));
-  add_factor(table, "viscous_exponent", 2.0 / 3.0);
+  add_factor(table, viscous_exponent, 2.0 / 3.0);
   std::string const path = "bearing." + name_in(table) + ".conductance";
   double const conductance = find_number(document, path).value;
   if (conductance <= 0.0 || table.find("conductance_speed")) return;
@@ -185,6 +186,8 @@ std::vector<UncertainNumber> uncertain_numbers(Value& document) {
     add_factor(table, "growth_factor");
     add_numbers(document, "ball_screw", table, numbers);
   });
+  if (std::any_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.is_any_step(); }))
+    std::erase_if(numbers, [](auto const& number) { return number.path.ends_with(viscous_exponent); });
   for (auto const& range : ranged_numbers(document)) set_range(document, range, numbers);
   return numbers;
 }

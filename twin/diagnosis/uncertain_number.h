@@ -53,7 +53,7 @@ struct UncertainNumber {
 /// A conductance that a table leaves to its default is known no better than one that it states.
 ///
 /// A segment of weight 0 stands for a machine without drawings: nobody knows what this body does to the channel. Its
-/// weight is N(0, 1), so that the segment's length says how much it may do.
+/// weight is N(0, 1), so that the segment's length says how much it may do. Bearings have Palmgren's exponent there.
 ///
 /// A number of which the file states a range (`[[uncertain]]`), of whatever kind but a temperature, stays within it,
 /// with the deviation of an even distribution there (JCGM 100:2008, 4.3.7).

@@ -122,6 +122,7 @@ TEST(UncertainNumbers, OfASegmentWithoutAWeightIsTheWeight) {
   EXPECT_EQ(weight->value(-0.4), -0.4);
   EXPECT_EQ(weight->slope(-0.4), 1.0);
   EXPECT_EQ(weight->deviation, 1.0);
+  EXPECT_FALSE(machine.find("bearing.front.viscous_exponent"));
   auto const* mass = machine.find("lump.column_rear.mass");
   ASSERT_TRUE(mass);
   EXPECT_DOUBLE_EQ(mass->value(0.2), 230.0 * std::exp(0.2));
