@@ -38,7 +38,7 @@ std::vector<ChangedValue> FrictionWhileMoving::changes() const {
 std::string FrictionWhileMoving::remark() const {
   return fmt::format(
       "the friction of axis {} is that of its speed while it moves, not of its mean speed, by 2 ln {:.0f}: "
-      "'friction_at' of the file",
+      "the file's 'friction_at' should say so",
       fmt::join(axes, ", "), gain);
 }
 

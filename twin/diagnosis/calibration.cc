@@ -202,7 +202,7 @@ Calibration calibrate_files(CalibrateFiles const& files) {
   auto const found = doubts(machine, runs);
   auto calibration = with_doubts(found, [&] { return calibrate(document, runs, files.watch); });
   calibration.doubts = found;
-  if (calibration.friction) remarks.push_back(calibration.friction->remark());
+  if (calibration.friction) remarks.insert(remarks.begin(), calibration.friction->remark());
   calibration.remarks = remarks;
   if (!files.output.empty())
     write_amended(files.machine, files.output,

@@ -86,7 +86,8 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   options.progress = files.progress;
   options.watch = files.watch;
   report.diagnosis = with_doubts(report.doubts, [&] { return diagnose(document, fitted, options, held_out); });
-  if (auto const& friction = report.diagnosis.friction) report.remarks.push_back(friction->remark());
+  if (auto const& friction = report.diagnosis.friction)
+    report.remarks.insert(report.remarks.begin(), friction->remark());
   if (!report.diagnosis.suspicion && identify_nothing(report.diagnosis))
     report.remarks.emplace_back(
         "the data identify no number of the machine and no effect: the runs are too short, or too little happens in "
