@@ -12,8 +12,6 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr int steps_of_fit = 12;
-
 std::string path_of_friction(std::string const& axis) { return "axis." + axis + ".friction_at"; }
 
 bool rests_at_times(std::string const& axis, BinnedRun const& run) {
@@ -23,7 +21,7 @@ bool rests_at_times(std::string const& axis, BinnedRun const& run) {
 }
 
 double evidence_against(Value const& document, std::vector<BinnedRun> const& runs, FitWatch const& watch) {
-  return best_fit(expected_estimation(document, runs).with_form_of_file().watched(watch), steps_of_fit).evidence;
+  return best_fit(expected_estimation(document, runs).with_form_of_file().watched(watch)).evidence;
 }
 
 }  // namespace

@@ -21,8 +21,7 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr double large_share = 0.3;  // of a unit vector
-constexpr int iterations = 12;
+constexpr double large_share = 0.3;      // of a unit vector
 constexpr double more_than_noise = 2.0;  // misfit
 
 std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machine const& machine) {
@@ -120,7 +119,7 @@ void add_written(Calibration& calibration, Estimation const& estimation) {
   std::vector<std::size_t> others;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n)
     if (!calibration.numbers[n].identified) others.push_back(n);
-  Fit fit = best_fit(estimation.knowing(others), iterations);
+  Fit fit = best_fit(estimation.knowing(others));
   for (std::size_t const n : others) fit.x[Eigen::Index(n)] = 0.0;
   for (std::size_t n = 0; n < calibration.numbers.size(); ++n) calibration.numbers[n].written = fit.x[Eigen::Index(n)];
   calibration.document = estimation.document_at(fit.x);
@@ -173,7 +172,7 @@ Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs, 
     throw thermal::InputError(
         "the machine has no number that calibration could change: no conductance, film, friction, loss, mass or step "
         "of a structural loop");
-  Fit const fit = best_fit(estimation, iterations);
+  Fit const fit = best_fit(estimation);
   Calibration calibration;
   calibration.converged = fit.converged;
   Machine const before = Machine::build(machine);

@@ -19,6 +19,6 @@ namespace thermotwin::twin {
 [[nodiscard]] std::vector<Eigen::VectorXd> starts(Estimation const& estimation);
 
 /// Of the fits from all these starts, the one with the most evidence.
-[[nodiscard]] Fit best_fit(Estimation const& estimation, int iterations);
+[[nodiscard]] Fit best_fit(Estimation const& estimation, int iterations = 12);
 
 }  // namespace thermotwin::twin

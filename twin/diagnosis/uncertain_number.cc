@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "thermal/lubricant.h"
+#include "twin/diagnosis/start.h"
 #include "twin/effect.h"
 #include "twin/file/document.h"
 #include "twin/sensitivity.h"
@@ -186,7 +187,7 @@ std::vector<UncertainNumber> uncertain_numbers(Value& document) {
     add_factor(table, "growth_factor");
     add_numbers(document, "ball_screw", table, numbers);
   });
-  if (std::any_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.is_any_step(); }))
+  if (!has_drawings(numbers))
     std::erase_if(numbers, [](auto const& number) { return number.path.ends_with(viscous_exponent); });
   for (auto const& range : ranged_numbers(document)) set_range(document, range, numbers);
   return numbers;
