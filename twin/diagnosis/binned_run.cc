@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "scenarios/course.h"
-#include "scenarios/signal.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -64,89 +64,65 @@ void add_steps(BinnedRun& binned, Stretch const& row, int index, double first_st
   } while (at < row.end - 1e-6);
 }
 
-void add_sample(BinStep& step, double t) {
-  double const share = (t - step.begin) / step.length(), rest = 1.0 - share;
-  step.at_begin += rest;
-  step.at_end += share;
-  step.bend_at_begin += step.length() * share * rest * rest;
-  step.bend_at_end -= step.length() * share * share * rest;
-  step.samples.push_back(t - step.begin);
-}
-
-/// A channel's readings, with straight lines between them.
-scenarios::Signal readings_of(Eigen::VectorXd const& time, Eigen::VectorXd const& values) {
-  std::vector<double> times, readings;
-  for (Eigen::Index i = 0; i < time.size(); ++i) {
-    if (std::isnan(values[i])) continue;
-    times.push_back(time[i]);
-    readings.push_back(values[i]);
-  }
-  return {std::move(times), std::move(readings), scenarios::Interpolation::linear};
-}
-
-/// Over those of the times that lie between the first reading and the last; there must be one.
-double mean(scenarios::Signal const& readings, std::vector<double> const& times) {
-  double sum = 0.0, count = 0.0;
+/// Of a channel that was read at these times of a row, which begins with that step.
+void add_readings(std::vector<BinStep> const& steps, std::size_t step, std::vector<double> const& times,
+                  std::vector<StepReadings>& readings) {
+  double const share = 1.0 / double(times.size());
   for (double const t : times) {
-    if (t < readings.times().front() || t > readings.times().back()) continue;
-    sum += readings.at(t);
-    count += 1.0;
+    while (step + 1 < steps.size() && steps[step].end <= t) ++step;
+    double const length = steps[step].length();
+    double const way = (t - steps[step].begin) / length, rest = 1.0 - way;
+    auto& here = readings[step];
+    here.at_begin += share * rest;
+    here.at_end += share * way;
+    here.bend_at_begin += share * length * way * rest * rest;
+    here.bend_at_end -= share * length * way * way * rest;
+    here.samples.push_back(t - steps[step].begin);
+    here.share = share;
   }
-  return sum / count;
 }
 
-void divide(BinStep& step, int samples) {
-  for (double* weight : {&step.at_begin, &step.at_end, &step.bend_at_begin, &step.bend_at_end}) *weight /= samples;
-  step.share = 1.0 / samples;
+double average(std::vector<double> const& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
 }  // namespace
 
 BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
   auto const rows = rows_of(run, interval);
-  auto const channels = Eigen::Index(run.channels.size());
-  BinnedRun binned{&run, {}, {}, {}, {}};
-  binned.time.setZero(Eigen::Index(rows.size()));
-  binned.values.setZero(Eigen::Index(rows.size()), channels);
-  binned.samples.setZero(Eigen::Index(rows.size()), channels);
-  std::vector<scenarios::Signal> readings;
-  for (auto const& channel : run.channels) readings.push_back(readings_of(run.time, channel.values));
+  auto const count = Eigen::Index(rows.size()), channels = Eigen::Index(run.channels.size());
+  BinnedRun binned{&run, {}, {}, {}, {}, {}};
+  binned.readings.resize(run.channels.size());
+  binned.time.resize(count);
+  binned.values.resize(count, channels);
+  binned.samples.resize(count, channels);
   Eigen::Index sample = 0;
-  std::size_t first_of_row = 0;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    add_steps(binned, rows[r], int(r), first_step);
-    auto const row = Eigen::Index(r);
-    bool const last = r + 1 == rows.size();
+  for (Eigen::Index row = 0; row < count; ++row) {
+    auto const& stretch = rows[std::size_t(row)];
+    auto const first_of_row = binned.steps.size();
+    add_steps(binned, stretch, int(row), first_step);
+    std::vector<Eigen::Index> samples;
+    for (; sample < run.time.size() && (run.time[sample] < stretch.end || row + 1 == count); ++sample)
+      if (!is_doubtful(run, run.time[sample])) samples.push_back(sample);
     std::vector<double> times;
-    std::size_t step = first_of_row;
-    for (; sample < run.time.size() && (run.time[sample] < rows[r].end || last); ++sample) {
-      double const t = run.time[sample];
-      if (is_doubtful(run, t)) continue;
-      times.push_back(t);
-      while (step + 1 < binned.steps.size() && binned.steps[step].end <= t) ++step;
-      add_sample(binned.steps[step], t);
-      binned.time[row] += t;
-      for (Eigen::Index c = 0; c < channels; ++c)
-        if (double const value = run.channels[std::size_t(c)].values[sample]; !std::isnan(value)) {
-          binned.values(row, c) += value;
-          binned.samples(row, c) += 1.0;
-        }
+    for (auto const s : samples) times.push_back(run.time[s]);
+    if (times.empty()) times.push_back(stretch.begin);  // between two samples: the row has no data
+    binned.time[row] = average(times);
+    for (Eigen::Index c = 0; c < channels; ++c) {
+      auto const& all = run.channels[std::size_t(c)].values;
+      std::vector<double> own, values;
+      for (auto const s : samples) {
+        if (std::isnan(all[s])) continue;
+        own.push_back(run.time[s]);
+        values.push_back(all[s]);
+      }
+      auto& readings = binned.readings[std::size_t(c)];
+      readings.resize(binned.steps.size());
+      add_readings(binned.steps, first_of_row, own.empty() ? times : own, readings);
+      binned.values(row, c) = values.empty() ? std::numeric_limits<double>::quiet_NaN() : average(values);
+      binned.samples(row, c) = double(values.size());
     }
-    for (Eigen::Index c = 0; c < channels; ++c)
-      if (double const own = binned.samples(row, c); own > 0.0 && own < double(times.size()))
-        binned.values(row, c) = own * mean(readings[std::size_t(c)], times);
-    if (times.empty()) {  // between two samples: the row has no data
-      add_sample(binned.steps[first_of_row], rows[r].begin);
-      binned.time[row] = rows[r].begin;
-    }
-    int const count = std::max(1, int(times.size()));
-    for (std::size_t s = first_of_row; s < binned.steps.size(); ++s) divide(binned.steps[s], count);
-    binned.time[row] /= count;
-    first_of_row = binned.steps.size();
   }
-  binned.values =
-      (binned.samples.array() > 0.0)
-          .select(binned.values.cwiseQuotient(binned.samples.cwiseMax(1.0)), std::numeric_limits<double>::quiet_NaN());
   return binned;
 }
 

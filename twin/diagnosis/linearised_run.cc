@@ -174,23 +174,26 @@ LinearisedRun::Lagged LinearisedRun::lagged(double shown, Piece const& piece, do
   return result;
 }
 
+/// Of a channel, by its number.
 template <class Pieces>
-Eigen::VectorXd LinearisedRun::rows_of(Pieces const& pieces, double lag) const {
+Eigen::VectorXd LinearisedRun::rows_of(std::size_t channel, Pieces const& pieces, double lag) const {
   auto const& steps = data_->steps;
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(data_->time.size());
   double shown = 0.0;
   for (std::size_t s = 0; s < steps.size(); ++s) {
     auto const& step = steps[s];
+    auto const& readings = data_->readings[channel][s];
     Piece piece = pieces(s);
     if (lag > 0.0) {
       if (s == 0) shown = piece.from;
       auto const behind = lagged(shown, piece, lag, step.length());
       piece = behind.piece;
       shown = piece.to + behind.decaying * std::exp(-step.length() / lag);
-      for (double const sample : step.samples) rows[step.row] += step.share * behind.decaying * std::exp(-sample / lag);
+      for (double const sample : readings.samples)
+        rows[step.row] += readings.share * behind.decaying * std::exp(-sample / lag);
     }
-    rows[step.row] += step.at_begin * piece.from + step.at_end * piece.to + step.bend_at_begin * piece.bend_from +
-                      step.bend_at_end * piece.bend_to;
+    rows[step.row] += readings.at_begin * piece.from + readings.at_end * piece.to +
+                      readings.bend_at_begin * piece.bend_from + readings.bend_at_end * piece.bend_to;
   }
   return rows;
 }
@@ -200,7 +203,8 @@ Eigen::MatrixXd LinearisedRun::prediction_of(Machine const& other) const {
   Eigen::MatrixXd rows(data_->time.size(), Eigen::Index(readings.size()));
   for (std::size_t c = 0; c < readings.size(); ++c) {
     auto const& reading = readings[c];
-    auto const behind_lag = rows_of([&](std::size_t step) { return before_lag(reading, step); }, reading.lag);
+    auto const behind_lag = rows_of(
+        c, [&](std::size_t step) { return before_lag(reading, step); }, reading.lag);
     rows.col(Eigen::Index(c)) = reading.shown(behind_lag, data_->time);
   }
   return rows;
@@ -212,7 +216,8 @@ Eigen::MatrixXd LinearisedRun::growth(std::vector<NodeWeights> const& displaceme
   for (std::size_t c = 0; c < readings.size(); ++c) {
     if (!readings[c].displacement) continue;
     auto const& weights = displacements[std::size_t(readings[c].displacement - machine_->linear_channels.data())];
-    rows.col(Eigen::Index(c)) = rows_of([&](std::size_t step) { return since_start(weights, step); }, 0.0);
+    rows.col(Eigen::Index(c)) = rows_of(
+        c, [&](std::size_t step) { return since_start(weights, step); }, 0.0);
   }
   return rows;
 }
@@ -285,16 +290,17 @@ ReadingByParameter LinearisedRun::response(Forcing const& forcing, Eigen::Matrix
     for (Eigen::Index c = 0; c < H.rows(); ++c) {
       double const lag = readings[std::size_t(c)].lag;
       bool const relative = readings[std::size_t(c)].displacement != nullptr;
+      auto const& own = data_->readings[std::size_t(c)][s];
       auto target = result.row(c * rows + steps[s].row);
-      target += steps[s].at_begin * (lag > 0.0 ? shown.row(c) : from.row(c));
+      target += own.at_begin * (lag > 0.0 ? shown.row(c) : from.row(c));
       if (lag > 0.0) {
         double const decay = std::exp(-h / lag);
         shown.row(c) = (to.row(c) - (to.row(c) - from.row(c)) * lag / h +
                         (shown.row(c) - from.row(c) + (to.row(c) - from.row(c)) * lag / h) * decay)
                            .eval();
       }
-      target += steps[s].at_end * (lag > 0.0 ? shown.row(c) : to.row(c));
-      if (relative) target -= (steps[s].at_begin + steps[s].at_end) * at_start.row(c);
+      target += own.at_end * (lag > 0.0 ? shown.row(c) : to.row(c));
+      if (relative) target -= (own.at_begin + own.at_end) * at_start.row(c);
     }
     from.swap(to);
   }

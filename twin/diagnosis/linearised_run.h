@@ -108,7 +108,7 @@ class LinearisedRun {
   [[nodiscard]] Piece before_lag(ChannelReading const& channel, std::size_t step) const;
   /// The rows of one channel from its pieces, behind its lag.
   template <class Pieces>
-  [[nodiscard]] Eigen::VectorXd rows_of(Pieces const& pieces, double lag) const;
+  [[nodiscard]] Eigen::VectorXd rows_of(std::size_t channel, Pieces const& pieces, double lag) const;
   using ChannelByNode = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   [[nodiscard]] ChannelByNode weights() const;
 
