@@ -105,6 +105,9 @@ std::optional<FaultySensor> faulty_sensor(Machine const& machine, std::vector<Bi
       if (channel.displacement) continue;
       if (channel.values.array().isNaN().all())
         found[channel.name] = "shows nothing in a run";
+      else if (channel.dead_from)
+        found[channel.name] =
+            fmt::format("moves no more from {:.2f} h of {} on", *channel.dead_from / 3600.0, run.run->name);
       else if (auto const text = jump_text(run, channel.values); !text.empty() && !hangs_in_air(machine, channel.name))
         found.try_emplace(channel.name, text);
     }

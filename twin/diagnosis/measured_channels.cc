@@ -136,6 +136,7 @@ void bury_dead(std::vector<MeasuredChannel>& channels, Eigen::VectorXd const& ti
       remarks.push_back(
           fmt::format("'{}' is dead from {:.2f} h on: it moves no more", channel.name, time[from] / 3600));
       channel.values.tail(time.size() - from).setConstant(missing);
+      channel.dead_from = time[from];
     }
   }
 }

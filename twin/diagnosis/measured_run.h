@@ -23,6 +23,7 @@ struct MeasuredChannel {
   bool displacement = false;
   Eigen::VectorXd values;         ///< NaN: missing
   std::optional<double> still{};  ///< what it showed where all its readings were one value, and `values` are missing
+  std::optional<double> dead_from{};  ///< from when on it moved no more [s]; `values` are missing from there
 };
 
 /// What the machine may have been given instead where its inputs were not recorded, or late.

@@ -150,6 +150,16 @@ TEST(FaultySensor, IsOneThatShowsNothing) {
   EXPECT_EQ(sensor->what, "shows nothing in a run");
 }
 
+TEST(FaultySensor, IsOneThatMovesNoMore) {
+  MeasuredChannel died{"T1", false, warming()};
+  died.dead_from = 90.0 * 60.0;
+  died.values.tail(390).setConstant(std::numeric_limits<double>::quiet_NaN());
+  auto const sensor = found({died, {"T2", false, warming()}});
+  ASSERT_TRUE(sensor);
+  EXPECT_EQ(sensor->name, "T1");
+  EXPECT_EQ(sensor->what, "moves no more from 1.50 h of monday on");
+}
+
 TEST(FaultySensor, MayLeapWhereItHangsInTheAir) {
   EXPECT_FALSE(found({{"T1", false, warming()}, {"room", false, with_leaps(warming(), 6)}}));
 }

@@ -182,6 +182,8 @@ TEST(MeasuredRun, ASensorThatStopsIsDeadWhereOtherTablesHaveRowsToo) {
   data.inputs = {{"spindle.speed", "rad/s", {0.0}, {0.0}}, {"ambient.temperature", "K", {0.0}, {293.0}}};
   auto const run = measured_run(std::move(data), machine(), "two tables");
   EXPECT_THAT(run.remarks, Contains("'T1' is dead from 2.01 h on: it moves no more"));
+  EXPECT_EQ(run.channels[0].dead_from, run.time[241]);
+  EXPECT_FALSE(run.channels[1].dead_from);
   EXPECT_TRUE(run.channels[0].values.tail(361 - 241).array().isNaN().all());
   EXPECT_TRUE(std::isfinite(run.channels[0].values[239]));
   EXPECT_THAT(run.remarks, testing::Not(Contains(HasSubstr("'T2' is dead"))));
