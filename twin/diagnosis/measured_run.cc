@@ -101,12 +101,16 @@ MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string 
     run.remarks.push_back(fmt::format("it is a run of '{}', the machine file is '{}'", data.machine, machine.name));
   run.channels = channels_of(data, machine, run.remarks);
   add_courses(run, std::move(data), machine);
-  run.warm_start = warm_start(machine, run);
-  if (run.warm_start)
-    run.remarks.push_back(
-        fmt::format("it does not begin at rest with the room (first readings: {}); how warm each part was is estimated",
-                    run.warm_start->farthest));
+  run.begin_with(warm_start(machine, run));
   return run;
+}
+
+void MeasuredRun::begin_with(std::optional<WarmStart> warmth) {
+  warm_start = std::move(warmth);
+  if (warm_start)
+    remarks.push_back(
+        fmt::format("it does not begin at rest with the room (first readings: {}); how warm each part was is estimated",
+                    warm_start->farthest));
 }
 
 MeasuredData measured_data(output::Dataset const& dataset) {

@@ -48,6 +48,8 @@ struct MeasuredRun {
 
   /// One of the inputs at these times [SI]; empty where the course does not have it.
   [[nodiscard]] Eigen::VectorXd input(std::string_view name, Eigen::VectorXd const& times) const;
+  /// Says so in the remarks where there is any.
+  void begin_with(std::optional<WarmStart> warmth);
   /// What a channel, by its number, read where the run began [SI]; NaN where that has a past before any reading.
   [[nodiscard]] double first_reading(Eigen::Index channel) const;
 };

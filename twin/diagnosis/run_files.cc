@@ -1,5 +1,6 @@
 #include "twin/diagnosis/run_files.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,11 +12,17 @@ namespace fs = std::filesystem;
 
 std::vector<MeasuredRun> read_runs(RunFiles const& files, Machine const& machine, std::vector<std::string>& remarks) {
   std::vector<MeasuredRun> runs;
-  for (auto const& file : files) {
-    runs.push_back(read_measured_run(file, machine));
-    for (auto const& remark : runs.back().remarks) remarks.push_back(file.filename().string() + ": " + remark);
-  }
+  for (auto const& file : files) runs.push_back(read_measured_run(file, machine));
+  let_begin_alike(runs, machine);
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (auto const& remark : runs[r].remarks) remarks.push_back(files[r].filename().string() + ": " + remark);
   return runs;
+}
+
+void let_begin_alike(std::vector<MeasuredRun>& runs, Machine const& machine) {
+  if (std::none_of(runs.begin(), runs.end(), [](auto const& run) { return run.warm_start.has_value(); })) return;
+  for (auto& run : runs)
+    if (!run.warm_start) run.begin_with(warm_start(machine, run, true));
 }
 
 std::vector<BinnedRun> binned(std::vector<MeasuredRun> const& runs) {

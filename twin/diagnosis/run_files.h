@@ -16,6 +16,9 @@ using RunFiles = std::vector<std::filesystem::path>;
 [[nodiscard]] std::vector<MeasuredRun> read_runs(RunFiles const& files, Machine const& machine,
                                                  std::vector<std::string>& remarks);
 
+/// Where one of a machine's runs does not begin at rest, any may (warm_start.h).
+void let_begin_alike(std::vector<MeasuredRun>& runs, Machine const& machine);
+
 /// Each averaged to its fitting interval. `runs` must outlive the result.
 [[nodiscard]] std::vector<BinnedRun> binned(std::vector<MeasuredRun> const& runs);
 

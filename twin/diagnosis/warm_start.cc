@@ -190,16 +190,16 @@ MatrixXd WarmStart::fields_in(thermal::Network const& network) const {
   return result;
 }
 
-std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run) {
+std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run, bool another_does) {
   auto const& network = machine.network();
   if (network.nodes() > most_nodes) return {};
   auto const rest = at_rest(machine, run);
   auto const first = first_readings(machine, run, rest);
-  if (first.rise.size() < fewest_sensors || most_gain(first.rise) < evident_gain) return {};
+  if (first.rise.size() < fewest_sensors || most_gain(first.rise) < (another_does ? 0.0 : evident_gain)) return {};
   MatrixXd const F = root_of_inverse(conductances(machine, run, rest), network.signals());
   MatrixXd const shown = first.weights * F;
-  if (!is_evident(shown, first.rise)) return {};
-  double const root = likeliest(shown, first.rise).root;
+  auto const [root, gain] = likeliest(shown, first.rise);
+  if (another_does ? gain <= 0.0 : !is_evident(shown, first.rise)) return {};
   VectorXd const likely = root * shown.transpose() * covariance(root * shown).solve(first.rise);
   std::vector<Index> kept;
   for (Index k = 0; k < F.cols(); ++k)

@@ -37,8 +37,10 @@ struct WarmStart {
 };
 
 /// Nothing where a run has a past before its readings, or where its machine may have been at rest: unless some κ gains
-/// 11 of 2 ln of the likelihood over none, whichever sensor is left out. `run` has its course and channels.
-[[nodiscard]] std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run);
+/// 11 of 2 ln of the likelihood over none, whichever sensor is left out. Where another run of the machine does not
+/// begin at rest, any gain suffices. `run` has its course and channels.
+[[nodiscard]] std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run,
+                                                  bool another_does = false);
 
 /// Of every node where the run begins, most likely [K].
 [[nodiscard]] std::vector<double> start_of(Machine const& machine, MeasuredRun const& run);

@@ -1,11 +1,13 @@
 #include "twin/diagnosis/warm_start.h"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "thermal/integrate.h"
 #include "twin/diagnosis/diagnosis.h"
+#include "twin/diagnosis/run_files.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -91,6 +93,20 @@ TEST(WarmStart, AMachineAtRestHasNone) {
 TEST(WarmStart, NorDoesASensorThatIsWrong) {
   Machine const machine = Machine::build(star());
   EXPECT_FALSE(readings(machine, {0.1, 8.0, 0.0, -0.1}).warm_start);
+}
+
+/// What is not enough to be evident in one run is taken for what it looks like where another run shows it.
+TEST(WarmStart, RunsMayBeginAsAnotherDoes) {
+  Machine const machine = Machine::build(star());
+  std::vector<MeasuredRun> alone = {readings(machine, {0.0, 0.0, 0.8, 0.7}), readings(machine, {0.1, -0.1, 0.1, 0.0})};
+  let_begin_alike(alone, machine);
+  EXPECT_FALSE(alone[0].warm_start);
+  auto together = alone;
+  together.push_back(readings(machine, {7.0, 11.0, 5.0, 8.0}));
+  let_begin_alike(together, machine);
+  ASSERT_TRUE(together[0].warm_start);
+  EXPECT_THAT(together[0].remarks, testing::Contains(testing::HasSubstr("does not begin at rest")));
+  EXPECT_FALSE(together[1].warm_start) << "nor does one that is at rest";
 }
 
 TEST(WarmStart, AMassThatIsAddedIsAsWarmAsItsBody) {
