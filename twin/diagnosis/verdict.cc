@@ -23,9 +23,10 @@ bool errs(Diagnosis const& diagnosis, std::string const& channel) {
   return own >= most_of_a_fault * models::upper_median(std::move(others));
 }
 
+/// A film on a lump may be anything above what is plausible, and a broken sensor do anything.
 bool stands_in(Diagnosis const& diagnosis, Finding const& finding) {
-  if (finding.is_at_end() && !finding.at_least) return true;  // a film on a lump may be anything above
-  return finding.hypothesis.is_about("sensor") && errs(diagnosis, finding.hypothesis.body);
+  if (finding.hypothesis.is_about("sensor")) return errs(diagnosis, finding.hypothesis.body);
+  return finding.is_at_end() && !finding.at_least;
 }
 
 /// Whether all that may be one of the things does.

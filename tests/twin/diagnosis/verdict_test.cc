@@ -66,6 +66,10 @@ TEST(Verdict, IsASensorOnlyIfItsFaultIsAllThatItErrsBy) {
   EXPECT_EQ(name_of(verdict_on(diagnosis, false)), "sensor");
 }
 
+TEST(Verdict, IsASensorHoweverLargeItsFault) {
+  EXPECT_EQ(verdict_of({{{finding_of("sensor_drift", "T7", -1.25)}}}), "sensor");
+}
+
 TEST(Verdict, IsRefutedByRunsHeldOutThatOutweighTheOthers) {
   Diagnosis diagnosis;
   diagnosis.explanations = {heat, growth};
