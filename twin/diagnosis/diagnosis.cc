@@ -21,6 +21,16 @@ constexpr int fine = 48;  // knots of a scan: half an hour tells from another bo
 // What heat of a free course needs where no effect was found, of what an effect does: it follows what the form of a
 // machine gets wrong, too.
 constexpr double free_heat_alone = 2.5;
+// What it needs beside effects on heat, of the strongest one's evidence, to contradict them: less is left of an effect
+// whose course is not quite the catalogue's.
+constexpr double free_heat_beside = 0.1;
+
+/// Of the best place; nothing where none was tried.
+double gain_of(std::vector<FreeHeat> const& scan) { return scan.empty() ? 0.0 : scan[0].gain; }
+
+bool is_about_heat(Hypothesis const& effect) {
+  return effect.is_about("source") || effect.is_about("film") || effect.is_about("boundary");
+}
 
 class Diagnostician {
  public:
@@ -51,6 +61,7 @@ class Diagnostician {
   void tell_where(HeatAt const& heat);
   void propose();
   [[nodiscard]] Explanation const* unsettled() const;
+  [[nodiscard]] double strongest_on_heat() const;
   [[nodiscard]] bool is_heat_left() const;
   [[nodiscard]] std::optional<std::string> first_warmed() const;
 
@@ -89,8 +100,9 @@ Diagnosis Diagnostician::operator()() {
   if (!d.faulty_sensor && d.effects.empty() && !is_heat_left())
     d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
   d.verdict = verdict_on(d, is_heat_left());
+  d.heat_beside = gain_of(d.left) > search_.evident_beside() && d.verdict != Diagnosis::Verdict::none_known;
   if (d.verdict == Diagnosis::Verdict::none_known) {
-    bool const scanned = !d.scan.empty() && d.scan[0].gain > search_.evident_beside();
+    bool const scanned = gain_of(d.scan) > search_.evident_beside();
     if (auto const body = first_warmed(); body && !is_heat_left())
       d.unknown_heat = heat_of_effects(amended, d.amended, *body);
     else if (is_heat_left() || scanned)
@@ -181,15 +193,18 @@ double Diagnostician::vote() const {
   return costs[0] - costs[1];
 }
 
-/// Heat of free course is still evident, beside effects or where none was.
-bool Diagnostician::is_heat_left() const {
-  bool const alone = diagnosis_.explanations.empty();
-  auto const& left = alone ? diagnosis_.scan : diagnosis_.left;
-  return !left.empty() && left[0].gain > (alone ? free_heat_alone : 1.0) * search_.evident_beside();
+double Diagnostician::strongest_on_heat() const {
+  double strongest = 0.0;
+  for (auto const& explanation : diagnosis_.explanations)
+    if (auto const& best = explanation.alternatives[0]; is_about_heat(best.hypothesis))
+      strongest = std::max(strongest, best.strength);
+  return strongest;
 }
 
-bool is_about_heat(Hypothesis const& effect) {
-  return effect.is_about("source") || effect.is_about("film") || effect.is_about("boundary");
+/// Heat of free course that no name accounts for: too evident for those that were found, or where there are none.
+bool Diagnostician::is_heat_left() const {
+  if (diagnosis_.explanations.empty()) return gain_of(diagnosis_.scan) > free_heat_alone * search_.evident_beside();
+  return gain_of(diagnosis_.left) > std::max(search_.evident_beside(), free_heat_beside * strongest_on_heat());
 }
 
 /// By the first effect that is about heat; what acts on the machine as a whole warms no one body.

@@ -38,6 +38,7 @@ struct Diagnosis {
   std::optional<FaultySensor> faulty_sensor;
   std::vector<FreeHeat> scan;          ///< before any effect was added, best first
   std::vector<FreeHeat> left;          ///< with the effects, best first
+  bool heat_beside = false;            ///< the best of them is evident, and yet too little to contradict the effects
   std::vector<Hypothesis> hypotheses;  ///< those that were tried, once for each amplitude about which they were
   Fit calibrated;                      ///< without any effect
   Fit amended;                         ///< with those found, the best alternative of each

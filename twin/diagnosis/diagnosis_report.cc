@@ -250,6 +250,12 @@ std::string words_of_air(FreeHeat const& air) {
                      least / per_kelvin, most / per_kelvin);
 }
 
+/// "5.1 ± 6.9 W on average into bed, of the air".
+std::string words_of_place(FreeHeat const& heat) {
+  return fmt::format("{} on average into {}{}", words_of(heat.mean_of_all()), heat.site.body,
+                     heat.site.is_air() ? ", of the air" : "");
+}
+
 std::string words_of_heat(Diagnosis const& diagnosis) {
   if (!diagnosis.unknown_heat) return "";
   auto const& all = *diagnosis.unknown_heat;
@@ -266,10 +272,16 @@ std::string words_of_heat(Diagnosis const& diagnosis) {
                         by_speed.swing);
   }
   if (!diagnosis.left.empty())
-    text += fmt::format("Beside what stands in for it, still: {} on average into {}{}.\n",
-                        words_of(diagnosis.left[0].mean_of_all()), diagnosis.left[0].site.body,
-                        diagnosis.left[0].site.is_air() ? ", of the air" : "");
+    text += "Beside what stands in for it, still: " + words_of_place(diagnosis.left[0]) + ".\n";
   return text + "\n";
+}
+
+std::string words_of_heat_beside(Diagnosis const& diagnosis) {
+  if (!diagnosis.heat_beside) return "";
+  return fmt::format(
+      "Heat of free course is left, {}, 2 ln evidence {:.0f}: an effect whose course is not quite the catalogue's "
+      "leaves as much, or the form of the machine.\n\n",
+      words_of_place(diagnosis.left[0]), diagnosis.left[0].gain);
 }
 
 /// Numbers that no longer are what the file says: "bearing.front.grease_factor = 2.04 (5.5)".
@@ -292,6 +304,24 @@ std::string words_of_numbers(Diagnosis const& diagnosis) {
   return fmt::format(
       "Numbers that had to leave the file, by more than {:g} of their prior deviations: {}. Is the file right "
       "there?\n\n",
+      far_from_file, fmt::join(far, ", "));
+}
+
+/// "offset of T14 = -1.20 K (4.0)".
+std::string words_of_offsets(Diagnosis const& diagnosis) {
+  std::vector<std::string> far;
+  for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
+    auto const& unknown = diagnosis.unknowns[u];
+    bool const of_sensor = unknown.kind == Unknown::Kind::offset && unknown.run < 0;
+    double const offset = diagnosis.amended.x[Eigen::Index(u)], departure = std::abs(offset) / unknown.deviation;
+    if (of_sensor && departure >= far_from_file)
+      far.push_back(fmt::format("{} = {:.2f} K ({:.1f})", unknown.name, offset, departure));
+  }
+  if (far.empty()) return "";
+  return fmt::format(
+      "Larger than is usual, by more than {:g} of their prior deviations: {}. Did what they touch begin the runs as "
+      "warm "
+      "as the air?\n\n",
       far_from_file, fmt::join(far, ", "));
 }
 
@@ -407,7 +437,8 @@ std::string report_json(DiagnosisReport const& report) {
                                  {"prior", diagnosis.unknowns[u].deviation}});
   }
   json["cautions"] = Json::array();
-  for (auto const& words : {words_of_numbers(diagnosis), words_of_loop(diagnosis), words_of_vote(diagnosis)})
+  for (auto const& words : {words_of_numbers(diagnosis), words_of_offsets(diagnosis), words_of_loop(diagnosis),
+                            words_of_heat_beside(diagnosis), words_of_vote(diagnosis)})
     if (!words.empty()) json["cautions"].push_back(words.substr(0, words.find_last_not_of('\n') + 1));
   json["doubts"] = doubts_json(report.doubts);
   json["remarks"] = report.remarks;
@@ -421,10 +452,10 @@ std::string report_text(DiagnosisReport const& report) {
   text += words_of_silence(diagnosis);
   if (auto const loudest = loud_channels(diagnosis); !loudest.empty())
     text += fmt::format("More error than expected was taken for noise at {}.\n\n", loudest);
-  text += words_of_numbers(diagnosis) + words_of_loop(diagnosis);
+  text += words_of_numbers(diagnosis) + words_of_offsets(diagnosis) + words_of_loop(diagnosis);
   text += words_of_proposal(diagnosis);
   if (auto const& sensor = diagnosis.faulty_sensor) text += fmt::format("{} {}.\n\n", sensor->name, sensor->what);
-  text += words_of_vote(diagnosis) + words_of_heat(diagnosis);
+  text += words_of_heat_beside(diagnosis) + words_of_vote(diagnosis) + words_of_heat(diagnosis);
   auto const& shown = report.held_out.empty() ? report.fitted : report.held_out;
   std::string const data = report.held_out.empty() ? "the fitted" : "unseen";
   text += words_of_gain(diagnosis, shown, data);

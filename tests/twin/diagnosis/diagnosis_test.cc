@@ -251,8 +251,8 @@ TEST(Diagnosis, KnowsNoneWhereTheRoomIsNotWhatItsRecordSays) {
   EXPECT_THAT(report_text(report), testing::HasSubstr("the air at the machine"));
 }
 
-/// Heat that comes and goes by a clock of its own: no effect has that course, and none stands in for it.
-TEST(Diagnosis, KnowsNoneWhereHeatFollowsAClockOfItsOwn) {
+/// Of a machine with 120 W in its head that follow a clock of their own: all of it for 3.2 of 12 h, a share else.
+Diagnosis diagnosed_by_the_clock(std::string const& else_on) {
   auto experiment = tests::experiment(R"(
     duration = "12 h"
     ambient.mean = "22 degC"
@@ -260,14 +260,9 @@ TEST(Diagnosis, KnowsNoneWhereHeatFollowsAClockOfItsOwn) {
     blocks = [{duration = "4 h", speed = "3000 rpm"}, {duration = "3 h", speed = "0 rpm"},
               {duration = "5 h", speed = "5000 rpm"}])");
   experiment.inputs.push_back({"hidden.on", {}});
-  for (auto const& [hours, on] : {std::pair(1.0, "0 %"),
-                                  {1.5, "100 %"},
-                                  {2.3, "0 %"},
-                                  {0.7, "100 %"},
-                                  {3.0, "0 %"},
-                                  {1.0, "100 %"},
-                                  {2.5, "0 %"}})
-    experiment.inputs.back().blocks.push_back({3600.0 * hours, on});
+  double const hours[] = {1.0, 1.5, 2.3, 0.7, 3.0, 1.0, 2.5};
+  for (std::size_t i = 0; i < std::size(hours); ++i)
+    experiment.inputs.back().blocks.push_back({3600.0 * hours[i], i % 2 == 0 ? else_on : "100 %"});
   Machine const truth = Machine::build(tests::with_table(tests::v450(), R"(
     [[heat]]
     name = "hidden"
@@ -278,12 +273,30 @@ TEST(Diagnosis, KnowsNoneWhereHeatFollowsAClockOfItsOwn) {
   std::erase_if(dataset.inputs, [](auto const& input) { return input.name == "hidden.on"; });
   auto measured = measured_run(dataset, Machine::build(tests::v450()), "own clock");
   tests::add_noise(measured, 0.02, 0.05e-6, 7);
-  auto const diagnosis = diagnose(tests::v450(), {bin(measured, 300.0)}, {});
+  return diagnose(tests::v450(), {bin(measured, 300.0)}, {});
+}
+
+/// Heat that comes and goes by a clock of its own: no effect has that course, and none stands in for it.
+TEST(Diagnosis, KnowsNoneWhereHeatFollowsAClockOfItsOwn) {
+  auto const diagnosis = diagnosed_by_the_clock("0 %");
   EXPECT_EQ(name_of(diagnosis.verdict), "none_known");
+  EXPECT_FALSE(diagnosis.heat_beside);
   ASSERT_TRUE(diagnosis.unknown_heat);
   EXPECT_EQ(diagnosis.unknown_heat->site.body, "head_front");
   EXPECT_GT(diagnosis.unknown_heat_by_speed.swing, 25.0);  // of 120 W that are on for 3.2 of 12 h: 53 W
   EXPECT_EQ(diagnosis.where[0].first, "head_front");
+}
+
+/// Heat that is there whenever the machine is on, and swings a little, is what the catalogue has, and so it is told.
+TEST(Diagnosis, NamesHeatThatIsNotQuiteConstantAndTellsWhatIsLeft) {
+  auto const diagnosis = diagnosed_by_the_clock("86 %");
+  EXPECT_EQ(name_of(diagnosis.verdict), "effect");
+  ASSERT_EQ(diagnosis.effects.size(), 1);
+  EXPECT_EQ(diagnosis.effects[0].label(), "heat at head_front");
+  EXPECT_TRUE(diagnosis.heat_beside);
+  DiagnosisReport report;
+  report.diagnosis = diagnosis;
+  EXPECT_THAT(report_text(report), testing::HasSubstr("Heat of free course is left, "));
 }
 
 /// A bearing that rubs four times as much as its file says is no effect, but is told.
