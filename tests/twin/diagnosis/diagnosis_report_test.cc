@@ -67,6 +67,19 @@ TEST(DiagnosisReport, SilenceWithNumbersFarFromTheFileIsTold) {
   EXPECT_THAT(report_text(report), HasSubstr("motor_loss.stator.eddy = 135 W (6.0)"));
 }
 
+/// A base that soil keeps cold reads like two sensors that are off; a probe's zero is what it is.
+TEST(DiagnosisReport, TellsOffsetsThatNoGoodSensorHas) {
+  auto report = heat_in_the_bed();
+  auto& diagnosis = report.diagnosis;
+  diagnosis.unknowns = {{.kind = Unknown::Kind::offset, .name = "offset of T14", .deviation = 0.3},
+                        {.kind = Unknown::Kind::offset, .name = "offset of T15", .deviation = 0.3},
+                        {.kind = Unknown::Kind::offset, .name = "zero of E_Z, run 1", .deviation = 1e-6, .run = 0}};
+  diagnosis.amended.covariance = 1e-4 * Eigen::MatrixXd::Identity(3, 3);
+  diagnosis.written.x = diagnosis.amended.x = Eigen::Vector3d(-1.2, 0.8, 20e-6);
+  EXPECT_THAT(report_text(report), AllOf(HasSubstr("prior deviations: offset of T14 = -1.20 K (4.0). Did what"),
+                                         Not(HasSubstr("E_Z, run 1"))));
+}
+
 /// Beside something that was found, agreement in every part would read like a contradiction.
 TEST(DiagnosisReport, SaysThatAFindingMayShowInAllTogetherOnly) {
   auto report = heat_in_the_bed();
