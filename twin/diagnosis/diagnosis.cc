@@ -11,6 +11,7 @@
 #include "twin/diagnosis/excitation.h"
 #include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/seen_form.h"
+#include "twin/diagnosis/start.h"
 #include "twin/diagnosis/verdict.h"
 #include "twin/parallel.h"
 
@@ -22,7 +23,7 @@ constexpr int fine = 48;  // knots of a scan: half an hour tells from another bo
 // machine gets wrong, too.
 constexpr double free_heat_alone = 2.5;
 // What it needs beside effects on heat, of the strongest one's evidence, to contradict them: less is left of an effect
-// whose course is not quite the catalogue's.
+// whose course is not quite the catalogue's. Weights of a machine without drawings leave little of any heat.
 constexpr double free_heat_beside = 0.1;
 
 /// Of the best place; nothing where none was tried.
@@ -204,7 +205,8 @@ double Diagnostician::strongest_on_heat() const {
 /// Heat of free course that no name accounts for: too evident for those that were found, or where there are none.
 bool Diagnostician::is_heat_left() const {
   if (diagnosis_.explanations.empty()) return gain_of(diagnosis_.scan) > free_heat_alone * search_.evident_beside();
-  return gain_of(diagnosis_.left) > std::max(search_.evident_beside(), free_heat_beside * strongest_on_heat());
+  double const share = has_drawings(search_.plain().numbers()) ? free_heat_beside : 0.0;
+  return gain_of(diagnosis_.left) > std::max(search_.evident_beside(), share * strongest_on_heat());
 }
 
 /// By the first effect that is about heat; what acts on the machine as a whole warms no one body.

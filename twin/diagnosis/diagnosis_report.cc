@@ -319,9 +319,8 @@ std::string words_of_offsets(Diagnosis const& diagnosis) {
   }
   if (far.empty()) return "";
   return fmt::format(
-      "Larger than is usual, by more than {:g} of their prior deviations: {}. Did what they touch begin the runs as "
-      "warm "
-      "as the air?\n\n",
+      "Larger than is usual, by more than {:g} of their prior deviations: {}. Was what they touch as warm as the air "
+      "when the runs began?\n\n",
       far_from_file, fmt::join(far, ", "));
 }
 

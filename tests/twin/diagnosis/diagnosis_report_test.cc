@@ -76,7 +76,7 @@ TEST(DiagnosisReport, TellsOffsetsThatNoGoodSensorHas) {
                         {.kind = Unknown::Kind::offset, .name = "zero of E_Z, run 1", .deviation = 1e-6, .run = 0}};
   diagnosis.amended.covariance = 1e-4 * Eigen::MatrixXd::Identity(3, 3);
   diagnosis.written.x = diagnosis.amended.x = Eigen::Vector3d(-1.2, 0.8, 20e-6);
-  EXPECT_THAT(report_text(report), AllOf(HasSubstr("prior deviations: offset of T14 = -1.20 K (4.0). Did what"),
+  EXPECT_THAT(report_text(report), AllOf(HasSubstr("prior deviations: offset of T14 = -1.20 K (4.0). Was what"),
                                          Not(HasSubstr("E_Z, run 1"))));
 }
 
