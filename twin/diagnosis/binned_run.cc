@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <utility>
 #include <vector>
 
 #include "scenarios/course.h"
@@ -65,7 +63,7 @@ void add_steps(BinnedRun& binned, Stretch const& row, int index, double first_st
 }
 
 /// Of a channel that was read at these times of a row, which begins with that step.
-void add_readings(std::vector<BinStep> const& steps, std::size_t step, std::vector<double> const& times,
+void add_readings(std::vector<BinStep> const& steps, std::size_t step, Eigen::VectorXd const& times,
                   std::vector<StepReadings>& readings) {
   double const share = 1.0 / double(times.size());
   for (double const t : times) {
@@ -80,10 +78,6 @@ void add_readings(std::vector<BinStep> const& steps, std::size_t step, std::vect
     here.samples.push_back(t - steps[step].begin);
     here.share = share;
   }
-}
-
-double average(std::vector<double> const& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
 }  // namespace
@@ -104,23 +98,18 @@ BinnedRun bin(MeasuredRun const& run, double interval, double first_step) {
     std::vector<Eigen::Index> samples;
     for (; sample < run.time.size() && (run.time[sample] < stretch.end || row + 1 == count); ++sample)
       if (!is_doubtful(run, run.time[sample])) samples.push_back(sample);
-    std::vector<double> times;
-    for (auto const s : samples) times.push_back(run.time[s]);
-    if (times.empty()) times.push_back(stretch.begin);  // between two samples: the row has no data
-    binned.time[row] = average(times);
+    Eigen::VectorXd times = run.time(samples);
+    if (samples.empty()) times.setConstant(1, stretch.begin);  // between two samples: the row has no data
+    binned.time[row] = times.mean();
     for (Eigen::Index c = 0; c < channels; ++c) {
-      auto const& all = run.channels[std::size_t(c)].values;
-      std::vector<double> own, values;
-      for (auto const s : samples) {
-        if (std::isnan(all[s])) continue;
-        own.push_back(run.time[s]);
-        values.push_back(all[s]);
-      }
+      auto const& values = run.channels[std::size_t(c)].values;
+      auto own = samples;
+      std::erase_if(own, [&](Eigen::Index s) { return std::isnan(values[s]); });
       auto& readings = binned.readings[std::size_t(c)];
       readings.resize(binned.steps.size());
-      add_readings(binned.steps, first_of_row, own.empty() ? times : own, readings);
-      binned.values(row, c) = values.empty() ? std::numeric_limits<double>::quiet_NaN() : average(values);
-      binned.samples(row, c) = double(values.size());
+      add_readings(binned.steps, first_of_row, own.empty() ? times : run.time(own), readings);
+      binned.values(row, c) = own.empty() ? std::numeric_limits<double>::quiet_NaN() : values(own).mean();
+      binned.samples(row, c) = double(own.size());
     }
   }
   return binned;
