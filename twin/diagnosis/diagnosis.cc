@@ -95,6 +95,7 @@ Diagnosis Diagnostician::operator()() {
   auto const& amended = search_.estimation();
   if (!held_out_.empty() && !d.effects.empty()) d.vote = vote();
   d.visible = search_.visible();
+  d.could_hide = search_.detection_limits();
   d.noise_heard = search_.noise_heard();
   if (!d.effects.empty()) d.left = scan_for_free_heat(amended, d.amended);
   d.faulty_sensor = faulty_sensor(machine_, runs_);

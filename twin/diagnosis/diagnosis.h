@@ -55,6 +55,7 @@ struct Diagnosis {
   /// Runs held out speak against the effects by more than the fitted ones speak for them.
   [[nodiscard]] bool is_refuted() const;
   std::size_t visible = 0;  ///< hypotheses that would have been seen at half of their largest amplitude
+  std::vector<DetectionLimit> could_hide;  ///< what these data could not have shown, beside what was found
 };
 
 [[nodiscard]] std::string name_of(Diagnosis::Verdict verdict);

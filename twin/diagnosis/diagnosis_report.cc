@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "output/json_text.h"
@@ -17,7 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_places = 6, most_keys = 3;
+constexpr std::size_t most_places = 6, most_keys = 3, most_hidden = 6;
+constexpr double worth_telling = 1.0;  // of what could hide [um, 0.1 K]
 constexpr double loud = 4.0;
 constexpr double large_share_of_growth = 0.2;
 
@@ -53,6 +55,20 @@ Json json_of(Finding const& finding, std::size_t group) {
           {"keys", keys},
           {"weight", finding.weight},
           {"strength", finding.strength}};
+}
+
+Json json_of(DetectionLimit const& limit) {
+  auto const& hypothesis = limit.hypothesis;
+  return {{"effect", hypothesis.effect->name},
+          {"site", hypothesis.site},
+          {"body", hypothesis.body},
+          {"parameter", hypothesis.trial->amplitude},
+          {"amplitude", limit.amplitude},
+          {"unit", thermal::unit_of(hypothesis.dimension())},
+          {"any_size", limit.any_size},
+          {"channel", limit.channel},
+          {"swing", in_unit(limit.unit, limit.swing)},
+          {"swing_unit", limit.unit}};
 }
 
 /// "40.0 ± 6.1 W", with the half of its 95 % interval.
@@ -216,6 +232,36 @@ std::string words_of_proposal(Diagnosis const& diagnosis) {
   return text + "\n\n";
 }
 
+/// Of each effect the site at which it moves most without being named.
+std::vector<DetectionLimit const*> largest_that_could_hide(Diagnosis const& diagnosis) {
+  std::vector<DetectionLimit const*> largest;
+  std::set<std::string> told;
+  for (auto const& limit : diagnosis.could_hide) {
+    bool const counts = in_unit(limit.unit, limit.swing) >= worth_telling * (limit.unit == "K" ? 0.1 : 1.0);
+    if (counts && largest.size() < most_hidden && told.insert(limit.hypothesis.effect->name).second)
+      largest.push_back(&limit);
+  }
+  return largest;
+}
+
+std::string words_of_what_could_hide(Diagnosis const& diagnosis) {
+  auto const largest = largest_that_could_hide(diagnosis);
+  if (largest.empty()) return "";
+  std::string text =
+      "What could hide, as calibration takes it for numbers of the file (19 of 20 such records show more):\n";
+  for (auto const* limit : largest) {
+    auto const& hypothesis = limit->hypothesis;
+    text += fmt::format(
+        "  {} at {}: {}, {:.1f} {} of {} in these runs\n", hypothesis.effect->name, hypothesis.site,
+        limit->any_size
+            ? "of any plausible size"
+            : fmt::format("{} up to {}", hypothesis.trial->amplitude,
+                          written_value(limit->amplitude, readable_unit(limit->amplitude, hypothesis.dimension()), 2)),
+        in_unit(limit->unit, limit->swing), limit->unit, limit->channel);
+  }
+  return text + "\n";
+}
+
 /// What comes nearest, and what the data could not have shown.
 std::string words_of_silence(Diagnosis const& diagnosis) {
   if (diagnosis.verdict != Diagnosis::Verdict::nothing) return "";
@@ -224,10 +270,12 @@ std::string words_of_silence(Diagnosis const& diagnosis) {
     text += fmt::format("Suspected, of 2 ln evidence {:.1f} where {:.1f} is asked for:\n{}\n",
                         suspicion->explanation.alternatives[0].strength, suspicion->asked,
                         words_of(suspicion->explanation));
-  return text + fmt::format(
-                    "Of {} shapes of effects at their sites, {} would have been seen at half of their largest "
-                    "size.\n\n",
-                    diagnosis.hypotheses.size(), diagnosis.visible);
+  return text +
+         fmt::format(
+             "Of {} shapes of effects at their sites, {} would have been seen at half of their largest "
+             "size.\n\n",
+             diagnosis.hypotheses.size(), diagnosis.visible) +
+         words_of_what_could_hide(diagnosis);
 }
 
 /// Where they speak against what was found.
@@ -406,6 +454,8 @@ std::string report_json(DiagnosisReport const& report) {
   if (diagnosis.vote) json["held_out_vote"] = *diagnosis.vote;
   json["tried"] = diagnosis.hypotheses.size();
   json["visible"] = diagnosis.visible;
+  json["could_hide"] = Json::array();
+  for (auto const& limit : diagnosis.could_hide) json["could_hide"].push_back(json_of(limit));
   for (auto const& [channel, times] : diagnosis.noise_heard) json["noise_heard"][channel] = times;
   json["where"] = Json::array();
   for (auto const& [body, regime] : diagnosis.where) json["where"].push_back({{"body", body}, {"regime", regime}});

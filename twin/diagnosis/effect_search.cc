@@ -68,7 +68,8 @@ Eigen::VectorXd shorter(Eigen::VectorXd const& x, Eigen::Index gone) {
 /// What may join the effects found, or stand in the place of one of them.
 struct EffectSearch::Candidates {
   std::vector<Hypothesis> hypotheses;
-  Eigen::MatrixXd columns;  ///< their signatures, whitened
+  Eigen::MatrixXd columns;          ///< their signatures, whitened
+  std::vector<Eigen::Index> among;  ///< the columns of `signatures_` that these are
 };
 
 /// A fit with one effect more.
@@ -227,6 +228,12 @@ Eigen::Index EffectSearch::place_of(std::size_t effect) const {
   return Eigen::Index(estimation_->unknowns().size() - estimation_->effects().size() + effect);
 }
 
+std::vector<DetectionLimit> EffectSearch::detection_limits() const {
+  auto const others = candidates();
+  return twin::detection_limits(*estimation_, fit_, others.hypotheses, signatures_(Eigen::all, others.among),
+                                Remainder(fit_, others.columns).scores(others.hypotheses), asked_of_name());
+}
+
 /// All that is not there yet, in whatever shape. What they would stand in the place of is the last.
 EffectSearch::Candidates EffectSearch::candidates(std::optional<std::size_t> in_place_of) const {
   auto const& effects = estimation_->effects();
@@ -237,8 +244,8 @@ EffectSearch::Candidates EffectSearch::candidates(std::optional<std::size_t> in_
         return true;
     return false;
   };
-  std::vector<Eigen::Index> open;
   Candidates result;
+  auto& open = result.among;
   for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
     if (is_there(hypotheses_[k])) continue;
     open.push_back(Eigen::Index(k));
@@ -284,7 +291,7 @@ std::vector<EffectSearch::Refit> EffectSearch::instead_of(std::size_t effect, do
   auto const own_place = place_of(effect);
   Hypothesis const& own = estimation_->effects()[effect];
   Fit const about = without(fit_, own_place);
-  auto const [tried, columns] = candidates(effect);
+  auto const [tried, columns, among] = candidates(effect);
   Remainder const remainder(about, columns);
   auto const scores = remainder.scores(tried);
   Eigen::VectorXd const alike = remainder.cosines(columns.cols() - 1);

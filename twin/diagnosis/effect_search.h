@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "twin/diagnosis/detection_limit.h"
 #include "twin/diagnosis/estimation.h"
 #include "twin/diagnosis/finding.h"
 #include "twin/diagnosis/score.h"
@@ -71,6 +72,8 @@ class EffectSearch {
   [[nodiscard]] std::vector<std::pair<std::string, double>> noise_heard() const;
   /// How many hypotheses would be seen at half of their largest amplitude, as far as `--plan` wants it.
   [[nodiscard]] std::size_t visible() const { return visible_; }
+  /// Of all that was not found, beside what was; what moves the tool most first.
+  [[nodiscard]] std::vector<DetectionLimit> detection_limits() const;
 
  private:
   struct Refit;

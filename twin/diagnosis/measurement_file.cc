@@ -132,6 +132,19 @@ scenarios::SampledInput make_constant(ConstantInput const& constant) {
   return input;
 }
 
+/// `value = 0.88` is "0.88": what has no unit needs no quotes.
+Value with_constants_as_text(Value document) {
+  Value* constants = document.find("constant");
+  if (!constants || !constants->is_list()) return document;
+  for (auto& table : std::get<Value::List>(constants->content)) {
+    Value* value = table.is_table() ? table.find("value") : nullptr;
+    if (value &&
+        (std::holds_alternative<double>(value->content) || std::holds_alternative<std::int64_t>(value->content)))
+      value->content = value->text();
+  }
+  return document;
+}
+
 /// The tables [[table.input]] and the like.
 Value::List const& tables_in(Value const& table, std::string const& kind) {
   static Value::List const none;
@@ -204,7 +217,7 @@ void check_names(MeasuredData const& data) {
 }  // namespace
 
 MeasuredData read_measurement_file(std::filesystem::path const& path) {
-  Value const document = read_toml(path);
+  Value const document = with_constants_as_text(read_toml(path));
   MeasurementFile file;
   read_fields(document, file);
   check_temperatures(document, list_fields<MeasurementFile>());

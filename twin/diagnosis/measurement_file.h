@@ -71,7 +71,7 @@ struct ConstantInput {
   template <class Fields>
   static void fields(Fields& f) {
     f.name("channel", &ConstantInput::channel, "input channel");
-    f.name("value", &ConstantInput::value, "number with unit, for example \"18 degC\"");
+    f.name("value", &ConstantInput::value, "number with its unit, if it has one: \"18 degC\", 0.88");
   }
 };
 

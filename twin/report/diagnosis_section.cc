@@ -16,28 +16,34 @@ namespace {
 
 using output::Json;
 
-/// "-0.892 um (-1.19 um to -0.595 um)", to three digits, in the unit in which people say the amplitude.
-std::string amplitude_text(Json const& finding, Effect const& effect) {
-  auto const parameter = std::find_if(effect.parameters.begin(), effect.parameters.end(),
-                                      [&](auto const& p) { return p.key == finding["parameter"]; });
-  auto const amplitude = finding["amplitude"].get<double>();
-  if (parameter == effect.parameters.end())
-    return fmt::format("{:.4g} {}", amplitude, finding["unit"].get<std::string>());
-  std::string const unit = readable_unit(amplitude, parameter->dimension);
-  auto const text = [&](char const* key) { return written_value(finding[key].get<double>(), unit, 3); };
-  return fmt::format("{} ({} to {})", text("amplitude"), text("low"), text("high"));
-}
-
-void explain(Json& finding) {
+Effect const& effect_of(Json const& finding) {
   auto const& catalogue = effect_catalogue();
   auto const entry = std::find_if(catalogue.begin(), catalogue.end(),
                                   [&](auto const& effect) { return effect.name == finding["effect"]; });
   if (entry == catalogue.end())
     throw thermal::InputError(
         fmt::format("the effect '{}' is not in the catalogue of this program", finding["effect"].get<std::string>()));
-  finding["meaning"] = entry->meaning;
-  finding["separated_by"] = entry->separated_by;
-  finding["text"] = amplitude_text(finding, *entry);
+  return *entry;
+}
+
+/// "-0.892 um", "-1.19 um", "-0.595 um": these keys of a finding in the unit in which people say its amplitude.
+std::vector<std::string> amplitude_texts(Json const& finding, std::vector<std::string> const& keys, int digits) {
+  auto const& parameters = effect_of(finding).parameters;
+  auto const parameter =
+      std::find_if(parameters.begin(), parameters.end(), [&](auto const& p) { return p.key == finding["parameter"]; });
+  std::string unit = finding["unit"].get<std::string>();
+  if (parameter != parameters.end()) unit = readable_unit(finding["amplitude"].get<double>(), parameter->dimension);
+  std::vector<std::string> texts;
+  for (auto const& key : keys) texts.push_back(written_value(finding[key].get<double>(), unit, digits));
+  return texts;
+}
+
+void explain(Json& finding) {
+  auto const& effect = effect_of(finding);
+  finding["meaning"] = effect.meaning;
+  finding["separated_by"] = effect.separated_by;
+  auto const texts = amplitude_texts(finding, {"amplitude", "low", "high"}, 3);
+  finding["text"] = fmt::format("{} ({} to {})", texts[0], texts[1], texts[2]);
 }
 
 std::string name_of(Json const& finding) {
@@ -93,6 +99,8 @@ Json diagnosis_json(Json diagnosis, std::string const& name) {
   for (auto& finding : diagnosis["effects"]) explain(finding);
   if (diagnosis.contains("suspicion"))
     for (auto& finding : diagnosis["suspicion"]["effects"]) explain(finding);
+  if (diagnosis.contains("could_hide"))
+    for (auto& limit : diagnosis["could_hide"]) limit["text"] = amplitude_texts(limit, {"amplitude"}, 2)[0];
   if (diagnosis.contains("cautions")) {
     Json remarks = diagnosis["cautions"];
     for (auto const& remark : diagnosis["remarks"]) remarks.push_back(remark);

@@ -136,6 +136,20 @@ export interface Disagreement {
   significant: boolean;
 }
 
+/** How large an effect at a site may be without being named, and how much it moves the channel that it moves most. */
+export interface DetectionLimit {
+  effect: string;
+  site: string;
+  parameter: string;
+  amplitude: number;
+  unit: string;
+  any_size: boolean;
+  text: string;
+  channel: string;
+  swing: number;
+  swing_unit: string;
+}
+
 export interface DiagnosisSection {
   kind: 'diagnosis';
   name: string;
@@ -144,6 +158,8 @@ export interface DiagnosisSection {
   effects: Finding[];
   /** Of nothing evident: what has half or more of the evidence that is asked for. */
   suspicion?: {asked: number; effects: Finding[]};
+  /** What moves most first; absent in files of earlier versions. */
+  could_hide?: DetectionLimit[];
   heat?: FreeHeat;
   where: {body: string; regime: string}[];
   gap: {before: number; after: number};

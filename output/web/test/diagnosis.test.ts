@@ -33,7 +33,7 @@ testWhole('diagnosis', 'dead');
 
 /** What `diagnose --json` printed, as far as its page shows it as it is. */
 type Diagnosis = Required<Pick<DiagnosisSection,
-  'verdict' | 'effects' | 'gap' | 'gaps' | 'disagreement' | 'unaccounted_heat' | 'experiment' | 'estimates'>>;
+  'verdict' | 'effects' | 'could_hide' | 'gap' | 'gaps' | 'disagreement' | 'unaccounted_heat' | 'experiment' | 'estimates'>>;
 
 const found = (name = 'diagnosis'): Diagnosis => JSON.parse(readFileSync(at(`${name}.json`), 'utf8')) as Diagnosis;
 
@@ -58,6 +58,21 @@ test('a diagnosis names the effect, its rivals and its evidence', async () => {
   assert.equal(await page.locator('[data-panel="residual_heat_map"] .cell').count(), 2 * (gaps.fitted.length + gaps.held_out.length));
   assert.equal(await page.locator('[data-panel="unaccounted_heat"] .chip').count(), rest.unaccounted_heat.length);
   assert.equal((await table(page, 'Unknowns of the final fit')).rows.length, rest.estimates.length);
+  await page.close();
+});
+
+test('what could hide is listed once per effect, at its largest', async () => {
+  const {page, complaints} = await openReport('diagnosis'), {could_hide: limits} = found();
+  const rows = page.locator('[data-panel="could_hide"] tr:has(td)'), names = [...new Set(limits.map((l) => l.effect))];
+  const size = (x: number): string => x.toFixed(x < 10 ? 2 : 1);
+  assert.deepEqual(await rows.locator('th').allTextContents(), names.map((name) => {
+    const largest = limits.filter((l) => l.effect === name).reduce((a, b) => (b.swing > a.swing ? b : a));
+    return `${name.replaceAll('_', ' ')} at ${largest.site}`;
+  }));
+  assert.equal(await rows.first().locator('.number').textContent(), size(Math.max(...limits.map((l) => l.swing))));
+  const {rows: all} = await table(page, 'What could hide in these data');
+  assert.equal(all.length, limits.length);
+  assert.deepEqual(complaints, []);
   await page.close();
 });
 

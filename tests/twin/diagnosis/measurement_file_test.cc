@@ -159,6 +159,20 @@ TEST_F(MeasurementFileTest, SaysWhereAUnitContradictsTheChannel) {
   EXPECT_THAT(refusal([&] { (void)read(whole + speed); }), HasSubstr("the channel is spindle.speed"));
 }
 
+/// Nobody quotes a number that has no unit; one that lacks it is told.
+TEST_F(MeasurementFileTest, AConstantWithoutUnitNeedsNoQuotes) {
+  write_tables();
+  std::string const duty = "[[table.input]]\ncolumn = \"h2\"\nchannel = \"heater2.duty\"\nunit = \"%\"\n";
+  for (std::string const value : {"0.25", "\"0.25\"", "1"}) {
+    auto const run =
+        read(with(whole, duty, "") + "\n[[constant]]\nchannel = \"heater2.duty\"\nvalue = " + value + "\n");
+    EXPECT_EQ(run.input("heater2.duty", Eigen::Vector2d(10.0, 400.0)),
+              Eigen::Vector2d::Constant(value == "1" ? 1.0 : 0.25));
+  }
+  EXPECT_THAT(refusal([&] { (void)read(with(whole, "\"20 degC\"", "20")); }),
+              HasSubstr("20 has no unit; write for example"));
+}
+
 TEST_F(MeasurementFileTest, ReadsDegreesFahrenheit) {
   write_tables();
   auto const celsius = read(whole);

@@ -28,6 +28,12 @@ TEST(DiagnosisSection, TakesWhatStandsInForAnUnknownShiftForNothingFound) {
             "E_Z; and centrifugal growth at E_Z.");
 }
 
+TEST(DiagnosisSection, SaysWhatCouldHideInTheUnitThatPeopleUse) {
+  Json const diagnosis = Json::parse(R"({"verdict": "nothing", "effects": [], "could_hide": [
+    {"effect": "centrifugal_growth", "site": "E_Z", "parameter": "growth", "amplitude": 1.234e-6, "unit": "m"}]})");
+  EXPECT_EQ(diagnosis_json(diagnosis, "healthy")["could_hide"][0]["text"], "1.2 um");
+}
+
 TEST(DiagnosisSection, WritesAMinusForHeatThatIsTaken) {
   Json const diagnosis =
       Json::parse(R"({"verdict": "none_known", "effects": [], "heat": {"body": "motor", "watts": -4.2, "runs": []}})");

@@ -1,6 +1,6 @@
 import {cividis, gradient} from '../colours';
 import type {Column} from '../csv';
-import type {DiagnosisSection, Finding, Gap} from '../data';
+import type {DetectionLimit, DiagnosisSection, Finding, Gap} from '../data';
 import {colourBar, make, panel, trackAxis} from '../dom';
 import {minus, orDash, roundTicks, unitText} from '../format';
 import type {PageState} from '../signal';
@@ -28,6 +28,7 @@ export function diagnosisSection(section: DiagnosisSection, state: PageState): H
     section.heat && freeHeatPanel('Heat that no effect explains', 'unknown_heat', [section.heat], state),
     section.unaccounted_heat.length > 0 && freeHeatPanel('Unaccounted heat, before any effect was added', 'unaccounted_heat',
       section.unaccounted_heat, state),
+    section.could_hide && section.could_hide.length > 0 && limitsPanel(section.could_hide),
     estimatesPanel(section),
   ].filter((p) => p !== false && p !== undefined);
   return make('section', {class: 'diagnosis', 'data-kind': 'diagnosis'},
@@ -108,8 +109,12 @@ function interval(effect: Finding): HTMLElement {
   zero.style.left = at(0);
   return make('div', {class: 'measure'}, make('span', {}, `${effect.parameter.replaceAll('_', ' ')}, 95 %`),
     make('span', {class: 'track interval', role: 'img', 'aria-label': effect.text}, zero, whisker, point),
-    make('span', {class: 'number'}, effect.text.replaceAll('-', '−').replace(/\bu(?=m\b|rad\b)/g, 'µ').replace(/(?<=\bm)([23])\b/g, (n) => '²³'[+n - 2]!)));
+    make('span', {class: 'number'}, amplitudeText(effect.text)));
 }
+
+/** With the signs that people write. */
+const amplitudeText = (text: string): string =>
+  text.replaceAll('-', '−').replace(/\bu(?=m\b|rad\b)/g, 'µ').replace(/(?<=\bm)([23])\b/g, (n) => '²³'[+n - 2]!);
 
 function gapColumns(gaps: Gap[]): Column[] {
   return [
@@ -182,6 +187,23 @@ function residualHeatMap(gaps: Gap[]): HTMLElement | false {
     make('tr', {}, make('td', {}), ...runs.map((run) => make('th', {colspan: 2, scope: 'colgroup'}, run))),
     make('tr', {}, make('td', {}), ...runs.flatMap(() => [make('th', {}, 'before'), make('th', {}, 'after')])), ...rows)),
   colourBar(gradient(cividis), ticks, `RMS ${unitsOf(gaps)}`));
+}
+
+/** Of each effect the site at which it moves most. */
+function limitsPanel(limits: DetectionLimit[]): HTMLElement {
+  const largest = limits.filter((l, i) => limits.findIndex((other) => other.effect === l.effect) === i);
+  const rows = largest.map((l) => make('tr', {}, make('th', {scope: 'row'}, `${l.effect.replaceAll('_', ' ')} at ${l.site}`),
+    make('td', {}, l.any_size ? 'of any plausible size' : `${l.parameter.replaceAll('_', ' ')} up to ${amplitudeText(l.text)}`),
+    make('td', {class: 'number'}, size(l.swing)), make('td', {}, `${unitText(l.swing_unit)} of ${l.channel}`)));
+  return panel('What could hide in these data', 'could_hide', () => [
+    {name: 'effect', values: limits.map((l) => l.effect)}, {name: 'site', values: limits.map((l) => l.site)},
+    {name: 'parameter', values: limits.map((l) => l.parameter)}, {name: 'amplitude', values: limits.map((l) => l.amplitude)},
+    {name: 'unit', values: limits.map((l) => l.unit)}, {name: 'any_size', values: limits.map((l) => Number(l.any_size))},
+    {name: 'channel', values: limits.map((l) => l.channel)}, {name: 'swing', values: limits.map((l) => l.swing)},
+    {name: 'swing_unit', values: limits.map((l) => l.swing_unit)},
+  ], make('p', {class: 'words'}, 'Of each effect the site at which it moves most without being named, as calibration takes it for numbers of the file; 19 of 20 such records show more. The CSV has every site.'),
+  make('div', {class: 'scroll tall'}, make('table', {}, make('tr', {}, make('th', {}, 'effect'), make('th', {}, 'size'),
+    make('th', {class: 'number', colspan: 2}, 'moves in these runs')), ...rows)));
 }
 
 function estimatesPanel(section: DiagnosisSection): HTMLElement {
