@@ -54,7 +54,7 @@ struct Diagnosis {
   std::vector<std::pair<std::string, double>> noise_heard;  ///< of every channel, over what was expected
   /// Runs held out speak against the effects by more than the fitted ones speak for them.
   [[nodiscard]] bool is_refuted() const;
-  std::size_t visible = 0;  ///< hypotheses that would have been seen at half of their largest amplitude
+  std::size_t visible = 0;                 ///< hypotheses that would have been seen at half of their largest amplitude
   std::vector<DetectionLimit> could_hide;  ///< what these data could not have shown, beside what was found
 };
 

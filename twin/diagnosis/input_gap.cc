@@ -9,6 +9,7 @@
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
+#include "twin/instruments/first_order_lag.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -18,11 +19,13 @@ using scenarios::Experiment;
 
 constexpr double usual_intervals = 10.0;
 constexpr std::size_t least_left = 10;
-constexpr double in_a_gap = 0.7;        // deviation of the share of the other extreme
-constexpr double late_record = 30.0;    // shorter than what comes and goes in a room [s]
-constexpr double late_deviation = 4.0;  // 2 min
-constexpr double least_swing = 0.2;     // of a temperature of which that could be seen [K]
-constexpr double settling = 900.0;      // in which a shaft and its bearings forget their speed [s]
+constexpr double in_a_gap = 0.7;               // deviation of the share of the other extreme
+constexpr double late_record = 30.0;           // shorter than what comes and goes in a room [s]
+constexpr double late_deviation = 4.0;         // 2 min
+constexpr double lag_of_walls = 6.0 * 3600.0;  // of a hall, behind its air [s]
+constexpr double share_of_walls = 0.3;         // deviation of what surfaces exchange with them and not with the air
+constexpr double least_swing = 0.2;            // of a temperature of which that could be seen [K]
+constexpr double settling = 900.0;             // in which a shaft and its bearings forget their speed [s]
 
 /// What is held between rows and whose zero is rest; a stroke's is a place. A share or a switch that never changes is a
 /// setting.
@@ -123,20 +126,31 @@ void add_alternatives(MeasuredRun& run, std::vector<std::vector<RecordGap>> cons
   }
 }
 
-void add_late_records(MeasuredRun& run, Experiment const& experiment, scenarios::MachineLimits const& limits) {
+void add_other_air(MeasuredRun& run, Experiment const& experiment, scenarios::MachineLimits const& limits) {
   for (std::size_t k = 0; k < experiment.driven.size(); ++k) {
-    auto const& driven = experiment.driven[k];
-    auto const& values = driven.signal.values();
+    auto const& channel = experiment.driven[k].channel;
+    auto const& signal = experiment.driven[k].signal;
+    auto const& values = signal.values();
     auto const [low, high] = std::minmax_element(values.begin(), values.end());
-    bool const of_air = driven.channel.unit == "K" && driven.channel.name.starts_with("ambient.");
-    bool const held = driven.signal.interpolation() == scenarios::Interpolation::step;
+    bool const of_air = channel.unit == "K" && channel.name.starts_with("ambient.");
+    bool const held = signal.interpolation() == scenarios::Interpolation::step;
     if (!of_air || held || *high - *low < least_swing) continue;
-    auto earlier = driven.signal.times();
+    auto const add = [&](std::string const& words, std::vector<double> times, std::vector<double> others,
+                         double deviation) {
+      Experiment other = experiment;
+      other.driven[k].signal = scenarios::Signal(std::move(times), std::move(others), scenarios::Interpolation::linear);
+      run.alternatives.push_back(
+          {channel.name + words, std::make_shared<scenarios::ExperimentCourse const>(other, limits), deviation});
+    };
+    auto earlier = signal.times(), slow = values;
     for (double& t : earlier) t -= late_record;
-    Experiment other = experiment;
-    other.driven[k].signal = scenarios::Signal(std::move(earlier), values, scenarios::Interpolation::linear);
-    run.alternatives.push_back({fmt::format("{} {:.0f} s before its record", driven.channel.name, late_record),
-                                std::make_shared<scenarios::ExperimentCourse const>(other, limits), late_deviation});
+    add(fmt::format(" {:.0f} s before its record", late_record), std::move(earlier), values, late_deviation);
+    auto const in_eigen = [](std::vector<double> const& of) {
+      return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd const>(of.data(), Eigen::Index(of.size())));
+    };
+    FirstOrderLag const walls(in_eigen(signal.times()), in_eigen(values), lag_of_walls);
+    std::transform(signal.times().begin(), signal.times().end(), slow.begin(), [&](double t) { return walls.at(t); });
+    add(" as walls follow it", signal.times(), std::move(slow), share_of_walls);
   }
 }
 

@@ -277,7 +277,7 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
   move_to_jumps(run.changes, *run.course);
   run.changes = merged(std::move(run.changes));
   add_alternatives(run, gaps, experiment, machine.limits);
-  add_late_records(run, experiment, machine.limits);
+  add_other_air(run, experiment, machine.limits);
 }
 
 }  // namespace thermotwin::twin

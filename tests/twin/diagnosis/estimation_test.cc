@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
+#include "twin/instruments/first_order_lag.h"
 #include "twin/sensitivity.h"
 
 namespace thermotwin::twin {
@@ -200,7 +202,7 @@ TEST(Estimation, JacobianOfAJointInSeriesIsThatOfWhereTheFitIs) {
 /// numbers are found; with the last speed held, the machine is made to fit heat that it never had.
 TEST(Estimation, FindsTheNumbersThoughTheSpeedChangedInAGap) {
   auto run = tests::measured(truth(), tests::two_speeds(), 3600.0, 2.0 * 3600.0);
-  ASSERT_EQ(run.alternatives.size(), 3U);  // two halves of the gap, and the room earlier
+  ASSERT_EQ(run.alternatives.size(), 4U);  // two halves of the gap, the room earlier, and its walls
   tests::add_noise(run, kelvin, metres, 5);
   auto const fitted = [&] {
     std::vector<BinnedRun> const data = {bin(run, 120.0)};
@@ -263,6 +265,51 @@ TEST(Estimation, FindsThatTheRoomsRecordIsLate) {
   std::vector<BinnedRun> const literal_data = {bin(measured, 120.0)};
   Estimation const literal(document, literal_data, tests::channels_of(measured), noise);
   EXPECT_GT(literal.fit(literal.prior_mean()).cost, fit.cost + 100.0);
+}
+
+/// Half of what painted surfaces exchange with a room is radiation, and walls are not as warm as the air. This machine
+/// feels 0.6 of the air and 0.4 of walls that follow it by six hours; recorded is the air.
+TEST(Estimation, FindsThatSurfacesSeeWallsThatFollowTheAirSlowly) {
+  Index const rows = 121;
+  double const minutes_10 = 600.0, day = 86400.0;
+  Eigen::VectorXd const time = minutes_10 * Eigen::VectorXd::LinSpaced(rows, 0.0, double(rows - 1));
+  Eigen::VectorXd const air = 294.15 + 2.0 * (2.0 * std::numbers::pi / day * time.array()).sin();
+  FirstOrderLag const walls(time, air, 6.0 * 3600.0);
+  std::vector<double> felt(std::size_t(rows), 0.0);
+  for (Index i = 0; i < rows; ++i) felt[std::size_t(i)] = 0.6 * air[i] + 0.4 * walls.at(time[i]);
+  auto experiment = tests::experiment(R"(
+    duration = "20 h"
+    [spindle]
+    blocks = [{duration = "6 h", speed = "3000 rpm"}, {duration = "5 h", speed = "0 rpm"},
+              {duration = "9 h", speed = "2000 rpm"}])");
+  experiment.driven.push_back({{"ambient.temperature", "K", "felt"},
+                               scenarios::Signal({time.begin(), time.end()}, felt, scenarios::Interpolation::linear)});
+  Machine machine = Machine::build(v450());
+  for (auto& sensor : machine.sensors) sensor.description.lag = 30.0;
+  auto dataset = run(machine, experiment, {}).dataset;
+  FirstOrderLag const recorded(time, air, 0.0);
+  for (auto& input : dataset.inputs)
+    if (input.name == "ambient.temperature")
+      input.values = dataset.time_s.unaryExpr([&](double t) { return recorded.at(t) - 273.15; });
+  auto measured = measured_run(dataset, machine, "in a hall");
+  tests::add_noise(measured, kelvin, metres, 5);
+  auto const noise = tests::noise_of(measured, kelvin, metres);
+  std::vector<BinnedRun> const data = {bin(measured, 300.0)};
+  Estimation const estimation(v450(), data, tests::channels_of(measured), noise);
+  auto const fit = estimation.fit(estimation.prior_mean());
+  auto const& unknowns = estimation.unknowns();
+  auto const share = Index(std::find_if(unknowns.begin(), unknowns.end(),
+                                        [](Unknown const& unknown) {
+                                          return unknown.name == "ambient.temperature as walls follow it, run 1";
+                                        }) -
+                           unknowns.begin());
+  ASSERT_LT(share, Index(unknowns.size()));
+  EXPECT_NEAR(fit.x[share], 0.4, 3.0 * std::sqrt(fit.covariance(share, share)));
+  EXPECT_LT(std::sqrt(fit.covariance(share, share)), 0.08);
+  measured.alternatives.clear();
+  std::vector<BinnedRun> const literal_data = {bin(measured, 300.0)};
+  Estimation const literal(v450(), literal_data, tests::channels_of(measured), noise);
+  EXPECT_GT(literal.fit(literal.prior_mean()).cost, fit.cost + 20.0);
 }
 
 /// The record has a row each minute, and the speed changes 45 s before one. When it did is found, and so are the
