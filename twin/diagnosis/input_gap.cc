@@ -145,10 +145,9 @@ void add_other_air(MeasuredRun& run, Experiment const& experiment, scenarios::Ma
     auto earlier = signal.times(), slow = values;
     for (double& t : earlier) t -= late_record;
     add(fmt::format(" {:.0f} s before its record", late_record), std::move(earlier), values, late_deviation);
-    auto const in_eigen = [](std::vector<double> const& of) {
-      return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd const>(of.data(), Eigen::Index(of.size())));
-    };
-    FirstOrderLag const walls(in_eigen(signal.times()), in_eigen(values), lag_of_walls);
+    auto const count = Eigen::Index(values.size());
+    FirstOrderLag const walls(Eigen::VectorXd::Map(signal.times().data(), count),
+                              Eigen::VectorXd::Map(values.data(), count), lag_of_walls);
     std::transform(signal.times().begin(), signal.times().end(), slow.begin(), [&](double t) { return walls.at(t); });
     add(" as walls follow it", signal.times(), std::move(slow), share_of_walls);
   }
