@@ -4,13 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/gap.h"
 
 namespace thermotwin::twin {
 namespace {
-
-constexpr double one_sided_95 = 1.645;
 
 /// Highest less lowest value in rows where the channel was read.
 double swing_of(Eigen::VectorXd const& response, Eigen::VectorXd const& read) {
@@ -43,18 +40,6 @@ void find_most_moved(DetectionLimit& limit, Estimation const& estimation, Machin
 }
 
 }  // namespace
-
-double detectable(double information, Hypothesis const& hypothesis, double asked) {
-  if (information <= 0.0) return INFINITY;
-  double const precision = information + 1.0 / (amplitude_deviation * amplitude_deviation);
-  double const sign = hypothesis.trial->either_sign ? 0.0 : 2.0 * std::log(2.0);
-  double const needed =
-      asked + hypothesis.choice - sign + std::log(precision * amplitude_deviation * amplitude_deviation);
-  double b = std::sqrt(std::max(0.0, needed) * precision);
-  if (hypothesis.trial->ordinary > 0.0)
-    b = std::max(b, precision * hypothesis.trial->ordinary / hypothesis.largest + two_sided_95 * std::sqrt(precision));
-  return (b + one_sided_95 * std::sqrt(information)) / information;
-}
 
 std::vector<DetectionLimit> detection_limits(Estimation const& estimation, Fit const& fit,
                                              std::vector<Hypothesis> const& hypotheses,

@@ -20,12 +20,6 @@ struct DetectionLimit {
   double swing = 0.0;      ///< of that channel in the run where it is largest, numbers as calibrated [m, K]
 };
 
-/// The smallest amplitude, in units of its largest, whose evidence exceeds what is asked in 95 of 100 such records
-/// (minimum detectable value with β = 5 %, ISO 11843-1:1997, 10), from a score's information a alone:
-///
-///   ψ = (b + 1.645 √a)/a,   b: evidence_of = asked,   as b = a ψ + N(0, a) of a true ψ.
-[[nodiscard]] double detectable(double information, Hypothesis const& hypothesis, double asked);
-
 /// One per effect and site, in the shape in which it moves most, by how much that is; not of what is a sensor's fault.
 /// `signatures`: of the hypotheses about a fit, not whitened; `scores`: of the same.
 [[nodiscard]] std::vector<DetectionLimit> detection_limits(Estimation const& estimation, Fit const& fit,

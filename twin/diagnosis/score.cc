@@ -7,12 +7,14 @@
 #include <optional>
 
 #include "thermal/error.h"
+#include "twin/diagnosis/estimate_text.h"
 #include "twin/parallel.h"
 
 namespace thermotwin::twin {
 namespace {
 
 constexpr double step = 1e-3;
+constexpr double one_sided_95 = 1.645;      // of a normal distribution, in standard deviations
 constexpr std::size_t shapes_at_once = 96;  // whose responses are found together
 
 /// How the response to a hypothesis is found.
@@ -114,8 +116,12 @@ void add_alone(Estimation const& estimation, Value const& document, Hypothesis c
 }
 
 /// Of an amplitude, with its prior.
-double precision_of(Score const& score) {
-  return score.information + 1.0 / (amplitude_deviation * amplitude_deviation);
+double precision_of(double information) { return information + 1.0 / (amplitude_deviation * amplitude_deviation); }
+
+/// What the prior of an amplitude takes of 2 ln of the evidence; half of it is nowhere where one sign is allowed.
+double cost_of_prior(double information, Hypothesis const& hypothesis) {
+  double const cost = std::log1p(information * amplitude_deviation * amplitude_deviation);
+  return hypothesis.trial->either_sign ? cost : cost - 2.0 * std::log(2.0);
 }
 
 }  // namespace
@@ -186,18 +192,26 @@ Eigen::VectorXd Remainder::cosines(Eigen::Index of) const {
 }
 
 double probable_amplitude(Score const& score) {
-  double const amplitude = score.amplitude * score.information / precision_of(score);
+  double const amplitude = score.amplitude * score.information / precision_of(score.information);
   return std::clamp(amplitude, -most_of_largest, most_of_largest);
 }
 
-double probable_error(Score const& score) { return 1.0 / std::sqrt(precision_of(score)); }
+double probable_error(Score const& score) { return 1.0 / std::sqrt(precision_of(score.information)); }
 
 double evidence_of(Score const& score, Hypothesis const& hypothesis) {
   double const a = score.information, b = score.amplitude * a, amplitude = probable_amplitude(score);
   if (score.statistic <= 0.0 || hypothesis.is_ordinary(amplitude, probable_error(score))) return -hypothesis.choice;
-  double const gain = (2.0 * b - precision_of(score) * amplitude) * amplitude -
-                      std::log1p(a * amplitude_deviation * amplitude_deviation) - hypothesis.choice;
-  return hypothesis.trial->either_sign ? gain : gain + 2.0 * std::log(2.0);
+  return (2.0 * b - precision_of(a) * amplitude) * amplitude - cost_of_prior(a, hypothesis) - hypothesis.choice;
+}
+
+double detectable(double information, Hypothesis const& hypothesis, double asked) {
+  if (information <= 0.0) return INFINITY;
+  double const precision = precision_of(information);
+  double const needed = asked + hypothesis.choice + cost_of_prior(information, hypothesis);
+  double b = std::sqrt(std::max(0.0, needed) * precision);
+  if (hypothesis.trial->ordinary > 0.0)
+    b = std::max(b, precision * hypothesis.trial->ordinary / hypothesis.largest + two_sided_95 * std::sqrt(precision));
+  return (b + one_sided_95 * std::sqrt(information)) / information;
 }
 
 }  // namespace thermotwin::twin

@@ -49,4 +49,10 @@ class Remainder {
 /// choice of a site cost. Only the latter where ψ is ordinary.
 [[nodiscard]] double evidence_of(Score const& score, Hypothesis const& hypothesis);
 
+/// The smallest amplitude, in units of its largest, whose evidence exceeds what is asked in 95 of 100 such records
+/// (minimum detectable value with β = 5 %, ISO 11843-1:1997, 10), from a score's information a alone:
+///
+///   ψ = (b + 1.645 √a)/a,   b: evidence_of = asked,   as b = a ψ + N(0, a) of a true ψ.
+[[nodiscard]] double detectable(double information, Hypothesis const& hypothesis, double asked);
+
 }  // namespace thermotwin::twin

@@ -36,6 +36,13 @@ Value truth() {
   return document;
 }
 
+Index index_of(Estimation const& estimation, std::string const& name) {
+  auto const& all = estimation.unknowns();
+  auto const it = std::find_if(all.begin(), all.end(), [&](auto const& u) { return u.name == name; });
+  EXPECT_NE(it, all.end()) << name;
+  return Index(it - all.begin());
+}
+
 /// Its twin, which knows the numbers of the file, fitted to a noisy run of it.
 struct Question {
   Question() : run(tests::measured(truth(), tests::two_speeds())) {
@@ -44,12 +51,7 @@ struct Question {
     estimation.emplace(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
     fit = estimation->fit(estimation->prior_mean());
   }
-  [[nodiscard]] Index index(std::string const& name) const {
-    auto const& all = estimation->unknowns();
-    auto const it = std::find_if(all.begin(), all.end(), [&](auto const& u) { return u.name == name; });
-    EXPECT_NE(it, all.end()) << name;
-    return Index(it - all.begin());
-  }
+  [[nodiscard]] Index index(std::string const& name) const { return index_of(*estimation, name); }
   [[nodiscard]] double error(std::string const& name) const {
     Index const i = index(name);
     return std::sqrt(fit.covariance(i, i));
@@ -252,13 +254,8 @@ TEST(Estimation, FindsThatTheRoomsRecordIsLate) {
   std::vector<BinnedRun> const data = {bin(measured, 120.0)};
   Estimation const estimation(document, data, tests::channels_of(measured), noise);
   auto const fit = estimation.fit(estimation.prior_mean());
-  auto const& unknowns = estimation.unknowns();
-  auto const late = Index(std::find_if(unknowns.begin(), unknowns.end(),
-                                       [](Unknown const& unknown) {
-                                         return unknown.name == "ambient.temperature 30 s before its record, run 1";
-                                       }) -
-                          unknowns.begin());
-  ASSERT_LT(late, Index(unknowns.size()));
+  Index const late = index_of(estimation, "ambient.temperature 30 s before its record, run 1");
+  ASSERT_LT(late, Index(estimation.unknowns().size()));
   EXPECT_NEAR(fit.x[late], 2.0, 0.5);  // of half a minute; a delay of a cycle is not quite its slope
   EXPECT_LT(std::sqrt(fit.covariance(late, late)), 0.25);
   measured.alternatives.clear();
@@ -297,13 +294,8 @@ TEST(Estimation, FindsThatSurfacesSeeWallsThatFollowTheAirSlowly) {
   std::vector<BinnedRun> const data = {bin(measured, 300.0)};
   Estimation const estimation(v450(), data, tests::channels_of(measured), noise);
   auto const fit = estimation.fit(estimation.prior_mean());
-  auto const& unknowns = estimation.unknowns();
-  auto const share = Index(std::find_if(unknowns.begin(), unknowns.end(),
-                                        [](Unknown const& unknown) {
-                                          return unknown.name == "ambient.temperature as walls follow it, run 1";
-                                        }) -
-                           unknowns.begin());
-  ASSERT_LT(share, Index(unknowns.size()));
+  Index const share = index_of(estimation, "ambient.temperature as walls follow it, run 1");
+  ASSERT_LT(share, Index(estimation.unknowns().size()));
   EXPECT_NEAR(fit.x[share], 0.4, 3.0 * std::sqrt(fit.covariance(share, share)));
   EXPECT_LT(std::sqrt(fit.covariance(share, share)), 0.08);
   measured.alternatives.clear();
