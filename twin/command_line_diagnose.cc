@@ -12,6 +12,7 @@
 #include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnose_files.h"
+#include "twin/diagnosis/diagnosis_json.h"
 #include "twin/diagnosis/plan.h"
 #include "twin/experiment_file.h"
 #include "twin/file/output_path.h"

@@ -4,19 +4,14 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
-#include "output/json_text.h"
-#include "thermal/units.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/separation.h"
 
 namespace thermotwin::twin {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_places = 6, most_keys = 3, most_hidden = 6;
 constexpr double worth_telling = 1.0;  // of what could hide [um, 0.1 K]
@@ -40,88 +35,9 @@ std::string amplitude_text(Finding const& finding) {
   return text;
 }
 
-Json json_of(Finding const& finding, std::size_t group) {
-  Json keys = Json::object();
-  for (auto const& [key, text] : finding.hypothesis.keys) keys[key] = text;
-  return {{"group", group},
-          {"effect", finding.hypothesis.effect->name},
-          {"site", finding.hypothesis.site},
-          {"body", finding.hypothesis.body},
-          {"parameter", finding.hypothesis.trial->amplitude},
-          {"amplitude", finding.amplitude},
-          {"low", finding.low()},
-          {"high", finding.high()},
-          {"unit", thermal::unit_of(finding.hypothesis.dimension())},
-          {"keys", keys},
-          {"weight", finding.weight},
-          {"strength", finding.strength}};
-}
-
-Json json_of(DetectionLimit const& limit) {
-  auto const& hypothesis = limit.hypothesis;
-  return {{"effect", hypothesis.effect->name},
-          {"site", hypothesis.site},
-          {"body", hypothesis.body},
-          {"parameter", hypothesis.trial->amplitude},
-          {"amplitude", limit.amplitude},
-          {"unit", thermal::unit_of(hypothesis.dimension())},
-          {"any_size", limit.any_size},
-          {"channel", limit.channel},
-          {"swing", in_unit(limit.unit, limit.swing)},
-          {"swing_unit", limit.unit}};
-}
-
 /// "40.0 ± 6.1 W", with the half of its 95 % interval.
 std::string words_of(Watts const& watts) {
   return fmt::format("{:.1f} ± {:.1f} W", watts.mean, two_sided_95 * watts.standard_error);
-}
-
-Json json_of(FreeHeat const& heat) {
-  Json runs = Json::array();
-  for (std::size_t r = 0; r < heat.heat.size(); ++r) {
-    Eigen::VectorXd error = heat.standard_error(r);
-    for (Eigen::Index k = 0; k < error.size(); ++k) error[k] = whole_error(error[k], heat.heat[r][k]);
-    runs.push_back({{"time_s", std::vector<double>(heat.knots[r].begin(), heat.knots[r].end())},
-                    {"watts", std::vector<double>(heat.heat[r].begin(), heat.heat[r].end())},
-                    {"standard_error", std::vector<double>(error.begin(), error.end())}});
-  }
-  auto const mean = heat.mean_of_all();
-  Json json = {{"body", heat.site.body},
-               {"watts", mean.mean},
-               {"standard_error", mean.standard_error},
-               {"gain", heat.gain},
-               {"runs", runs}};
-  if (heat.site.is_air()) json["watts_per_kelvin_of_air"] = heat.per_kelvin;
-  return json;
-}
-
-Json json_of(std::vector<ChannelGap> const& gaps) {
-  Json list = Json::array();
-  for (auto const& gap : gaps) {
-    list.push_back({{"run", gap.run},
-                    {"channel", gap.channel},
-                    {"unit", gap.unit},
-                    {"before", in_unit(gap.unit, gap.before)},
-                    {"calibrated", in_unit(gap.unit, gap.calibrated)},
-                    {"after", in_unit(gap.unit, gap.after)}});
-  }
-  return list;
-}
-
-Json json_of(std::vector<Disagreement> const& cells) {
-  Json list = Json::array();
-  for (auto const& cell : cells)
-    list.push_back({{"run", cell.run},
-                    {"channel", cell.channel},
-                    {"unit", cell.unit},
-                    {"cut", cell.cut},
-                    {"part", cell.part},
-                    {"mean", in_unit(cell.unit, cell.mean)},
-                    {"rms", in_unit(cell.unit, cell.rms)},
-                    {"power", cell.power},
-                    {"p_value", cell.p_value},
-                    {"significant", cell.significant}});
-  return list;
 }
 
 /// Of a column that holds these names.
@@ -209,13 +125,6 @@ std::string words_of(Explanation const& explanation) {
   if (all.size() > 1 && !all[0].hypothesis.effect->separated_by.empty())
     text += fmt::format("  What would tell them apart: {}\n", all[0].hypothesis.effect->separated_by);
   return text;
-}
-
-/// The best that needs no further sensor.
-Remedy const* proposal_of(Diagnosis const& diagnosis) {
-  auto const it = std::find_if(diagnosis.proposals.begin(), diagnosis.proposals.end(),
-                               [](Remedy const& remedy) { return remedy.sensor.empty(); });
-  return it == diagnosis.proposals.end() ? nullptr : &*it;
 }
 
 std::string words_of_proposal(Diagnosis const& diagnosis) {
@@ -407,6 +316,20 @@ std::size_t things_of(Diagnosis const& diagnosis) { return diagnosis.suspicion ?
 
 }  // namespace
 
+Remedy const* proposal_of(Diagnosis const& diagnosis) {
+  auto const it = std::find_if(diagnosis.proposals.begin(), diagnosis.proposals.end(),
+                               [](Remedy const& remedy) { return remedy.sensor.empty(); });
+  return it == diagnosis.proposals.end() ? nullptr : &*it;
+}
+
+std::vector<std::string> cautions(Diagnosis const& diagnosis) {
+  std::vector<std::string> result;
+  for (auto const& words : {words_of_numbers(diagnosis), words_of_offsets(diagnosis), words_of_loop(diagnosis),
+                            words_of_heat_beside(diagnosis), words_of_vote(diagnosis)})
+    if (!words.empty()) result.push_back(words.substr(0, words.find_last_not_of('\n') + 1));
+  return result;
+}
+
 std::string headline(Diagnosis const& diagnosis) {
   auto const things = things_of(diagnosis);
   switch (diagnosis.verdict) {
@@ -426,72 +349,6 @@ std::string headline(Diagnosis const& diagnosis) {
       break;
   }
   return fmt::format("Missing: {} effect{}.", things, things == 1 ? "" : "s");
-}
-
-std::string report_json(DiagnosisReport const& report) {
-  auto const& diagnosis = report.diagnosis;
-  Json json = {{"verdict", name_of(diagnosis.verdict)}, {"headline", headline(diagnosis)}, {"effects", Json::array()}};
-  for (std::size_t g = 0; g < diagnosis.explanations.size(); ++g)
-    for (auto const& finding : diagnosis.explanations[g].alternatives) json["effects"].push_back(json_of(finding, g));
-  if (auto const& suspicion = diagnosis.suspicion) {
-    json["suspicion"] = {{"asked", suspicion->asked}, {"effects", Json::array()}};
-    for (auto const& finding : suspicion->explanation.alternatives)
-      json["suspicion"]["effects"].push_back(json_of(finding, 0));
-  }
-  if (diagnosis.unknown_heat) {
-    json["heat"] = json_of(*diagnosis.unknown_heat);
-    for (auto const& [name, watts] : diagnosis.unknown_heat_by_speed.mean)
-      json["heat"]["by_speed"].push_back(
-          {{"part", name}, {"watts", watts.mean}, {"standard_error", watts.standard_error}});
-    json["heat"]["swing"] = diagnosis.unknown_heat_by_speed.swing;
-  }
-  if (diagnosis.verdict == Diagnosis::Verdict::sensor)
-    json["sensor"] = {{"name", diagnosis.faulty_sensor  // what no body does is certain
-                                   ? diagnosis.faulty_sensor->name
-                                   : diagnosis.explanations[0].alternatives[0].hypothesis.body}};
-  if (auto const& sensor = diagnosis.faulty_sensor)
-    json["faulty_sensor"] = {{"name", sensor->name}, {"what", sensor->what}};
-  if (diagnosis.vote) json["held_out_vote"] = *diagnosis.vote;
-  json["tried"] = diagnosis.hypotheses.size();
-  json["visible"] = diagnosis.visible;
-  json["could_hide"] = Json::array();
-  for (auto const& limit : diagnosis.could_hide) json["could_hide"].push_back(json_of(limit));
-  for (auto const& [channel, times] : diagnosis.noise_heard) json["noise_heard"][channel] = times;
-  json["where"] = Json::array();
-  for (auto const& [body, regime] : diagnosis.where) json["where"].push_back({{"body", body}, {"regime", regime}});
-  auto const gap = whole(report.held_out.empty() ? report.fitted : report.held_out);
-  json["gap"] = {{"before", gap.before}, {"after", gap.after}};
-  json["gaps"] = {{"fitted", json_of(report.fitted)}, {"held_out", json_of(report.held_out)}};
-  json["disagreement"] = {{"before", json_of(diagnosis.disagreement)}, {"after", json_of(diagnosis.disagreement_left)}};
-  json["unaccounted_heat"] = Json::array();
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, diagnosis.scan.size()); ++i)
-    json["unaccounted_heat"].push_back(json_of(diagnosis.scan[i]));
-  json["heat_left"] = Json::array();
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, diagnosis.left.size()); ++i)
-    json["heat_left"].push_back(json_of(diagnosis.left[i]));
-  if (auto const* proposal = proposal_of(diagnosis)) {
-    json["experiment"] = proposal->file.string();
-    json["experiment_distance"] = proposal->distance;
-    json["experiment_wanted_distance"] = wanted_distance;
-    json["experiment_hours"] = proposal->hours;
-  }
-  json["proposals"] = Json::array();
-  for (auto const& proposal : diagnosis.proposals) json["proposals"].push_back(json_of(proposal));
-  json["estimates"] = Json::array();
-  for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
-    auto const i = Eigen::Index(u);
-    json["estimates"].push_back({{"name", diagnosis.unknowns[u].name},
-                                 {"estimate", diagnosis.amended.x[i]},
-                                 {"standard_error", std::sqrt(diagnosis.amended.covariance(i, i))},
-                                 {"prior", diagnosis.unknowns[u].deviation}});
-  }
-  json["cautions"] = Json::array();
-  for (auto const& words : {words_of_numbers(diagnosis), words_of_offsets(diagnosis), words_of_loop(diagnosis),
-                            words_of_heat_beside(diagnosis), words_of_vote(diagnosis)})
-    if (!words.empty()) json["cautions"].push_back(words.substr(0, words.find_last_not_of('\n') + 1));
-  json["doubts"] = doubts_json(report.doubts);
-  json["remarks"] = report.remarks;
-  return output::json_text(std::move(json));
 }
 
 std::string report_text(DiagnosisReport const& report) {

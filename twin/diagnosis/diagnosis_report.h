@@ -23,9 +23,11 @@ inline constexpr char const* no_name = "Something is missing that none of the ef
 /// The verdict in one sentence; what stands in for something unknown follows a colon.
 [[nodiscard]] std::string headline(Diagnosis const& diagnosis);
 
-/// Verdict, effects with their intervals and weights, unaccounted heat, gaps per channel, estimates: everything, for
-/// programs.
-[[nodiscard]] std::string report_json(DiagnosisReport const& report);
+/// The best experiment that needs no further sensor; nullptr where none is proposed.
+[[nodiscard]] Remedy const* proposal_of(Diagnosis const& diagnosis);
+
+/// What speaks against a verdict, or beside it, a sentence or two each.
+[[nodiscard]] std::vector<std::string> cautions(Diagnosis const& diagnosis);
 
 /// In plain words, for people.
 [[nodiscard]] std::string report_text(DiagnosisReport const& report);

@@ -8,6 +8,7 @@
 #include "tests/scenarios/refusal.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "twin/diagnosis/comparison.h"
+#include "twin/diagnosis/diagnosis_json.h"
 #include "twin/diagnosis/linearised_run.h"
 
 /// The whole way of a user: files in, a verdict and an amended file out.

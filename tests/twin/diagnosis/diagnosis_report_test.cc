@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "twin/diagnosis/diagnosis_json.h"
+
 namespace thermotwin::twin {
 namespace {
 

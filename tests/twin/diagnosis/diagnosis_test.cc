@@ -8,7 +8,7 @@
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "twin/diagnosis/birge_ratio.h"
-#include "twin/diagnosis/diagnosis_report.h"
+#include "twin/diagnosis/diagnosis_json.h"
 #include "twin/diagnosis/separation.h"
 
 namespace thermotwin::twin {
