@@ -74,8 +74,10 @@ double held(std::vector<double> const& values, double mean, double largest) {
 }
 
 /// What neighbours differ by is what the programme does, not noise: noise is small, and two samples that are two apart
-/// differ by as much of it as neighbours do; those of a staircase differ by twice as much.
-bool is_list_of_changes(std::vector<double> const& values) {
+/// differ by as much of it as neighbours do; those of a staircase differ by twice as much. Where nothing changed says
+/// nothing: a list may repeat its last row from time to time.
+bool is_list_of_changes(std::vector<double> values) {
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   double const step = median_step(values), largest = largest_magnitude(values);
   return step > most_noise * largest || (step > same_block * largest && median_step(values, 2) > staircase * step);
 }

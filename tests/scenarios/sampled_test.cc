@@ -68,6 +68,17 @@ TEST(SampledInput, AListOfChangesIsTakenAtItsWord) {
                                  {0, 235, 471, 235, 306, 0, 306, 94, 306, 165, 0}));
 }
 
+/// Rows that say again what is so, as every five minutes, are no noise of nothing: at 475 the speed is another.
+TEST(SampledInput, AListOfChangesMayRepeatItsRows) {
+  std::vector<double> times, values;
+  for (int cycle = 0; cycle < 20; ++cycle)
+    for (double const value : {100.0, 100.0, 106.0, 106.0, 500.0, 500.0, 475.0}) {
+      times.push_back(100.0 * double(times.size()));
+      values.push_back(value);
+    }
+  expect_word_for_word(programme(times, values));
+}
+
 TEST(SampledInput, AStaircaseIsTakenAtItsWord) {
   std::vector<double> times, values;
   for (int i = 0; i < 25; ++i) {

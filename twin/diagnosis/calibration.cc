@@ -25,7 +25,7 @@ constexpr double large_share = 0.3;      // of a unit vector
 constexpr double more_than_noise = 2.0;  // misfit
 
 std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machine const& machine) {
-  if (unknown.kind == Unknown::Kind::lag) return "s";
+  if (unknown.kind == Unknown::Kind::lag || unknown.kind == Unknown::Kind::clock) return "s";
   if (unknown.kind == Unknown::Kind::input || unknown.kind == Unknown::Kind::warmth) return "1";
   if (unknown.kind != Unknown::Kind::offset || unknown.run < 0) return "K";
   auto const& channels = estimation.data()[std::size_t(unknown.run)].run->channels;

@@ -12,6 +12,7 @@
 #include "twin/bodies.h"
 #include "twin/diagnosis/birge_ratio.h"
 #include "twin/diagnosis/score.h"
+#include "twin/diagnosis/sensor_places.h"
 #include "twin/file/tables.h"
 
 namespace thermotwin::twin {
@@ -58,6 +59,17 @@ Estimation with_rest(Estimation const& estimation, std::vector<Hypothesis> const
   return estimation.with(noise);
 }
 
+/// Whether a sensor sits elsewhere than the file says, evidently: what it shows as the machine warms is another's then.
+bool has_left_its_place(std::string const& sensor, Estimation const& estimation, Fit const& fit) {
+  auto const places = sensor_places(estimation.document(), Machine::build(estimation.document()));
+  auto const& unknowns = estimation.unknowns();
+  for (std::size_t u = 0; u < unknowns.size(); ++u)
+    if (unknowns[u].kind == Unknown::Kind::place && places[unknowns[u].index].sensor == sensor &&
+        std::abs(fit.x[Eigen::Index(u)]) > far_from_file * unknowns[u].deviation)
+      return true;
+  return false;
+}
+
 }  // namespace
 
 std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit const& calibrated,
@@ -88,6 +100,7 @@ std::optional<FaultySensor> drifting_sensor(Estimation const& estimation, Fit co
   bool const clear = clearest->statistic >= least_statistic * strictness(estimation, calibrated);
   if (!clear || drifting > most_drifting) return std::nullopt;
   auto const& drift = drifts[std::size_t(clearest - scores.begin())];
+  if (has_left_its_place(drift.body, estimation, calibrated)) return std::nullopt;
   std::vector<Hypothesis> others;
   std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(others), is_of_machine);
   auto const rivals = scores_of(others);

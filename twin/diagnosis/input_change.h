@@ -14,13 +14,13 @@ struct InputChange {
   double size = 0.0;     ///< of the largest value of the input
 };
 
-/// Those of a sampled input whose course is `signal`. What is recorded only where it changes is recorded in time, and
-/// has none.
+/// Those of a sampled input whose course is `signal`. What is recorded where it changes is recorded in time, and has
+/// none, though rows at regular times may stand between.
 [[nodiscard]] std::vector<InputChange> changes_of(scenarios::SampledInput const& input,
                                                   scenarios::Signal const& signal);
 
 /// In order of time; those of one moment are one. Of more than `most` those with the most size times time: a
 /// linearisation has a column for each.
-[[nodiscard]] std::vector<InputChange> merged(std::vector<InputChange> changes, std::size_t most = 60);
+[[nodiscard]] std::vector<InputChange> merged(std::vector<InputChange> changes, std::size_t most = 500);
 
 }  // namespace thermotwin::twin

@@ -18,6 +18,7 @@ constexpr double air_deviation = 0.2;    // [K]
 constexpr double mean_moment = 0.25;     // between a programme that runs with the samples, 0, and one that does not
 constexpr double mean_moment_deviation = 0.25;
 constexpr double moment_deviation = 0.289;  // about that mean, of any moment between two samples: 1/√12
+constexpr double clock_deviation = 10.0;    // of one logger's from another's [s]
 constexpr double interior_deviation = 0.5;  // of a lump: half of a slab
 constexpr double place_deviation = 0.5;     // 3 mm along a bar, a twentieth of the way to a neighbour
 constexpr double loop_deviation = 0.02;     // of free growth, as long as loops are what files say
@@ -63,6 +64,31 @@ Eigen::MatrixXd response_to_earlier_changes(LinearisedRun const& twin) {
   std::vector<double> times;
   for (auto const& change : twin.data().run->changes) times.push_back(change.time);
   return twin.response_to_earlier(times);
+}
+
+/// Those of loggers that did not record what is switched.
+std::vector<std::string> clocks_of(MeasuredRun const& run) {
+  std::vector<std::string> clocks;
+  for (auto const& channel : run.channels)
+    if (!channel.clock.empty() && std::find(clocks.begin(), clocks.end(), channel.clock) == clocks.end())
+      clocks.push_back(channel.clock);
+  return clocks;
+}
+
+/// What the channels of each of them show more where it is a second behind.
+Eigen::MatrixXd response_to_clocks(LinearisedRun const& twin) {
+  auto const& run = *twin.data().run;
+  auto const clocks = clocks_of(run);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(twin.data().values.size(), Eigen::Index(clocks.size()));
+  if (clocks.empty()) return columns;
+  Eigen::VectorXd const all = twin.response_to_all_earlier().col(0);
+  auto const rows = twin.data().time.size();
+  for (std::size_t c = 0; c < run.channels.size(); ++c) {
+    auto const clock = std::find(clocks.begin(), clocks.end(), run.channels[c].clock) - clocks.begin();
+    if (clock < columns.cols())
+      columns.col(clock).segment(Eigen::Index(c) * rows, rows) = all.segment(Eigen::Index(c) * rows, rows);
+  }
+  return columns;
 }
 
 /// What a sensor shows more where its weights are others.
@@ -138,6 +164,13 @@ void LinearUnknowns::add_of_run(BinnedRun const& data, int run) {
                          .deviation = alternatives[a].deviation,
                          .index = a,
                          .run = run});
+  auto const clocks = clocks_of(*data.run);
+  for (std::size_t i = 0; i < clocks.size(); ++i)
+    unknowns_.push_back({.kind = Kind::clock,
+                         .name = fmt::format("clock of {} behind, run {}", clocks[i], number),
+                         .deviation = clock_deviation,
+                         .index = i,
+                         .run = run});
   auto const& changes = data.run->changes;
   if (!changes.empty())
     unknowns_.push_back({.kind = Kind::moments,
@@ -169,6 +202,7 @@ Eigen::MatrixXd LinearUnknowns::columns_of(BinnedRun const& data, int run,
   Eigen::VectorXd const prediction = twin.prediction().reshaped();
   Eigen::MatrixXd const air_and_start = response_to_air_and_start(twin);
   Eigen::MatrixXd const earlier = response_to_earlier_changes(twin), within = interiors_.responses(data);
+  Eigen::MatrixXd const behind = response_to_clocks(twin);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(data.values.size(), Eigen::Index(unknowns_.size()));
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     auto const& unknown = unknowns_[u];
@@ -182,6 +216,7 @@ Eigen::MatrixXd LinearUnknowns::columns_of(BinnedRun const& data, int run,
       for (std::size_t i = 0; i < data.run->changes.size(); ++i)
         column += data.run->changes[i].earlier * earlier.col(Eigen::Index(i));
     if (unknown.kind == Unknown::Kind::moment) column = earlier.col(own);
+    if (unknown.kind == Unknown::Kind::clock) column = behind.col(own);
     if (unknown.kind == Unknown::Kind::interior) column = within.col(own);
     if (unknown.kind == Unknown::Kind::place) column = response_to(places_[unknown.index], twin, prediction);
     if (unknown.kind == Unknown::Kind::loop) column = twin.growth(gaps_[unknown.index].growth).reshaped();

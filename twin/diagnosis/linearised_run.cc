@@ -308,15 +308,28 @@ ReadingByParameter LinearisedRun::response(Forcing const& forcing, Eigen::Matrix
 }
 
 ReadingByParameter LinearisedRun::response_to_earlier(std::vector<double> const& jumps) const {
-  Eigen::Index const nodes = machine_->network().nodes(), count = Eigen::Index(jumps.size());
+  auto const count = Eigen::Index(jumps.size());
+  return response_to_earlier(count, [&](std::size_t step) {
+    auto const jump = std::find(jumps.begin(), jumps.end(), begins_[step].time) - jumps.begin();
+    return jump == count ? -1 : Eigen::Index(jump);
+  });
+}
+
+ReadingByParameter LinearisedRun::response_to_all_earlier() const {
+  return response_to_earlier(1, [&](std::size_t step) { return ends_[step - 1].time < begins_[step].time ? 0 : -1; });
+}
+
+ReadingByParameter LinearisedRun::response_to_earlier(
+    Eigen::Index count, std::function<Eigen::Index(std::size_t step)> const& column_of) const {
+  Eigen::Index const nodes = machine_->network().nodes();
   Eigen::VectorXd after(nodes), before(nodes);
   auto const leap = [&](thermal::Evaluation& evaluation, std::size_t step, thermal::NodeByParameter& s) {
-    auto const jump = std::find(jumps.begin(), jumps.end(), begins_[step].time) - jumps.begin();
-    if (jump == count || step == 0) return false;
+    Eigen::Index const column = step == 0 ? -1 : column_of(step);
+    if (column < 0) return false;
     double const* const state = begins_[step].state.data();
     evaluation.rate(state, begins_[step].input.data(), after.data());
     evaluation.rate(state, ends_[step - 1].input.data(), before.data());
-    s.col(jump) += after - before;
+    s.col(column) += after - before;
     return true;
   };
   auto const unforced = [](thermal::Evaluation&, double, auto const&, auto const&, thermal::NodeByParameter& forcing) {

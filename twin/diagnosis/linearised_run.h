@@ -56,6 +56,8 @@ class LinearisedRun {
   /// What the channels show more for every second that the inputs jumped earlier, at each of these times: f there with
   /// the inputs after the jump, less f with those before it, stored at once.
   [[nodiscard]] ReadingByParameter response_to_earlier(std::vector<double> const& jumps) const;
+  /// To all of them a second earlier: what a clock that is a second behind theirs shows.
+  [[nodiscard]] ReadingByParameter response_to_all_earlier() const;
   /// Σ wᵢ (Tᵢ(t) − Tᵢ(0)) with other weights for the machine's linear channels, row × channel: ∂z/∂θ of what moves the
   /// tool and no temperature.
   [[nodiscard]] Eigen::MatrixXd growth(std::vector<NodeWeights> const& displacements) const;
@@ -96,6 +98,9 @@ class LinearisedRun {
   using Leap = std::function<bool(thermal::Evaluation&, std::size_t step, thermal::NodeByParameter& s)>;
   [[nodiscard]] ReadingByParameter response(Forcing const& forcing, Eigen::MatrixXd const& initial, Leap const& leap,
                                             std::size_t first_step) const;
+  /// Of `count` columns; `column_of` a step: that to which the jump at its begin belongs, or −1.
+  [[nodiscard]] ReadingByParameter response_to_earlier(
+      Eigen::Index count, std::function<Eigen::Index(std::size_t step)> const& column_of) const;
   /// Behind a first-order lag, exactly: a cubic, and what decays from the begin on.
   struct Lagged {
     Piece piece;

@@ -218,6 +218,11 @@ std::vector<MeasuredChannel> living_channels(MeasuredData const& data, std::vect
   return channels;
 }
 
+void add_with_clock(MeasuredChannel channel, MeasuredData const& data, std::vector<MeasuredChannel>& channels) {
+  if (auto const clock = data.clocks.find(channel.name); clock != data.clocks.end()) channel.clock = clock->second;
+  channels.push_back(std::move(channel));
+}
+
 [[noreturn]] void contradicts(Expected const& expected, output::Channel const& channel) {
   auto const kind = [](bool displacement) { return displacement ? "displacement" : "temperature"; };
   throw InputError(fmt::format("'{}': channel {} of the data is a {}, the machine's is a {}", channel.unit,
@@ -235,7 +240,7 @@ std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const
   for (auto const& e : expected)
     located(data.reading_tables, e.name, [&] {
       if (auto const* channel = find_channel(e.displacement ? data.displacements : data.readings, e.name))
-        channels.push_back(in_si(*channel, e, data, remarks));
+        add_with_clock(in_si(*channel, e, data, remarks), data, channels);
       else if (auto const* other = find_channel(e.displacement ? data.readings : data.displacements, e.name))
         contradicts(e, *other);
     });

@@ -30,6 +30,7 @@ struct MeasuredData {
   /// Tables of a measurement file that name them, for complaints with a place; a data set has none.
   using Tables = std::map<std::string, Value>;
   Tables input_tables, reading_tables;
+  std::map<std::string, std::string> clocks;  ///< of readings that another logger took than what is switched
 };
 
 /// Puts the place of the table that names a channel, if there is one, in front of a complaint about it.

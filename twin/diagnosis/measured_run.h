@@ -22,6 +22,7 @@ struct MeasuredChannel {
   std::string name;  ///< of a sensor, or of a displacement channel of the machine
   bool displacement = false;
   Eigen::VectorXd values;         ///< NaN: missing
+  std::string clock = {};         ///< of its logger, where that is not the one that recorded what is switched
   std::optional<double> still{};  ///< what it showed where all its readings were one value, and `values` are missing
   std::optional<double> dead_from{};  ///< from when on it moved no more [s]; `values` are missing from there
 };

@@ -187,6 +187,20 @@ void add_columns(MeasuredTable const& table, Value const& place, LoadedTable con
   }
 }
 
+/// A logger of readings alone, or with temperatures, has a clock of its own beside one that records what is switched.
+void add_clocks(MeasurementFile const& file, MeasuredData& data) {
+  std::vector<bool> records_switches;
+  for (auto const& table : file.tables)
+    records_switches.push_back(std::any_of(table.inputs.begin(), table.inputs.end(), [](InputColumn const& column) {
+      return thermal::dimension_of(column.unit) != dimension::temperature_difference;
+    }));
+  if (std::find(records_switches.begin(), records_switches.end(), true) == records_switches.end()) return;
+  for (std::size_t t = 0; t < file.tables.size(); ++t)
+    for (auto const& reading : file.tables[t].readings)
+      if (!records_switches[t])
+        data.clocks[reading.sensor] = std::filesystem::path(file.tables[t].file).filename().string();
+}
+
 /// Where it is named; empty: it is a name alone.
 std::filesystem::path file_of_machine(std::string const& named, std::filesystem::path const& directory) {
   for (auto const& file : {directory / named, directory / (named + ".toml")})
@@ -252,6 +266,7 @@ MeasuredData read_measurement_file(std::filesystem::path const& path) {
         add_columns(table, places[t], tables[t], window.from, rows, first, data);
       });
     add_constants(file, document, data);
+    add_clocks(file, data);
     check_names(data);
   });
   return data;

@@ -23,6 +23,7 @@ struct Unknown {
     input,      ///< share of what a run may have been given instead in a gap of its record
     moments,   ///< how much earlier than the samples that show them a run's inputs changed, of the time between samples
     moment,    ///< how much earlier than that one of them changed [s]
+    clock,     ///< by which a logger's is behind that of what is switched, in one run [s]
     place,     ///< of a sensor, in units of sensor_places.h
     loop,      ///< share of a solid's growth that a displacement follows beyond its loop (loop_gaps.h)
     interior,  ///< of what a lump hides, in units of a slab's (lump_interiors.h)
@@ -31,8 +32,9 @@ struct Unknown {
   std::string name;
   double mean = 0.0, deviation = 1.0;
   double lower = -INFINITY, upper = INFINITY;
-  std::size_t index = 0;  ///< of the number, effect, channel, field, alternative, change, place, loop or interior
-  int run = -1;           ///< −1: all
+  std::size_t index =
+      0;         ///< of the number, effect, channel, field, alternative, change, clock, place, loop or interior
+  int run = -1;  ///< −1: all
 };
 
 /// What a machine has and its file does not say: of what lumps hide it cannot, of places and loops only what data tell.

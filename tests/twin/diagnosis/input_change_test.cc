@@ -52,6 +52,21 @@ TEST(InputChange, IsKnownWhereOnlyChangesAreRecorded) {
   EXPECT_THAT(changes_in(input), testing::IsEmpty());
 }
 
+/// The same with a row every five minutes between.
+TEST(InputChange, IsKnownWhereRowsAtRegularTimesStandBetweenThoseOfChanges) {
+  SampledInput input{"spindle.speed", "rad/s", {}, {}};
+  double speed = 0.0;
+  for (int second = 0; second <= 14400; ++second) {
+    bool const changes = second % 290 == 77 || second % 290 == 201;
+    if (changes) speed = speed > 0.0 ? 0.0 : 300.0 + second % 7;
+    if (!changes && second % 100 != 0) continue;
+    input.times.push_back(second);
+    input.values.push_back(speed);
+  }
+  ASSERT_LT(2 * scenarios::driven_channel(input).signal.jumps().size(), input.times.size());
+  EXPECT_THAT(changes_in(input), testing::IsEmpty());
+}
+
 TEST(InputChange, OfSeveralInputsAtOneMomentIsOne) {
   auto const changes = merged({{600.0, 10.0, 0.5}, {1200.0, 10.0, 1.0}, {600.0, 60.0, 0.25}});
   EXPECT_THAT(times_of(changes), ElementsAre(600.0, 1200.0));

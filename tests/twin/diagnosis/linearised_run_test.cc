@@ -420,6 +420,9 @@ TEST(LinearisedRun, KnowsWhatASpeedDoesThatChangedBeforeItsRecord) {
   MatrixXd const earlier = twin.response_to_earlier({4800.0, 7800.0});
   VectorXd const expected = (shown.values - twin.prediction()).reshaped();
   VectorXd const foreseen = 20.0 * earlier.rowwise().sum();
+  MatrixXd const all_earlier = twin.response_to_all_earlier();
+  MatrixXd const each = twin.response_to_earlier({4800.0, 7800.0, 10800.0});
+  EXPECT_LT((all_earlier - each.rowwise().sum()).norm(), 1e-9 * each.norm());
   auto const rows = binned.time.size();
   for (std::size_t c = 0; c < measured().channels.size(); ++c) {
     auto const of = [&](VectorXd const& all) { return all.segment(Index(c) * rows, rows); };

@@ -96,6 +96,7 @@ TEST_F(MeasurementFileTest, LaysTablesOverOneAnother) {
   EXPECT_NEAR(run.channels[1].values[1], 293.0 + 0.4, 1e-9);
   EXPECT_TRUE(std::isnan(run.channels[0].values[6]));  // the empty cell
   EXPECT_DOUBLE_EQ(run.course->next_jump(0.0), 300.0 - 30.0);
+  for (auto const& channel : run.channels) EXPECT_EQ(channel.clock, "readings.csv");  // the duties are another's
 }
 
 TEST_F(MeasurementFileTest, TellsWhatIsWrongAndWhere) {
