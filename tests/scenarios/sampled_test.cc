@@ -68,7 +68,7 @@ TEST(SampledInput, AListOfChangesIsTakenAtItsWord) {
                                  {0, 235, 471, 235, 306, 0, 306, 94, 306, 165, 0}));
 }
 
-/// Rows that say again what is so, as every five minutes, are no noise of nothing: at 475 the speed is another.
+/// Rows at regular times stand between those of changes. Half of the steps are 6 or none, and yet 475 is not 500.
 TEST(SampledInput, AListOfChangesMayRepeatItsRows) {
   std::vector<double> times, values;
   for (int cycle = 0; cycle < 20; ++cycle)

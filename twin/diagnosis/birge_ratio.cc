@@ -27,8 +27,7 @@ double strictness(Estimation const& estimation, Fit const& fit) {
 bool has_left_file(Estimation const& estimation, Fit const& fit) {
   auto const& unknowns = estimation.unknowns();
   for (std::size_t u = 0; u < unknowns.size(); ++u)
-    if (unknowns[u].kind == Unknown::Kind::number &&
-        std::abs(fit.x[Eigen::Index(u)] - unknowns[u].mean) > far_from_file * unknowns[u].deviation)
+    if (unknowns[u].kind == Unknown::Kind::number && unknowns[u].departure(fit.x[Eigen::Index(u)]) > far_from_file)
       return true;
   return false;
 }

@@ -246,7 +246,7 @@ std::vector<std::string> far_numbers(Diagnosis const& diagnosis) {
   std::vector<std::string> far;
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
     auto const& unknown = diagnosis.unknowns[u];
-    double const departure = std::abs(diagnosis.written.x[Eigen::Index(u)]) / unknown.deviation;
+    double const departure = unknown.departure(diagnosis.written.x[Eigen::Index(u)]);
     if (unknown.kind != Unknown::Kind::number || departure < far_from_file) continue;
     for (auto const& change : diagnosis.changes)
       if (change.path == unknown.name)
@@ -270,7 +270,7 @@ std::string words_of_offsets(Diagnosis const& diagnosis) {
   for (std::size_t u = 0; u < diagnosis.unknowns.size(); ++u) {
     auto const& unknown = diagnosis.unknowns[u];
     bool const of_sensor = unknown.kind == Unknown::Kind::offset && unknown.run < 0;
-    double const offset = diagnosis.amended.x[Eigen::Index(u)], departure = std::abs(offset) / unknown.deviation;
+    double const offset = diagnosis.amended.x[Eigen::Index(u)], departure = unknown.departure(offset);
     if (of_sensor && departure >= far_from_file)
       far.push_back(fmt::format("{} = {:.2f} K ({:.1f})", unknown.name, offset, departure));
   }

@@ -12,7 +12,6 @@
 #include "twin/bodies.h"
 #include "twin/diagnosis/birge_ratio.h"
 #include "twin/diagnosis/score.h"
-#include "twin/diagnosis/sensor_places.h"
 #include "twin/file/tables.h"
 
 namespace thermotwin::twin {
@@ -61,11 +60,10 @@ Estimation with_rest(Estimation const& estimation, std::vector<Hypothesis> const
 
 /// Whether a sensor sits elsewhere than the file says, evidently: what it shows as the machine warms is another's then.
 bool has_left_its_place(std::string const& sensor, Estimation const& estimation, Fit const& fit) {
-  auto const places = sensor_places(estimation.document(), Machine::build(estimation.document()));
   auto const& unknowns = estimation.unknowns();
   for (std::size_t u = 0; u < unknowns.size(); ++u)
-    if (unknowns[u].kind == Unknown::Kind::place && places[unknowns[u].index].sensor == sensor &&
-        std::abs(fit.x[Eigen::Index(u)]) > far_from_file * unknowns[u].deviation)
+    if (unknowns[u].kind == Unknown::Kind::place && estimation.places()[unknowns[u].index].sensor == sensor &&
+        unknowns[u].departure(fit.x[Eigen::Index(u)]) > far_from_file)
       return true;
   return false;
 }

@@ -13,9 +13,9 @@
 namespace thermotwin::twin {
 
 /// Unknowns that are small, so that their response about the machine of the file serves throughout: offsets of sensors
-/// and zeros of displacements, how warm the machine starts, the air, when the inputs changed, what lumps hide, where
-/// exactly sensors sit, and what the structural loop leaves out. And what was given in gaps, of which a share is
-/// estimated: in proportion to its heat, of which only what is stored is seen.
+/// and zeros of displacements, how warm the machine starts, the air, when the inputs changed, how far loggers' clocks
+/// are behind, what lumps hide, where exactly sensors sit, and what the structural loop leaves out. And what was given
+/// in gaps, of which a share is estimated: in proportion to its heat, of which only what is stored is seen.
 class LinearUnknowns {
  public:
   LinearUnknowns(Value const& document, std::vector<BinnedRun> const& data, std::vector<std::string> const& channels);

@@ -79,6 +79,7 @@ MeasuredChannel in_si(output::Channel const& channel, Expected const& expected, 
     throw InputError(fmt::format("channel '{}' is in {}, the machine's is a {}", channel.name, channel.unit,
                                  expected.displacement ? thermal::name_of(expected.dimension) : "temperature"));
   MeasuredChannel result{channel.name, expected.displacement, channel.values};
+  if (auto const clock = data.clocks.find(channel.name); clock != data.clocks.end()) result.clock = clock->second;
   thermal::from_unit({result.values.data(), std::size_t(result.values.size())}, channel.unit);
   if (expected.displacement) return result;
   leave_out_failure(result, channel, data.time, remarks);
@@ -218,11 +219,6 @@ std::vector<MeasuredChannel> living_channels(MeasuredData const& data, std::vect
   return channels;
 }
 
-void add_with_clock(MeasuredChannel channel, MeasuredData const& data, std::vector<MeasuredChannel>& channels) {
-  if (auto const clock = data.clocks.find(channel.name); clock != data.clocks.end()) channel.clock = clock->second;
-  channels.push_back(std::move(channel));
-}
-
 [[noreturn]] void contradicts(Expected const& expected, output::Channel const& channel) {
   auto const kind = [](bool displacement) { return displacement ? "displacement" : "temperature"; };
   throw InputError(fmt::format("'{}': channel {} of the data is a {}, the machine's is a {}", channel.unit,
@@ -240,7 +236,7 @@ std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const
   for (auto const& e : expected)
     located(data.reading_tables, e.name, [&] {
       if (auto const* channel = find_channel(e.displacement ? data.displacements : data.readings, e.name))
-        add_with_clock(in_si(*channel, e, data, remarks), data, channels);
+        channels.push_back(in_si(*channel, e, data, remarks));
       else if (auto const* other = find_channel(e.displacement ? data.readings : data.displacements, e.name))
         contradicts(e, *other);
     });

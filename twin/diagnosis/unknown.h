@@ -35,6 +35,9 @@ struct Unknown {
   std::size_t index =
       0;         ///< of the number, effect, channel, field, alternative, change, clock, place, loop or interior
   int run = -1;  ///< −1: all
+
+  /// Of an estimate from the prior's mean, in the prior's deviations.
+  [[nodiscard]] double departure(double estimate) const { return std::abs(estimate - mean) / deviation; }
 };
 
 /// What a machine has and its file does not say: of what lumps hide it cannot, of places and loops only what data tell.

@@ -52,7 +52,7 @@ TEST(InputChange, IsKnownWhereOnlyChangesAreRecorded) {
   EXPECT_THAT(changes_in(input), testing::IsEmpty());
 }
 
-/// The same with a row every five minutes between.
+/// The same with a row every 100 s between.
 TEST(InputChange, IsKnownWhereRowsAtRegularTimesStandBetweenThoseOfChanges) {
   SampledInput input{"spindle.speed", "rad/s", {}, {}};
   double speed = 0.0;
