@@ -16,6 +16,7 @@ constexpr double staircase = 1.7;             // times what neighbours differ by
 constexpr double surely_still = 0.002;        // of the largest magnitude
 constexpr double least_of_motion = 3.0;       // times the noise of neighbours
 constexpr double deviation_of_median = 1.05;  // σ = 1.4826/√2 · median |Δ| of white noise
+constexpr double regular = 0.25;  // of the usual interval, by which those of a record of samples differ from it
 
 struct Course {
   std::vector<double> times, values;
@@ -73,19 +74,29 @@ double held(std::vector<double> const& values, double mean, double largest) {
   return still ? 0.0 : mean;
 }
 
+std::vector<std::size_t> changed_rows(std::vector<double> const& values) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] != values[i - 1]) rows.push_back(i);
+  return rows;
+}
+
 /// What neighbours differ by is what the programme does, not noise: noise is small, and two samples that are two apart
-/// differ by as much of it as neighbours do; those of a staircase differ by twice as much. Where nothing changed says
-/// nothing: a list may repeat its last row from time to time.
-bool is_list_of_changes(std::vector<double> values) {
+/// differ by as much of it as neighbours do; those of a staircase differ by twice as much. Nor does noise come at times
+/// of its own. Where nothing changed says nothing: a list may repeat its last row from time to time.
+bool is_list_of_changes(Course const& samples) {
+  auto values = samples.values;
   values.erase(std::unique(values.begin(), values.end()), values.end());
   double const step = median_step(values), largest = largest_magnitude(values);
-  return step > most_noise * largest || (step > same_block * largest && median_step(values, 2) > staircase * step);
+  if (step <= same_block * largest) return false;
+  return step > most_noise * largest || median_step(values, 2) > staircase * step ||
+         are_written_at_changes(samples.times, changed_rows(samples.values));
 }
 
 /// Samples that differ by noise only become one breakpoint with their mean.
 Course blocks(Course const& samples) {
   double const largest = largest_magnitude(samples.values);
-  double const step = is_list_of_changes(samples.values) ? 0.0 : median_step(samples.values);
+  double const step = is_list_of_changes(samples) ? 0.0 : median_step(samples.values);
   double const tolerance = step == 0.0 ? 0.0 : std::max(same_block * largest, deviations * deviation_of_median * step);
   Course result;
   std::vector<double> block;
@@ -130,6 +141,19 @@ Course means(Course const& samples, double width) {
 
 bool is_temperature(SampledInput const& input) {
   return input.absolute_temperature || (input.unit == "K" && input.name.ends_with("temperature"));
+}
+
+bool are_written_at_changes(std::vector<double> const& times, std::vector<std::size_t> const& changed) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < times.size(); ++i) intervals.push_back(times[i] - times[i - 1]);
+  if (intervals.empty()) return false;
+  auto sorted = intervals;
+  auto const middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  auto const at_another = std::count_if(changed.begin(), changed.end(), [&](std::size_t row) {
+    return std::abs(intervals[row - 1] - *middle) > regular * *middle;
+  });
+  return 3 * std::size_t(at_another) > changed.size();
 }
 
 std::vector<double> recorded_times(SampledInput const& input) {

@@ -21,6 +21,10 @@ struct SampledInput {
 /// Whether it is a point on the temperature scale: its unit or its name says so.
 [[nodiscard]] bool is_temperature(SampledInput const& input);
 
+/// Whether rows come when something changes, besides those that come at regular times: of the rows that `changed`, from
+/// 1 on, more than a third come at other intervals than rows mostly do.
+[[nodiscard]] bool are_written_at_changes(std::vector<double> const& times, std::vector<std::size_t> const& changed);
+
 /// Times of the samples that are not missing.
 [[nodiscard]] std::vector<double> recorded_times(SampledInput const& input);
 
@@ -31,12 +35,12 @@ struct SampledInput {
 ///
 /// What is held may be noisy, and would jump at every sample. Unless more than half of the samples that are not
 /// zero repeat the one before, or neighbours differ by more than noise does (by 10 % of the largest magnitude; by 2 %,
-/// and those two apart by 1.7 times as much; rows that repeat the one before do not count), as where only changes are
-/// written down, a sample belongs to the running block while it is within max(2 % of the channel's largest magnitude,
-/// 5 σ) of the block's mean, which is then the block's value; σ = 1.05 median |Δ| of neighbours. A noisy block stands
-/// still, 0, where its mean is below 0.2 % of the largest, or below 2 % and its samples are noise about zero.
-/// Temperatures that go along straight lines are smoothed (noisy_record.h): a sensor that lags would explain away the
-/// noise of what it is held against.
+/// and those two apart by 1.7 times as much, or at times of their own; rows that repeat the one before do not count),
+/// as where only changes are written down, a sample belongs to the running block while it is within max(2 % of the
+/// channel's largest magnitude, 5 σ) of the block's mean, which is then the block's value; σ = 1.05 median |Δ| of
+/// neighbours. A noisy block stands still, 0, where its mean is below 0.2 % of the largest, or below 2 % and its
+/// samples are noise about zero. Temperatures that go along straight lines are smoothed (noisy_record.h): a sensor that
+/// lags would explain away the noise of what it is held against.
 ///
 /// Throws InputError when no sample is finite.
 DrivenChannel driven_channel(SampledInput const& input);

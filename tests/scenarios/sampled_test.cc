@@ -79,6 +79,17 @@ TEST(SampledInput, AListOfChangesMayRepeatItsRows) {
   expect_word_for_word(programme(times, values));
 }
 
+/// An override, written down as the controller ramps: two rows each, a minute apart. Steps of 4 to 10 % are no noise
+/// then.
+TEST(SampledInput, AListOfSmallChangesIsTakenAtItsWord) {
+  std::vector<double> times = {0.0}, values = {0.0};
+  for (double const speed : {280.0, 266.0, 252.0, 266.0, 280.0, 140.0, 0.0, 252.0, 266.0, 280.0, 294.0, 280.0, 0.0}) {
+    times.insert(times.end(), {times.back() + 700.0, times.back() + 766.0});
+    values.insert(values.end(), {0.5 * (values.back() + speed), speed});
+  }
+  expect_word_for_word(programme(times, values));
+}
+
 TEST(SampledInput, AStaircaseIsTakenAtItsWord) {
   std::vector<double> times, values;
   for (int i = 0; i < 25; ++i) {

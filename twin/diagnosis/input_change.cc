@@ -3,37 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "twin/diagnosis/measured_run.h"
-
 namespace thermotwin::twin {
-namespace {
-
-constexpr double regular = 0.25;  // of the usual interval, by which those of a record of samples differ from it
-
-/// Whether rows come when something changes, besides those that come at regular times: most come at others.
-bool is_written_at_changes(std::vector<double> const& times) {
-  double const usual = usual_interval(times);
-  std::size_t others = 0;
-  for (std::size_t i = 1; i < times.size(); ++i)
-    if (std::abs(times[i] - times[i - 1] - usual) > regular * usual) ++others;
-  return 2 * others > times.size();
-}
-
-}  // namespace
 
 std::vector<InputChange> changes_of(scenarios::SampledInput const& input, scenarios::Signal const& signal) {
   auto const samples = scenarios::recorded_times(input);
   auto const jumps = signal.jumps();
-  if (2 * jumps.size() > samples.size() || is_written_at_changes(samples)) return {};
+  if (2 * jumps.size() > samples.size()) return {};
   double const largest = signal.largest_magnitude();
   std::vector<InputChange> changes;
+  std::vector<std::size_t> rows;
   for (double const time : jumps) {
     auto const shown = std::lower_bound(samples.begin(), samples.end(), time);
     if (shown == samples.begin() || shown == samples.end()) continue;
+    rows.push_back(std::size_t(shown - samples.begin()));
     double const before = *(shown - 1);
     changes.push_back({time, time - before, std::abs(signal.at(time) - signal.at(before)) / largest});
   }
-  return changes;
+  return scenarios::are_written_at_changes(samples, rows) ? std::vector<InputChange>{} : changes;
 }
 
 std::vector<InputChange> merged(std::vector<InputChange> changes, std::size_t most) {

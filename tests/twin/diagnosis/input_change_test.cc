@@ -67,6 +67,18 @@ TEST(InputChange, IsKnownWhereRowsAtRegularTimesStandBetweenThoseOfChanges) {
   EXPECT_THAT(changes_in(input), testing::IsEmpty());
 }
 
+/// Most rows of a quiet day are those at regular times.
+TEST(InputChange, IsKnownWhereFewOfManyRowsAreOfChanges) {
+  SampledInput input{"spindle.speed", "rad/s", {}, {}};
+  for (int second = 0; second <= 14400; ++second) {
+    if (second % 300 != 0 && second % 3600 != 2005) continue;
+    input.times.push_back(second);
+    input.values.push_back((second + 3600 - 2005) / 3600 % 2 == 0 ? 0.0 : 300.0);
+  }
+  ASSERT_EQ(scenarios::driven_channel(input).signal.jumps().size(), 4U);
+  EXPECT_THAT(changes_in(input), testing::IsEmpty());
+}
+
 TEST(InputChange, OfSeveralInputsAtOneMomentIsOne) {
   auto const changes = merged({{600.0, 10.0, 0.5}, {1200.0, 10.0, 1.0}, {600.0, 60.0, 0.25}});
   EXPECT_THAT(times_of(changes), ElementsAre(600.0, 1200.0));
