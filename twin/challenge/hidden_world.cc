@@ -194,7 +194,7 @@ class EffectDraw {
         hardest_(challenge_runs(machine_.limits, seed).front()),
         held_out_(challenge_runs(machine_.limits, seed).back()),
         all_(hypotheses(nominal, machine_)) {
-    std::erase_if(all_, [](auto const& hypothesis) { return !hypothesis.trial->if_changes.empty(); });
+    std::erase_if(all_, [](Hypothesis const& h) { return h.stands || !h.trial->if_changes.empty(); });
   }
 
   /// Adds the effect to the document of the hidden world.

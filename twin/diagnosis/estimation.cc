@@ -69,7 +69,7 @@ Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::
     rows_ += run.values.size();
   }
   add_numbers_and_lags();
-  linear_ = std::make_shared<LinearUnknowns const>(document_, data, channels);
+  linear_ = std::make_shared<LinearUnknowns const>(document_at(prior_mean()), data, channels);  // with the usual lags
   first_linear_ = Eigen::Index(unknowns_.size());
   unknowns_.insert(unknowns_.end(), linear_->all().begin(), linear_->all().end());
   hear(noise);

@@ -356,7 +356,8 @@ std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine
             for (auto const& [key, place] : spot.keys)
               if (auto const body = surfaces.find(body_of(place)); body != surfaces.end() && body->second > 0.0)
                 hypothesis.largest = std::min(hypothesis.largest, body->second);
-          if (!stands_already(document, hypothesis)) result.push_back(std::move(hypothesis));
+          hypothesis.stands = stands_already(document, hypothesis);
+          result.push_back(std::move(hypothesis));
         }
       }
   }

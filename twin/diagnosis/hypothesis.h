@@ -35,6 +35,8 @@ struct Hypothesis {
   double largest = 0.0;
   /// Where a response per unit is not the slope at nothing, of which amplitude it is [of the largest].
   double about = 0.0;
+  /// Whether a table of the file does the same at the same place: this is more of it than its numbers may be.
+  bool stands = false;
 
   /// What is compared: entries that differ in their shape only are one effect at one place.
   [[nodiscard]] std::string label() const { return effect->name + " at " + site; }
@@ -49,9 +51,8 @@ struct Hypothesis {
   [[nodiscard]] bool is_ordinary(double amplitude, double standard_error) const;
 };
 
-/// Every trial of the catalogue at every site that the machine has for it, but for tables that stand in the file
-/// already and for effects named in `without`. A bar of more than 150 mm has three stretches, other bodies are one
-/// site.
+/// Every trial of the catalogue at every site that the machine has for it, but for effects named in `without`. A bar of
+/// more than 150 mm has three stretches, other bodies are one site.
 [[nodiscard]] std::vector<Hypothesis> hypotheses(Value const& document, Machine const& machine,
                                                  std::vector<std::string> const& without = {});
 

@@ -14,8 +14,14 @@ std::vector<MeasuredRun> read_runs(RunFiles const& files, Machine const& machine
   std::vector<MeasuredRun> runs;
   for (auto const& file : files) runs.push_back(read_measured_run(file, machine));
   let_begin_alike(runs, machine);
+  std::vector<std::pair<std::string, RunFiles>> said;  // once, of whatever files
   for (std::size_t r = 0; r < runs.size(); ++r)
-    for (auto const& remark : runs[r].remarks) remarks.push_back(files[r].filename().string() + ": " + remark);
+    for (auto const& remark : runs[r].remarks) {
+      auto const same =
+          std::find_if(said.begin(), said.end(), [&](auto const& known) { return known.first == remark; });
+      (same == said.end() ? said.emplace_back(remark, RunFiles{}) : *same).second.push_back(files[r]);
+    }
+  for (auto const& [remark, of] : said) remarks.push_back(names_of(of) + ": " + remark);
   return runs;
 }
 

@@ -12,7 +12,8 @@ namespace thermotwin::twin {
 /// The files of measured runs that a command was given.
 using RunFiles = std::vector<std::filesystem::path>;
 
-/// One after the other; what is odd about one goes to `remarks`, under its name. InputError that names the file.
+/// One after the other; what is odd goes to `remarks`, under the names of those that are. InputError that names the
+/// file.
 [[nodiscard]] std::vector<MeasuredRun> read_runs(RunFiles const& files, Machine const& machine,
                                                  std::vector<std::string>& remarks);
 

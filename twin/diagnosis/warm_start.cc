@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "models/log_determinant.h"
+#include "thermal/error.h"
 #include "thermal/evaluation.h"
 #include "thermal/integrate.h"
 #include "twin/diagnosis/channel_reading.h"
@@ -80,14 +81,39 @@ std::string farthest(FirstReadings first) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+/// What the machine is given where the run begins; `standing`: of that, temperatures and the room.
+std::vector<double> input_at_begin(thermal::Network const& network, MeasuredRun const& run, bool standing) {
+  auto const& channels = run.course->channels();
+  std::vector<double> values(channels.size()), input(std::size_t(network.given_channels()), 0.0);
+  run.course->evaluate(0.0, values);
+  for (int i = 0; i < network.external_channels(); ++i) {
+    int const place = run.course->index_of(network.channel_names()[std::size_t(i)]);
+    if (place < 0) continue;
+    auto const& channel = channels[std::size_t(place)];
+    if (!standing || channel.unit == "K" || channel.name.starts_with("ambient.") || channel.name == "machine.on")
+      input[std::size_t(i)] = values[std::size_t(place)];
+  }
+  return input;
+}
+
+/// t: how much warmer the machine is than at rest when it has stood for long [K]. Nothing where it does not settle.
+VectorXd rise_of_standing(Machine const& machine, MeasuredRun const& run, std::vector<double> const& rest) {
+  auto const& network = machine.network();
+  VectorXd rise = VectorXd::Zero(network.nodes());
+  try {
+    auto const steady = thermal::steady_state(network, input_at_begin(network, run, true), rest);
+    for (Index i = 0; i < rise.size(); ++i)
+      if (!network.signals()[std::size_t(i)]) rise[i] = steady[std::size_t(i)] - rest[std::size_t(i)];
+  } catch (thermal::IntegrationError const&) {
+    rise.setZero();
+  }
+  return rise;
+}
+
 /// K, at rest with what the run is given where it begins.
 MatrixXd conductances(Machine const& machine, MeasuredRun const& run, std::vector<double> const& rest) {
   auto const& network = machine.network();
-  std::vector<double> values(run.course->channels().size()), input(std::size_t(network.given_channels()), 0.0);
-  run.course->evaluate(0.0, values);
-  for (int i = 0; i < network.external_channels(); ++i)
-    if (int const channel = run.course->index_of(network.channel_names()[std::size_t(i)]); channel >= 0)
-      input[std::size_t(i)] = values[std::size_t(channel)];
+  auto const input = input_at_begin(network, run, false);
   auto const state = thermal::start_of_run(network, rest, 0.0).state;
   auto const capacity = VectorXd::Map(network.capacity().data(), network.nodes());
   MatrixXd const jacobian = thermal::Evaluation(network).jacobian(state.data(), input.data());
@@ -108,48 +134,66 @@ MatrixXd root_of_inverse(MatrixXd const& K, std::vector<char> const& signals) {
   return F;
 }
 
-/// cov(d), shown = √κ H F.
-Eigen::LLT<MatrixXd> covariance(MatrixXd const& shown) {
-  MatrixXd cov = shown * shown.transpose();
-  cov.diagonal().array() += offset_deviation * offset_deviation;
+/// cov(d) of a machine at rest.
+MatrixXd covariance_of_rest(Index sensors) {
+  MatrixXd cov = offset_deviation * offset_deviation * MatrixXd::Identity(sensors, sensors);
   cov.array() += start_deviation * start_deviation;
-  return Eigen::LLT<MatrixXd>(cov);
+  return cov;
 }
 
 /// 2 ln of N(d; 0, cov(d)), without what does not depend on it.
-double likelihood(MatrixXd const& shown, VectorXd const& rise) {
-  auto const factor = covariance(shown);
+double likelihood(MatrixXd const& cov, VectorXd const& rise) {
+  Eigen::LLT<MatrixXd> const factor(cov);
   return -rise.dot(factor.solve(rise)) - models::log_determinant(factor);
 }
-
-/// What no field gains more than, for each widens cov(d): dᵀ cov(d)⁻¹ d without any.
-double most_gain(VectorXd const& rise) { return rise.dot(covariance(MatrixXd::Zero(rise.size(), 1)).solve(rise)); }
 
 struct Likeliest {
   double root = 0.0;  ///< √κ
   double gain = 0.0;  ///< of 2 ln likelihood, over none
 };
 
-Likeliest likeliest(MatrixXd const& shown, VectorXd const& rise) {
-  double const none = likelihood(MatrixXd::Zero(shown.rows(), 1), rise);
-  double const per_root = std::sqrt(shown.squaredNorm() / double(shown.rows()));
+/// `shown`: H F.
+Likeliest likeliest(MatrixXd const& rest, MatrixXd const& shown, VectorXd const& rise) {
+  double const none = likelihood(rest, rise);
+  MatrixXd const square = shown * shown.transpose();
+  double const per_root = std::sqrt(square.trace() / double(shown.rows()));
   Likeliest best;
   for (double rms = least_rise; rms < largest_rise; rms *= rise_step) {
-    double const root = rms / per_root, gain = likelihood(root * shown, rise) - none;
+    double const root = rms / per_root, gain = likelihood(rest + root * root * square, rise) - none;
     if (gain > best.gain) best = {root, gain};
   }
   return best;
 }
 
 /// One sensor that is wrong by kelvins is no warm machine.
-bool is_evident(MatrixXd const& shown, VectorXd const& rise) {
+bool is_evident(MatrixXd const& rest, MatrixXd const& shown, VectorXd const& rise) {
   for (Index left_out = 0; left_out < rise.size(); ++left_out) {
     std::vector<Index> others;
     for (Index i = 0; i < rise.size(); ++i)
       if (i != left_out) others.push_back(i);
-    if (likeliest(shown(others, Eigen::all), rise(others)).gain < evident_gain) return false;
+    if (likeliest(rest(others, others), shown(others, Eigen::all), rise(others)).gain < evident_gain) return false;
   }
   return true;
+}
+
+/// Whether the machine was on its way from rest to that, as shown: by anything where it has a past.
+bool has_stood(MatrixXd const& rest, MatrixXd const& shown, VectorXd const& rise, bool has_past) {
+  if (shown.cwiseAbs().maxCoeff() < least_field) return false;
+  return has_past ? likeliest(rest, shown, rise).gain > 0.0 : is_evident(rest, shown, rise);
+}
+
+/// √κ F of the likeliest κ; without columns where that is none. `rest`: cov(d) of κ = 0.
+MatrixXd fields_of_past(Machine const& machine, MeasuredRun const& run, std::vector<double> const& at_rest,
+                        FirstReadings const& first, MatrixXd const& rest, bool has_past) {
+  MatrixXd const none(machine.network().nodes(), 0);
+  // No κ gains more, for each widens cov(d): dᵀ cov(d)⁻¹ d without any.
+  double const most = first.rise.dot(Eigen::LLT<MatrixXd>(rest).solve(first.rise));
+  if (first.rise.size() < fewest_sensors || most < (has_past ? 0.0 : evident_gain)) return none;
+  MatrixXd const F = root_of_inverse(conductances(machine, run, at_rest), machine.network().signals());
+  MatrixXd const shown = first.weights * F;
+  auto const [root, gain] = likeliest(rest, shown, first.rise);
+  if (has_past ? gain <= 0.0 : !is_evident(rest, shown, first.rise)) return none;
+  return root * F;
 }
 
 /// Of what a node is coupled to and whose rows are known.
@@ -190,24 +234,29 @@ MatrixXd WarmStart::fields_in(thermal::Network const& network) const {
   return result;
 }
 
-std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run, bool another_does) {
+std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run, bool another_has_past) {
   auto const& network = machine.network();
   if (network.nodes() > most_nodes) return {};
   auto const rest = at_rest(machine, run);
   auto const first = first_readings(machine, run, rest);
-  if (first.rise.size() < fewest_sensors || most_gain(first.rise) < (another_does ? 0.0 : evident_gain)) return {};
-  MatrixXd const F = root_of_inverse(conductances(machine, run, rest), network.signals());
-  MatrixXd const shown = first.weights * F;
-  auto const [root, gain] = likeliest(shown, first.rise);
-  if (another_does ? gain <= 0.0 : !is_evident(shown, first.rise)) return {};
-  VectorXd const likely = root * shown.transpose() * covariance(root * shown).solve(first.rise);
+  if (first.rise.size() == 0) return {};
+  VectorXd const standing = rise_of_standing(machine, run, rest), seen = first.weights * standing;
+  MatrixXd cov = covariance_of_rest(first.rise.size());
+  bool const stood = has_stood(cov, seen, first.rise, another_has_past);
+  if (stood) cov += seen * seen.transpose();
+  MatrixXd const past = fields_of_past(machine, run, rest, first, cov, stood || another_has_past);
+  if (!stood && past.cols() == 0) return {};
+  MatrixXd fields(network.nodes(), past.cols() + 1);
+  fields << past, (stood ? 1.0 : 0.0) * standing;
   std::vector<Index> kept;
-  for (Index k = 0; k < F.cols(); ++k)
-    if (root * F.col(k).cwiseAbs().maxCoeff() > least_field) kept.push_back(k);
+  for (Index k = 0; k < fields.cols(); ++k)
+    if (fields.col(k).cwiseAbs().maxCoeff() > least_field) kept.push_back(k);
+  MatrixXd const shown = first.weights * past;
+  VectorXd const unlikely = Eigen::LLT<MatrixXd>(cov + shown * shown.transpose()).solve(first.rise);
   WarmStart result;
   for (int i = 0; i < network.nodes(); ++i) result.nodes.push_back(network.node_name(i));
-  result.fields = root * F(Eigen::all, kept);
-  result.likely = likely(kept);
+  result.fields = fields(Eigen::all, kept);
+  result.likely = result.fields.transpose() * first.weights.transpose() * unlikely;
   result.farthest = farthest(first);
   return result;
 }

@@ -25,9 +25,12 @@ struct MeasuredRun;
 ///
 /// and κ is the likeliest. With K⁻¹ = F Fᵀ, θ = √κ F b, b ~ N(0, I), of which E[b | d] = √κ (H F)ᵀ cov(d)⁻¹ d
 /// (Rasmussen & Williams, Gaussian Processes for Machine Learning, 2006, 2.1).
+///
+/// Some machines stand cooler than their room, by a tank that evaporates or a foundation, or warmer. How far one had
+/// come to that, t with nothing switched on, nobody recorded: θ is t b more, b ~ N(0, 1), and cov(d) H t (H t)ᵀ more.
 struct WarmStart {
   std::vector<std::string> nodes;
-  Eigen::MatrixXd fields;  ///< node × field, the columns of √κ F that are more than next to nothing [K]
+  Eigen::MatrixXd fields;  ///< node × field, √κ F and t, the columns that are more than next to nothing [K]
   Eigen::VectorXd likely;  ///< E[b | d]
   std::string farthest;    ///< of d, for people: "T1 +6.4 K, T2 +6.3 K, T5 +6.0 K"
 
@@ -36,11 +39,11 @@ struct WarmStart {
   [[nodiscard]] Eigen::MatrixXd fields_in(thermal::Network const& network) const;
 };
 
-/// Nothing where a run has a past before its readings, or where its machine may have been at rest: unless some κ gains
-/// 11 of 2 ln of the likelihood over none, whichever sensor is left out. Where another run of the machine does not
-/// begin at rest, any gain suffices. `run` has its course and channels.
+/// Nothing where a run has a past before its readings, or where its machine may have been at rest: unless t or some κ
+/// gains 11 of 2 ln of the likelihood over none, whichever sensor is left out. Where another run of the machine does
+/// not begin at rest, any gain suffices, and of κ where this one has stood. `run` has its course and channels.
 [[nodiscard]] std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run,
-                                                  bool another_does = false);
+                                                  bool another_has_past = false);
 
 /// Of every node where the run begins, most likely [K].
 [[nodiscard]] std::vector<double> start_of(Machine const& machine, MeasuredRun const& run);

@@ -335,14 +335,14 @@ TEST(Estimation, FindsWhenTheSpeedChangedBetweenTwoRows) {
   EXPECT_GT(literal.fit(literal.prior_mean()).cost, fit.cost + 100.0);
 }
 
-/// A logger that writes down a time 12 s too early: of a machine whose file has its numbers, the clock is found.
+/// A logger that writes down a time 12 s too early: the clock is found beside the numbers, while sensors are slower.
 TEST(Estimation, FindsThatALoggersClockIsBehind) {
   auto run = tests::measured(truth(), tests::two_speeds("4788 s", "50 min", "50 min", "3612 s"));
   tests::add_noise(run, kelvin, metres, 5);
   run.changes.clear();
   for (auto& channel : run.channels) channel.clock = "logger.csv";
   std::vector<BinnedRun> const data = {bin(run, 120.0)};
-  Estimation const estimation(truth(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
+  Estimation const estimation(v450(), data, tests::channels_of(run), tests::noise_of(run, kelvin, metres));
   auto const fit = estimation.fit(estimation.prior_mean());
   auto const clock = index_of(estimation, "clock of logger.csv behind, run 1");
   double const error = std::sqrt(fit.covariance(clock, clock));

@@ -109,6 +109,30 @@ TEST(WarmStart, RunsMayBeginAsAnotherDoes) {
   EXPECT_FALSE(together[1].warm_start) << "nor does one that is at rest";
 }
 
+/// One whose tank evaporates is cooler than its room after a night, and as warm where it was filled in the morning.
+TEST(WarmStart, AMachineMayHaveStoodUntilItsRunBegins) {
+  Machine const machine = Machine::build(tests::with_table(star(), R"toml(
+    [[evaporation]]
+    name = "tank"
+    from = "a"
+    area = "0.1 m2"
+    coefficient = "12 W/(m2 K)")toml"));
+  auto const dataset = run(machine, tests::experiment("duration = \"1 h\""), {}).dataset;
+  auto measured = measured_run(dataset, machine, "run");
+  EXPECT_FALSE(measured.warm_start) << "nor need it have stood";
+  auto const room = start_of(machine, measured);
+  std::vector<double> stood;
+  thermal::integrate(
+      machine.network(), *measured.course, room, std::vector<double>{0.0, 24.0 * 3600.0}, {},
+      [&](thermal::Sample const& sample) { stood.assign(sample.temperatures.begin(), sample.temperatures.end()); });
+  ASSERT_LT(stood[0], room[0] - 2.0);
+  for (std::size_t i = 0; i < 4; ++i) measured.channels[i].values.setConstant(stood[i]);
+  measured.begin_with(warm_start(machine, measured));
+  ASSERT_TRUE(measured.warm_start);
+  auto const start = start_of(machine, measured);
+  for (std::size_t i = 0; i < start.size(); ++i) EXPECT_NEAR(start[i], stood[i], 0.1 * (room[i] - stood[i])) << i;
+}
+
 TEST(WarmStart, AMassThatIsAddedIsAsWarmAsItsBody) {
   Machine const machine = Machine::build(star());
   Machine const with_mass = Machine::build(tests::with_table(star(), R"(
