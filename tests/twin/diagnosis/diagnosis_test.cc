@@ -10,6 +10,7 @@
 #include "twin/diagnosis/birge_ratio.h"
 #include "twin/diagnosis/diagnosis_json.h"
 #include "twin/diagnosis/separation.h"
+#include "twin/sensitivity.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -39,6 +40,22 @@ TEST(Diagnosis, NamesWhatMovesADisplacement) {
   EXPECT_EQ(name_of(diagnosis.verdict), "effect");
   ASSERT_EQ(diagnosis.effects.size(), 1);
   EXPECT_EQ(diagnosis.effects[0].effect->name, "centrifugal_growth");
+}
+
+/// Ten times as much as the file has there: no number is as wrong as that.
+TEST(Diagnosis, NamesMoreOfWhatStandsInTheFile) {
+  ASSERT_EQ(find_number(tests::v450(), "motor_loss.stator.eddy").value, 30.0);
+  auto const diagnosis = diagnosed(R"(
+    [[motor_loss]]
+    name = "hidden"
+    at = "motor"
+    eddy = "300 W")");
+  EXPECT_EQ(name_of(diagnosis.verdict), "effect");
+  ASSERT_EQ(diagnosis.explanations.size(), 1);
+  auto const& finding = diagnosis.explanations[0].alternatives[0];
+  EXPECT_EQ(finding.hypothesis.label(), "motor_loss at motor");
+  EXPECT_TRUE(finding.hypothesis.stands);
+  EXPECT_NEAR(finding.amplitude, 300.0, 2.0 * finding.standard_error);
 }
 
 /// The same growth where more evidence is asked for than there is: not named, but told with an experiment that would
