@@ -176,7 +176,7 @@ bool is_evident(MatrixXd const& rest, MatrixXd const& shown, VectorXd const& ris
   return true;
 }
 
-/// Whether the machine was on its way from rest to that, as shown: by anything where it has a past.
+/// Whether the machine has stood, on its way from rest to what is shown of that: by any gain where it has a past.
 bool has_stood(MatrixXd const& rest, MatrixXd const& shown, VectorXd const& rise, bool has_past) {
   if (shown.cwiseAbs().maxCoeff() < least_field) return false;
   return has_past ? likeliest(rest, shown, rise).gain > 0.0 : is_evident(rest, shown, rise);
@@ -188,7 +188,7 @@ MatrixXd fields_of_past(Machine const& machine, MeasuredRun const& run, std::vec
   MatrixXd const none(machine.network().nodes(), 0);
   // No κ gains more, for each widens cov(d): dᵀ cov(d)⁻¹ d without any.
   double const most = first.rise.dot(Eigen::LLT<MatrixXd>(rest).solve(first.rise));
-  if (first.rise.size() < fewest_sensors || most < (has_past ? 0.0 : evident_gain)) return none;
+  if (most < (has_past ? 0.0 : evident_gain)) return none;
   MatrixXd const F = root_of_inverse(conductances(machine, run, at_rest), machine.network().signals());
   MatrixXd const shown = first.weights * F;
   auto const [root, gain] = likeliest(rest, shown, first.rise);
@@ -239,7 +239,7 @@ std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& r
   if (network.nodes() > most_nodes) return {};
   auto const rest = at_rest(machine, run);
   auto const first = first_readings(machine, run, rest);
-  if (first.rise.size() == 0) return {};
+  if (first.rise.size() < fewest_sensors) return {};
   VectorXd const standing = rise_of_standing(machine, run, rest), seen = first.weights * standing;
   MatrixXd cov = covariance_of_rest(first.rise.size());
   bool const stood = has_stood(cov, seen, first.rise, another_has_past);
