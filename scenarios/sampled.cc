@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenarios/noisy_record.h"
 #include "thermal/error.h"
@@ -33,15 +34,18 @@ Course finite_part(SampledInput const& input) {
   return course;
 }
 
+double median(std::vector<double> values) {
+  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// Of samples that are so many apart and not zero: at rest a programme repeats itself, however noisy its record.
 double median_step(std::vector<double> const& values, std::size_t apart = 1) {
   std::vector<double> steps;
   for (std::size_t i = apart; i < values.size(); ++i)
     if (values[i] != 0.0 && values[i - apart] != 0.0) steps.push_back(std::abs(values[i] - values[i - apart]));
-  if (steps.empty()) return 0.0;
-  auto const middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? 0.0 : median(std::move(steps));
 }
 
 bool is_held(SampledInput const& input, std::vector<double> const& values) {
@@ -147,11 +151,9 @@ bool are_written_at_changes(std::vector<double> const& times, std::vector<std::s
   std::vector<double> intervals;
   for (std::size_t i = 1; i < times.size(); ++i) intervals.push_back(times[i] - times[i - 1]);
   if (intervals.empty()) return false;
-  auto sorted = intervals;
-  auto const middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  double const usual = median(intervals);
   auto const at_another = std::count_if(changed.begin(), changed.end(), [&](std::size_t row) {
-    return std::abs(intervals[row - 1] - *middle) > regular * *middle;
+    return std::abs(intervals[row - 1] - usual) > regular * usual;
   });
   return 3 * std::size_t(at_another) > changed.size();
 }

@@ -147,6 +147,11 @@ double likelihood(MatrixXd const& cov, VectorXd const& rise) {
   return -rise.dot(factor.solve(rise)) - models::log_determinant(factor);
 }
 
+/// What nothing gains more than, for each field widens cov(d): dᵀ cov(d)⁻¹ d.
+double most_gain(MatrixXd const& rest, VectorXd const& rise) {
+  return rise.dot(Eigen::LLT<MatrixXd>(rest).solve(rise));
+}
+
 struct Likeliest {
   double root = 0.0;  ///< √κ
   double gain = 0.0;  ///< of 2 ln likelihood, over none
@@ -176,24 +181,9 @@ bool is_evident(MatrixXd const& rest, MatrixXd const& shown, VectorXd const& ris
   return true;
 }
 
-/// Whether the machine has stood, on its way from rest to what is shown of that: by any gain where it has a past.
-bool has_stood(MatrixXd const& rest, MatrixXd const& shown, VectorXd const& rise, bool has_past) {
-  if (shown.cwiseAbs().maxCoeff() < least_field) return false;
-  return has_past ? likeliest(rest, shown, rise).gain > 0.0 : is_evident(rest, shown, rise);
-}
-
-/// √κ F of the likeliest κ; without columns where that is none. `rest`: cov(d) of κ = 0.
-MatrixXd fields_of_past(Machine const& machine, MeasuredRun const& run, std::vector<double> const& at_rest,
-                        FirstReadings const& first, MatrixXd const& rest, bool has_past) {
-  MatrixXd const none(machine.network().nodes(), 0);
-  // No κ gains more, for each widens cov(d): dᵀ cov(d)⁻¹ d without any.
-  double const most = first.rise.dot(Eigen::LLT<MatrixXd>(rest).solve(first.rise));
-  if (most < (has_past ? 0.0 : evident_gain)) return none;
-  MatrixXd const F = root_of_inverse(conductances(machine, run, at_rest), machine.network().signals());
-  MatrixXd const shown = first.weights * F;
-  auto const [root, gain] = likeliest(rest, shown, first.rise);
-  if (has_past ? gain <= 0.0 : !is_evident(rest, shown, first.rise)) return none;
-  return root * F;
+/// √κ of the likeliest, where it is evident, or the machine has a past anyway; else 0.
+double credible_root(MatrixXd const& rest, MatrixXd const& shown, VectorXd const& rise, bool has_past) {
+  return has_past || is_evident(rest, shown, rise) ? likeliest(rest, shown, rise).root : 0.0;
 }
 
 /// Of what a node is coupled to and whose rows are known.
@@ -239,18 +229,25 @@ std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& r
   if (network.nodes() > most_nodes) return {};
   auto const rest = at_rest(machine, run);
   auto const first = first_readings(machine, run, rest);
-  if (first.rise.size() < fewest_sensors) return {};
-  VectorXd const standing = rise_of_standing(machine, run, rest), seen = first.weights * standing;
   MatrixXd cov = covariance_of_rest(first.rise.size());
-  bool const stood = has_stood(cov, seen, first.rise, another_has_past);
-  if (stood) cov += seen * seen.transpose();
-  MatrixXd const past = fields_of_past(machine, run, rest, first, cov, stood || another_has_past);
-  if (!stood && past.cols() == 0) return {};
+  double const asked = another_has_past ? 0.0 : evident_gain;
+  if (first.rise.size() < fewest_sensors || most_gain(cov, first.rise) < asked) return {};
+  VectorXd standing = rise_of_standing(machine, run, rest);
+  VectorXd const seen = first.weights * standing;
+  bool const stood =
+      seen.cwiseAbs().maxCoeff() >= least_field && credible_root(cov, seen, first.rise, another_has_past) > 0.0;
+  if (stood)
+    cov += seen * seen.transpose();
+  else
+    standing.setZero();
+  MatrixXd const F = root_of_inverse(conductances(machine, run, rest), network.signals());
+  MatrixXd const past = credible_root(cov, first.weights * F, first.rise, stood || another_has_past) * F;
   MatrixXd fields(network.nodes(), past.cols() + 1);
-  fields << past, (stood ? 1.0 : 0.0) * standing;
+  fields << past, standing;
   std::vector<Index> kept;
   for (Index k = 0; k < fields.cols(); ++k)
     if (fields.col(k).cwiseAbs().maxCoeff() > least_field) kept.push_back(k);
+  if (kept.empty()) return {};
   MatrixXd const shown = first.weights * past;
   VectorXd const unlikely = Eigen::LLT<MatrixXd>(cov + shown * shown.transpose()).solve(first.rise);
   WarmStart result;
