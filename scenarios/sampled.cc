@@ -97,11 +97,16 @@ bool is_list_of_changes(Course const& samples) {
          are_written_at_changes(samples.times, changed_rows(samples.values));
 }
 
+/// By how much samples of one block may differ; 0: none does, and each value is taken at its word.
+double tolerance_of(Course const& samples) {
+  double const step = is_list_of_changes(samples) ? 0.0 : median_step(samples.values);
+  if (step == 0.0) return 0.0;
+  return std::max(same_block * largest_magnitude(samples.values), deviations * deviation_of_median * step);
+}
+
 /// Samples that differ by noise only become one breakpoint with their mean.
 Course blocks(Course const& samples) {
-  double const largest = largest_magnitude(samples.values);
-  double const step = is_list_of_changes(samples) ? 0.0 : median_step(samples.values);
-  double const tolerance = step == 0.0 ? 0.0 : std::max(same_block * largest, deviations * deviation_of_median * step);
+  double const largest = largest_magnitude(samples.values), tolerance = tolerance_of(samples);
   Course result;
   std::vector<double> block;
   double mean = 0.0;
@@ -163,6 +168,12 @@ std::vector<double> recorded_times(SampledInput const& input) {
   for (std::size_t i = 0; i < input.times.size(); ++i)
     if (std::isfinite(input.values[i])) times.push_back(input.times[i]);
   return times;
+}
+
+std::optional<HeldChanges> held_changes(SampledInput const& input) {
+  Course const samples = finite_part(input);
+  if (!is_held(input, samples.values)) return std::nullopt;
+  return HeldChanges{changed_rows(blocks(samples).values).size(), tolerance_of(samples) > 0.0};
 }
 
 DrivenChannel driven_channel(SampledInput const& input) {

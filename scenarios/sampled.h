@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,5 +45,14 @@ struct SampledInput {
 ///
 /// Throws InputError when no sample is finite.
 DrivenChannel driven_channel(SampledInput const& input);
+
+/// How often a channel changes that is held until its next sample.
+struct HeldChanges {
+  std::size_t count = 0;
+  bool averaged = false;  ///< what neighbours differ by was taken for noise
+};
+
+/// As driven_channel reads it; nothing where it goes along straight lines.
+[[nodiscard]] std::optional<HeldChanges> held_changes(SampledInput const& input);
 
 }  // namespace thermotwin::scenarios

@@ -273,6 +273,17 @@ void FileChecker::read_machine(std::filesystem::path const& file, Value const& d
   machines_.push_back({file, document, machine});
 }
 
+/// "5 inputs (spindle.speed changes 84 times)": of those that are held, as they are read.
+std::string words_of_inputs(std::vector<scenarios::SampledInput> const& inputs) {
+  std::vector<std::string> changing;
+  for (auto const& input : inputs)
+    if (auto const changes = scenarios::held_changes(input); changes && changes->count > 0)
+      changing.push_back(fmt::format("{} changes {}{}", input.name, counted(changes->count, "time"),
+                                     changes->averaged ? ", noise averaged" : ""));
+  auto const count = counted(inputs.size(), "input");
+  return changing.empty() ? count : fmt::format("{} ({})", count, fmt::join(changing, "; "));
+}
+
 void FileChecker::read_record(std::filesystem::path const& file, std::size_t i) {
   auto const data = read_measured_data(file);
   auto remarks = data.remarks;
@@ -283,7 +294,7 @@ void FileChecker::read_record(std::filesystem::path const& file, std::size_t i) 
   doubt_time(record, checks_[i].warnings);
   checks_[i].text =
       fmt::format("a record of {:.2f} h: {}, {}, {}, {}", record.lasts / 3600.0,
-                  counted(std::size_t(data.time.size()), "row"), counted(data.inputs.size(), "input"),
+                  counted(std::size_t(data.time.size()), "row"), words_of_inputs(data.inputs),
                   counted(data.readings.size(), "sensor"), counted(data.displacements.size(), "displacement channel"));
   records_.push_back({i, record});
 }

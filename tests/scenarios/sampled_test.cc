@@ -127,5 +127,23 @@ TEST(SampledInput, CoarseNoiseIsStillNoise) {
   EXPECT_NEAR(signal.at(5400.0), 100.0, 5.0);
 }
 
+/// As they are read: a list by its rows, a noisy record by its blocks, a temperature along straight lines.
+TEST(SampledInput, IsToldToChangeAsItIsRead) {
+  auto const list = held_changes(programme({0, 600, 9840, 15360, 16560, 19660}, {0, 235, 235, 471, 235, 306}));
+  ASSERT_TRUE(list);
+  EXPECT_EQ(list->count, 4);
+  EXPECT_FALSE(list->averaged);
+  Record record;
+  record.add(60, 300.0, 0.0, 9.0);
+  record.add(60, 100.0, 0.0, 9.0);
+  auto const noisy = held_changes(record.input);
+  ASSERT_TRUE(noisy);
+  EXPECT_EQ(noisy->count, 1);
+  EXPECT_TRUE(noisy->averaged);
+  record.input.name = "ambient.temperature";
+  record.input.unit = "K";
+  EXPECT_FALSE(held_changes(record.input));
+}
+
 }  // namespace
 }  // namespace thermotwin::scenarios

@@ -590,7 +590,8 @@ TEST(FileCheck, DoubtsTheUnitOfTimeOfAShortRecord) {
 TEST(FileCheck, LooksAtRecordAndMachineTogether) {
   TemporaryDirectory const folder;
   std::string rows = "time_s,n,room,T1\n";
-  for (int row = 0; row < 12; ++row) rows += fmt::format("{},3000,{},{}\n", 300 * row, 20 + 0.1 * row, 21 + 0.3 * row);
+  for (int row = 0; row < 12; ++row)
+    rows += fmt::format("{},{},{},{}\n", 300 * row, row < 6 ? 3000 : 5000, 20 + 0.1 * row, 21 + 0.3 * row);
   put(folder / "run.csv", rows);
   auto const checks = [&](std::string const& speed) {
     put(folder / "run.toml",
@@ -601,7 +602,9 @@ TEST(FileCheck, LooksAtRecordAndMachineTogether) {
   };
   auto const right = checks("spindle.speed");
   EXPECT_EQ(right[0].mistake, "");
-  EXPECT_EQ(right[0].text, "a record of 0.92 h: 12 rows, 2 inputs, 1 sensor, 0 displacement channels, on v450");
+  EXPECT_EQ(right[0].text,
+            "a record of 0.92 h: 12 rows, 2 inputs (spindle.speed changes 1 time), 1 sensor, 0 displacement channels, "
+            "on v450");
   EXPECT_THAT(right[0].warnings, Contains(HasSubstr("run.toml: of the machine, but not in the data: T2")));
   auto const wrong = checks("spindel.speed");
   EXPECT_THAT(wrong[0].mistake,

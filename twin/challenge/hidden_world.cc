@@ -226,7 +226,8 @@ HiddenEffect EffectDraw::pick(std::vector<Hypothesis const*> const& candidates) 
   std::vector<Hypothesis const*> of_effect;
   for (auto const* candidate : candidates)
     if (candidate->effect->name == *name) of_effect.push_back(candidate);
-  Hypothesis const& chosen = *of_effect[std::size_t(stream_.uniform() * double(of_effect.size()))];
+  Hypothesis chosen = *of_effect[std::size_t(stream_.uniform() * double(of_effect.size()))];
+  if (chosen.trial->hidden_up_to > 0.0) chosen.largest = chosen.trial->hidden_up_to;
   double amplitude = chosen.largest * stream_.log_uniform(least_amplitude, most_amplitude);
   if (chosen.trial->either_sign && stream_.uniform() < 0.5) amplitude = -amplitude;
   return {chosen, amplitude};

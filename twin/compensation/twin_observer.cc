@@ -27,7 +27,7 @@ constexpr double um_per_m = 1e6;
 
 Displacement displacement_of(Machine const& machine, std::string const& name) {
   std::vector<std::string> known;
-  for (auto const& displacement : machine.displacements) {
+  for (auto const& displacement : machine.linear_channels) {
     if (displacement.name == name && displacement.rotation)
       throw thermal::InputError(
           fmt::format("'{}' of the machine is an angle; the twin observes displacements in um", name));
@@ -35,9 +35,11 @@ Displacement displacement_of(Machine const& machine, std::string const& name) {
     known.push_back(displacement.name);
   }
   for (auto const& screw : machine.screws)
-    if (name.starts_with(screw.description.name + "_"))
-      throw thermal::InputError(fmt::format(
-          "'{}' of the machine is an error along a screw; the twin observes displacements of a structural loop", name));
+    if (!screw.is_linear() && name.starts_with(screw.description.name + "_"))
+      throw thermal::InputError(
+          fmt::format("'{}' is the error along a screw that loses its pretension; the twin observes what is linear in "
+                      "temperatures: displacements, and errors along other screws",
+                      name));
   throw thermal::InputError(
       fmt::format("the machine has no displacement '{}'; {}", name, thermal::did_you_mean(name, known)));
 }

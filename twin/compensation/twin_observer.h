@@ -27,7 +27,8 @@ struct ObserverOptions {
 ///   dy/dt = f(y, u) + w,   z_j = Σ w_ji T_i(y) + v_j,   P ← Φ P Φᵀ + q h I,  Φ = (I − h ∂f/∂y)⁻¹
 ///
 /// integrated with ROS2 (Verwer, Spee, Blom, Hundsdorfer, SIAM J. Sci. Comput. 20 (1999) 1456: two stages, L-stable,
-/// order 2), its sensors taken one by one. The error is what its displacement channel makes of its nodes.
+/// order 2), its sensors taken one by one. The error is what a displacement channel makes of its nodes, or a ball screw
+/// of them at one of its positions.
 ///
 /// The machine is at the temperature of the air around it when the first readings come; readings count as changes since
 /// then, so that constant offsets of the sensors do not matter. A sensor that is first heard later is taken to have
@@ -37,8 +38,9 @@ class TwinObserver {
  public:
   /// `sensors` correct it, in this order; none given: all that the machine has on bodies.
   ///
-  /// InputError for a displacement that the machine does not have, a sensor that it does not have on a body, a machine
-  /// with relays (whose switching the observer would have to guess), or more nodes than a dense covariance is made for.
+  /// InputError for a channel that the machine does not have, or an error along a screw that loses its pretension, a
+  /// sensor that it does not have on a body, a machine with relays (whose switching the observer would have to guess),
+  /// or more nodes than a dense covariance is made for.
   TwinObserver(Machine machine, std::string const& displacement, ObserverOptions const& options = {},
                std::optional<std::vector<std::string>> const& sensors = {});
 

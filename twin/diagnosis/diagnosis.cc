@@ -10,6 +10,7 @@
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/excitation.h"
 #include "twin/diagnosis/expected_noise.h"
+#include "twin/diagnosis/jumping_sensor.h"
 #include "twin/diagnosis/seen_form.h"
 #include "twin/diagnosis/start.h"
 #include "twin/diagnosis/verdict.h"
@@ -99,8 +100,10 @@ Diagnosis Diagnostician::operator()() {
   d.noise_heard = search_.noise_heard();
   if (!d.effects.empty()) d.left = scan_for_free_heat(amended, d.amended);
   d.faulty_sensor = faulty_sensor(machine_, runs_);
-  if (!d.faulty_sensor && d.effects.empty() && !is_heat_left())
-    d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
+  if (!d.faulty_sensor && d.effects.empty() && !is_heat_left()) {
+    d.faulty_sensor = jumping_sensor(search_.plain(), d.calibrated, options_.threshold);
+    if (!d.faulty_sensor) d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
+  }
   d.verdict = verdict_on(d, is_heat_left());
   d.heat_beside = gain_of(d.left) > search_.evident_beside() && d.verdict != Diagnosis::Verdict::none_known;
   if (d.verdict == Diagnosis::Verdict::none_known) {

@@ -311,8 +311,12 @@ bool disagrees(Diagnosis const& diagnosis) {
                      [](Disagreement const& cell) { return cell.significant; });
 }
 
-/// That are missing, or suspected.
-std::size_t things_of(Diagnosis const& diagnosis) { return diagnosis.suspicion ? 1 : diagnosis.explanations.size(); }
+/// That are missing, or suspected. A daily cycle is one, whether cosine, sine or both were found.
+std::size_t things_of(Diagnosis const& diagnosis) {
+  std::set<std::string> labels;
+  for (auto const& explanation : diagnosis.explanations) labels.insert(explanation.alternatives[0].hypothesis.label());
+  return diagnosis.suspicion ? 1 : labels.size();
+}
 
 }  // namespace
 

@@ -162,13 +162,17 @@ double EffectSearch::evident_beside() const {
   return std::max(strictness(*estimation_, fit_) * options_.threshold, share_of_strongest());
 }
 
-/// What an effect found must have beside the others to be named [2 ln]: the most where a number had to leave the file.
-/// What the form of the machine lacks there, an effect may stand in for; so may one that brings a number back.
+/// The most where a number had to leave the file. What the form of the machine lacks there, an effect may stand in for;
+/// so may one that brings a number back.
+double EffectSearch::strictness_of_name() const {
+  if (has_left_file(*estimation_, fit_)) return strictest;
+  double const times = strictness(*estimation_, fit_);
+  return has_left_file(*plain_, calibrated_) ? std::max(times, number_comes_back) : times;
+}
+
+/// What an effect found must have beside the others to be named [2 ln].
 double EffectSearch::asked_of_name() const {
-  double times = strictness(*estimation_, fit_);
-  if (has_left_file(*plain_, calibrated_)) times = std::max(times, number_comes_back);
-  if (has_left_file(*estimation_, fit_)) times = strictest;
-  return std::max(times * options_.threshold, share_of_strongest());
+  return std::max(strictness_of_name() * options_.threshold, share_of_strongest());
 }
 
 /// Lets displacements leave their structural loops where that is evident, and more so than any one effect on a
@@ -342,10 +346,11 @@ std::vector<EffectSearch::Refit> EffectSearch::refits_in_place_of(std::size_t ef
 
 Explanation EffectSearch::explanation_of(std::vector<Refit> const& refits) const {
   Explanation explanation;
+  double const too_large = std::sqrt(strictness_of_name());
   for (auto const& refit : refits) {
     Finding finding{.hypothesis = refit.hypothesis, .strength = refit.strength};
     finding.take(refit.amplitude, refit.standard_error, geometry_);
-    explanation.add(finding);
+    explanation.add(finding, too_large);
   }
   explanation.keep_the_likely();
   return explanation;

@@ -85,6 +85,7 @@ class EffectSearch {
   }
   /// What a further effect needs of the strongest one's evidence.
   [[nodiscard]] double share_of_strongest() const;
+  [[nodiscard]] double strictness_of_name() const;
   [[nodiscard]] double asked_of_name() const;
   [[nodiscard]] bool add_effect(int round);
   [[nodiscard]] Eigen::Index place_of(std::size_t effect) const;

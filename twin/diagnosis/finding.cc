@@ -56,9 +56,9 @@ std::string Finding::interval_text(std::string const& unit) const {
   return written_interval(standard_error, unit) + (is_at_end() ? ", as much as is plausible here" : "");
 }
 
-void Explanation::add(Finding const& finding) {
+void Explanation::add(Finding const& finding, double too_large) {
   double const first = alternatives.empty() ? finding.strength : alternatives[0].strength;
-  double const weight = std::exp(0.5 * std::min(0.0, finding.strength - first));
+  double const weight = std::exp(0.5 * std::min(0.0, finding.strength - first) / too_large);
   auto const same = std::find_if(alternatives.begin(), alternatives.end(), [&](Finding const& other) {
     return other.hypothesis.effect == finding.hypothesis.effect;
   });

@@ -12,7 +12,7 @@ struct DisplacementStep {
   static void fields(Fields& f) {
     f.name("name", &DisplacementStep::name, "unique among these");
     f.name("displacement", &DisplacementStep::displacement, "channel that jumps");
-    f("step", &DisplacementStep::step, dimension::length, "per unit of the input", Range{-10e-6, 10e-6});
+    f("step", &DisplacementStep::step, dimension::length, "per unit of the input", Range{-20e-6, 20e-6});
     f("follows", &DisplacementStep::follows,
       "input channel that counts or switches: spindle.running, servo.on, tool.changes");
   }
@@ -35,7 +35,8 @@ Effect const& displacement_step_effect() {
        {"probe_drift", "centrifugal_growth"},
        "log of events; the event again and again without a run; steps of the speed, which a jump does not follow"},
       {{.amplitude = "step",
-        .largest = 5e-6,
+        .largest = 10e-6,
+        .hidden_up_to = 5e-6,
         .either_sign = true,
         .sites = {{"displacement", "displacement"}},
         .shapes = {{{"follows", "spindle.running"}}, {{"follows", "servo.on"}}}}});

@@ -80,6 +80,19 @@ TEST(TwinObserver, SensorsMakeItFollowAMachineThatIsNotQuiteIts) {
   EXPECT_LT(corrected, 0.5);
 }
 
+/// The growth of a screw at the nut, less the scale's: linear in temperatures as displacements are. A screw that turns
+/// carries no sensor; those of its nut and bearings tell what its friction makes of it.
+TEST(TwinObserver, FollowsTheErrorAlongAScrew) {
+  auto const follow = [](std::map<std::string, std::string> const& changes, bool with_sensors) {
+    return largest_miss(simulated("feed_12000", 10.0, changes, "vmc850"), with_sensors, "vmc850", "E_P_720mm");
+  };
+  EXPECT_LT(follow({}, false), 0.05);
+  std::map<std::string, std::string> const other_nut{{"ball_nut.nut.preload", "800 N"}};
+  double const alone = follow(other_nut, false);
+  EXPECT_GT(alone, 2.0);
+  EXPECT_LT(follow(other_nut, true), 0.5 * alone);
+}
+
 /// The twin is the machine's own, and knows what the sensor missed: 10 K.
 TEST(TwinObserver, TakesASensorThatIsHeardLateFromWhatItSeesThen) {
   auto data = simulated("duty_003", 10.0);
@@ -210,12 +223,12 @@ TEST(TwinObserver, RefusesWhatItCannotObserve) {
     EXPECT_STREQ(error.what(), "'B' of the machine is an angle; the twin observes displacements in um");
   }
   try {
-    TwinObserver const observer(Machine::read(machine_file("vmc850")), "E_P_720mm");
+    TwinObserver const observer(Machine::read(machine_file("vmc850")), "E_P_fixed_720mm");
     FAIL() << "not refused";
   } catch (thermal::InputError const& error) {
     EXPECT_STREQ(error.what(),
-                 "'E_P_720mm' of the machine is an error along a screw; the twin observes displacements of a "
-                 "structural loop");
+                 "'E_P_fixed_720mm' is the error along a screw that loses its pretension; the twin observes what is "
+                 "linear in temperatures: displacements, and errors along other screws");
   }
   EXPECT_THROW(TwinObserver(Machine::read(machine_file("v450_fine")), "E_Z"), thermal::InputError);
 }

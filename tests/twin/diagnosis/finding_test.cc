@@ -48,12 +48,13 @@ TEST(Finding, OfAFilmThatALumpCannotShowHasNoUpperEnd) {
 /// 12 W/(m² K): of the room's size, to which a lump is one temperature.
 TEST(Finding, OfAWeakFilmHasOne) { EXPECT_FALSE(half_of("draught", "head_front").at_least); }
 
-Explanation explanation_of(std::vector<std::tuple<std::string, std::string, double>> const& findings) {
+Explanation explanation_of(std::vector<std::tuple<std::string, std::string, double>> const& findings,
+                           double too_large = 1.0) {
   Explanation explanation;
   for (auto const& [effect, place, strength] : findings) {
     Finding finding = half_of(effect, place);
     finding.strength = strength;
-    explanation.add(finding);
+    explanation.add(finding, too_large);
   }
   explanation.keep_the_likely();
   return explanation;
@@ -74,6 +75,13 @@ TEST(Explanation, HoldsWhatIsMissingWithNineteenOfTwenty) {
   auto const one = explanation_of({{"heat", "bed", 40.0}, {"draught", "head_front", 34.0}}).alternatives;
   ASSERT_EQ(one.size(), 1);
   EXPECT_EQ(one[0].weight, 1.0);
+}
+
+/// Where every 2 ln is twice too large, 6 of them are 3: 1 : e^-1.5, of which one alone holds 82 %.
+TEST(Explanation, KeepsMoreNamesWhereEvidenceIsTooLarge) {
+  auto const told = explanation_of({{"heat", "bed", 40.0}, {"draught", "head_front", 34.0}}, 2.0).alternatives;
+  ASSERT_EQ(told.size(), 2);
+  EXPECT_NEAR(told[1].weight, 1.0 / (1.0 + std::exp(1.5)), 1e-12);
 }
 
 /// A name is as likely as all its places together: here e^-1.5 (2 of 11) became 2 e^-1.5 (4 of 13).
