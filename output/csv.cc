@@ -139,6 +139,13 @@ void export_csv(Dataset const& dataset, std::filesystem::path const& path, CsvGr
   write_atomically(path, text.view());
 }
 
+std::vector<std::string> left_out_of_csv(Dataset const& dataset) {
+  std::vector<std::string> left;
+  for (auto const& laser : dataset.positioning) left.push_back("the laser's passes along " + laser.axis);
+  if (dataset.node_temperatures) left.emplace_back("the temperatures of the nodes");
+  return left;
+}
+
 Dataset import_csv(std::filesystem::path const& path) {
   std::vector<std::string> columns = {"time_s"};
   for (auto const& column : scenarios::csv_header(path))

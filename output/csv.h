@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <string>
+#include <vector>
 
 #include "output/dataset.h"
 
@@ -29,6 +31,9 @@ void export_csv(Dataset const& dataset, std::ostream& stream, CsvGroups const& g
 
 /// The same, atomically; throws OutputError when the file cannot be written.
 void export_csv(Dataset const& dataset, std::filesystem::path const& path, CsvGroups const& groups = {});
+
+/// What stays out of a table, for people: "the laser's passes along z", "the temperatures of the nodes".
+[[nodiscard]] std::vector<std::string> left_out_of_csv(Dataset const& dataset);
 
 /// Reads a table with such a header, whoever wrote it: `time_s` is due, strictly increasing; an empty field is a
 /// missing sample. The unit is what follows the last '_' of a column's name; "C" means degC.

@@ -117,6 +117,10 @@ std::map<std::string, std::string> read_provenance(hid_t root) {
 }
 
 Dataset read_all(hid_t root) {
+  if (has(root, "run") && has(root, "seed"))  // output/campaign_file.h
+    throw hdf5::Failure(
+        "it holds the runs of a campaign, for xarray and the like; `thermotwin campaign CAMPAIGN --show N` prints the "
+        "command that makes run N a data set of its own, and `thermotwin report DIR` shows them all");
   if (!has(root, "time")) throw hdf5::Failure("it is an HDF5 file without a variable 'time'");
   Dataset dataset;
   dataset.title = text_attribute(root, "title");

@@ -159,8 +159,10 @@ void CsvFile::cut() {
 }
 
 bool CsvFile::next() {
-  if (!go_to_next_line()) return false;
-  cut();
+  do {
+    if (!go_to_next_line()) return false;
+    cut();
+  } while (std::all_of(fields_.begin(), fields_.end(), [](std::string_view field) { return field.empty(); }));
   if (fields_.size() != header_.size()) {
     throw InputError(place_in_line(line_) + "the line has " + std::to_string(fields_.size()) + " fields, the header " +
                      std::to_string(header_.size()) + "; " + name_of(separator_) + " separate them");

@@ -16,7 +16,7 @@ enum class MissingValue { refuse, keep_as_nan };
 ///
 /// Commas, semicolons or tabs separate its fields: whichever cuts the first lines alike. Where it is not a comma, the
 /// decimals of all numbers follow either a point or a comma. Fields may be quoted and stand between spaces; a line may
-/// end with CR LF; a byte order mark and empty lines are skipped.
+/// end with CR LF; a byte order mark, empty lines and rows of empty fields, as spreadsheets leave them, are skipped.
 ///
 /// Throws InputError: "data.csv:17:8: column 't16_C': 'abc' is not a number"; a file that cannot be read or has no
 /// header, a row with more or fewer fields than the header, a column that is missing (with the nearest name, or the

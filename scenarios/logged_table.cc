@@ -67,6 +67,9 @@ std::string kind_of(std::optional<TimeStamp> const& stamp) {
   return stamp->zone ? "time stamps with a time zone" : "time stamps without a time zone";
 }
 
+constexpr std::string_view what_to_write =
+    "; write time stamps with their offset, as 2025-11-24T07:00:00+01:00, or seconds";
+
 /// A column of times, row by row. The first says whether all are time stamps.
 class TimeColumn {
  public:
@@ -76,16 +79,33 @@ class TimeColumn {
 
   /// The number of the present row, or its time from `start` [s].
   double read(std::optional<TimeStamp> const& start) {
-    std::string_view const field = csv_.field(place_);
-    double const time = stamped() ? seconds_between(*start, stamp()) : number();
-    if (time <= last_time_) fail(" after " + in_quotes(last_) + ": time must increase");
+    auto const stamp = stamped() ? std::optional(read_stamp()) : std::nullopt;
+    double const time = stamp ? seconds_between(*start, *stamp) : number();
+    if (time <= last_time_) fail(" after " + in_quotes(last_) + ": time must increase" + why_back(stamp));
+    if (stamp && last_stamp_ && may_be_put_forward(*last_stamp_, *stamp)) remark_ = put_forward();
     last_time_ = time;
-    last_ = field;
+    last_stamp_ = stamp;
+    last_ = csv_.field(place_);
     return time;
   }
 
+  /// Of the rows that were read.
+  [[nodiscard]] std::string const& remark() const { return remark_; }
+
  private:
-  TimeStamp stamp() const {
+  [[nodiscard]] std::string why_back(std::optional<TimeStamp> const& stamp) const {
+    if (!stamp || !last_stamp_ || !may_be_put_back(*last_stamp_, *stamp)) return "";
+    return "; the clock was probably put back to winter time there" + std::string(what_to_write);
+  }
+
+  [[nodiscard]] std::string put_forward() const {
+    return csv_.path().string() + ":" + std::to_string(csv_.line()) + ": " + in_quotes(csv_.field(place_)) + " after " +
+           in_quotes(last_) +
+           ": the clock was probably put forward to summer time there, and all that follows is an hour late" +
+           std::string(what_to_write);
+  }
+
+  TimeStamp read_stamp() const {
     auto const stamp = parse_time_stamp(csv_.field(place_));
     if (!stamp) fail(" is no time stamp that is read; those are: " + std::string(time_stamp_forms));
     if (kind_of(stamp) != kind_of(first_)) fail(": some rows have a time zone, others none");
@@ -104,7 +124,9 @@ class TimeColumn {
   std::size_t place_;
   std::optional<TimeStamp> first_;
   double last_time_ = -std::numeric_limits<double>::infinity();
+  std::optional<TimeStamp> last_stamp_;
   std::string last_;
+  std::string remark_;
 };
 
 }  // namespace
@@ -162,7 +184,7 @@ LoggedTable TableReader::read(LoggedFile const& file, std::filesystem::path cons
   CsvFile csv(path, std::size_t(file.header_line));
   std::vector<std::size_t> places = {csv.place_of(file.time_column)};
   for (auto const& column : columns) places.push_back(csv.place_of(column));
-  LoggedTable table{path, {}, {}, std::vector<std::vector<double>>(columns.size()), {}, 0, {}};
+  LoggedTable table{path, {}, {}, std::vector<std::vector<double>>(columns.size()), {}, {}, 0, {}};
   bool row = csv.next();
   if (row && holds_units(csv, file, places)) {
     table.remark = remark_on_units(csv, places);
@@ -178,6 +200,7 @@ LoggedTable TableReader::read(LoggedFile const& file, std::filesystem::path cons
     table.times.push_back(time.read(start_));
     for (std::size_t i = 0; i < columns.size(); ++i) table.columns[i].push_back(value(file, csv, places[i + 1]));
   }
+  table.clock_remark = time.remark();
   if (time.stamped() && !table.units.empty()) table.units[0].clear();
   if (!time.stamped()) thermal::from_unit(table.times, file.time_unit.empty() ? "s" : file.time_unit);
   for (double& t : table.times) t += file.clock_offset.value_or(0.0);

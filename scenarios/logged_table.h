@@ -42,6 +42,7 @@ struct LoggedTable {
   std::vector<double> times;                 ///< on the clock of the run [s], strictly increasing
   std::vector<std::vector<double>> columns;  ///< in the order in which they were asked for, in the file's units
   std::string remark;                        ///< of what was skipped, or empty
+  std::string clock_remark;                  ///< of a clock that was probably put forward, or empty
   std::size_t units_line = 0;                ///< of a row of units, or 0
   std::vector<std::string> units;            ///< in it: of the times, unless they are stamps, then of the columns
 };

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "scenarios/sampled.h"
 #include "thermal/error.h"
 
 namespace thermotwin::scenarios {
@@ -36,10 +37,12 @@ void check(Recording const& recording) {
     if (column.column.empty() || column.channel.empty()) {
       throw InputError(place + "each of columns needs a column and a channel");
     }
-    if (column.interpolation != "linear" && column.interpolation != "step") {
-      throw InputError(place + "interpolation: '" + column.interpolation + "' must be \"linear\" or \"step\"");
+    if (column.interpolation != "automatic" && column.interpolation != "linear" && column.interpolation != "step") {
+      throw InputError(place + "interpolation: '" + column.interpolation +
+                       "' must be \"automatic\", \"linear\" or \"step\"");
     }
     at(place + "column '" + column.column + "': ", [&] { (void)thermal::dimension_of(column.unit); });
+    at(place + "column '" + column.column + "': offset: ", [&] { (void)offset_of(column); });
   }
 }
 
@@ -47,8 +50,9 @@ void check_gaps(Recording const& recording, LoggedTable const& table) {
   for (std::size_t row = 1; row < table.times.size(); ++row) {
     double const gap = table.times[row] - table.times[row - 1];
     if (gap > recording.max_gap) {
-      throw InputError(table.file.string() + ":" + std::to_string(table.lines[row]) + ": column '" +
-                       recording.time_column + "': " + format_number(std::round(1e3 * gap) / 1e3) +
+      std::string const place = table.file.string() + ":" + std::to_string(table.lines[row]) + ": ";
+      if (table.clock_remark.starts_with(place)) throw InputError(table.clock_remark);
+      throw InputError(place + "column '" + recording.time_column + "': " + format_number(std::round(1e3 * gap) / 1e3) +
                        " s after the row before is a gap longer than max_gap, " +
                        format_quantity(recording.max_gap, dimension::time));
     }
@@ -69,20 +73,6 @@ std::vector<std::string> wanted_columns(Recording const& recording) {
   std::vector<std::string> names;
   for (RecordedColumn const& column : recording.columns) names.push_back(column.column);
   return names;
-}
-
-void add_channels(Recording const& recording, LoggedTable& table, std::vector<DrivenChannel>& channels) {
-  for (std::size_t i = 0; i < recording.columns.size(); ++i) {
-    RecordedColumn const& column = recording.columns[i];
-    std::vector<double>& values = table.columns[i];
-    thermal::from_unit(values, column.unit);
-    std::string const unit = thermal::unit_of(thermal::dimension_of(column.unit));
-    Interpolation const between = column.interpolation == "step" ? Interpolation::step : Interpolation::linear;
-    bool const absolute_temperature = thermal::from_unit(0.0, column.unit) != 0.0;
-    channels.push_back({{column.channel, unit, "recorded: " + column.column},
-                        Signal(table.times, values, between),
-                        absolute_temperature});
-  }
 }
 
 std::string value_or_default(std::string_view reference, std::filesystem::path const& directory) {
@@ -108,22 +98,40 @@ std::filesystem::path resolved_path(std::string_view file, std::filesystem::path
   return (directory / text).lexically_normal();
 }
 
-std::vector<DrivenChannel> read_recordings(std::vector<Recording> const& recordings,
-                                           std::filesystem::path const& directory, double duration) {
+std::vector<LoggedTable> read_tables(std::vector<Recording> const& recordings, std::filesystem::path const& directory,
+                                     double duration) {
   TableReader reader(MissingValue::refuse);
-  std::vector<DrivenChannel> channels;
+  std::vector<LoggedTable> tables;
   for (Recording const& recording : recordings) {
     check(recording);
     auto const names = wanted_columns(recording);
-    LoggedTable table = reader.read(recording, resolved_path(recording.file, directory), names);
+    LoggedTable const& table =
+        tables.emplace_back(reader.read(recording, resolved_path(recording.file, directory), names));
     std::vector<std::string> units;
-    for (RecordedColumn const& column : recording.columns) units.push_back(column.unit);
+    for (RecordedColumn const& column : recording.columns) units.push_back(unit_of_numbers(column));
     check_units(table, recording, names, units);
     check_gaps(recording, table);
     check_cover(recording, table, duration);
-    add_channels(recording, table, channels);
   }
+  return tables;
+}
+
+std::vector<DrivenChannel> driven_channels(std::vector<Recording> const& recordings,
+                                           std::vector<LoggedTable> const& tables) {
+  std::vector<DrivenChannel> channels;
+  for (std::size_t r = 0; r < recordings.size(); ++r)
+    for (std::size_t c = 0; c < recordings[r].columns.size(); ++c) {
+      RecordedColumn const& column = recordings[r].columns[c];
+      DrivenChannel& driven =
+          channels.emplace_back(driven_channel(sampled_input(column, tables[r].times, tables[r].columns[c])));
+      driven.channel.description = "recorded: " + column.column;
+    }
   return channels;
+}
+
+std::vector<DrivenChannel> read_recordings(std::vector<Recording> const& recordings,
+                                           std::filesystem::path const& directory, double duration) {
+  return driven_channels(recordings, read_tables(recordings, directory, duration));
 }
 
 }  // namespace thermotwin::scenarios

@@ -48,8 +48,11 @@ double median_step(std::vector<double> const& values, std::size_t apart = 1) {
   return steps.empty() ? 0.0 : median(std::move(steps));
 }
 
+/// How it goes from one sample to the next: it is taken at its word then.
+bool is_stated(SampledInput const& input) { return input.interpolation != "automatic"; }
+
 bool is_held(SampledInput const& input, std::vector<double> const& values) {
-  if (input.interpolation != "automatic") return input.interpolation == "step";
+  if (is_stated(input)) return input.interpolation == "step";
   if (is_temperature(input) || input.unit == "s" || input.name.ends_with(".position") ||
       input.name.ends_with(".revolutions") || input.name.starts_with("clock."))
     return false;
@@ -148,6 +151,26 @@ Course means(Course const& samples, double width) {
 
 }  // namespace
 
+double offset_of(RecordedColumn const& column) {
+  return column.offset.empty() ? 0.0 : thermal::parse_value(column.offset, thermal::dimension_of(column.unit));
+}
+
+std::string unit_of_numbers(RecordedColumn const& column) { return std::abs(column.factor) == 1.0 ? column.unit : ""; }
+
+SampledInput sampled_input(RecordedColumn const& column, std::vector<double> times, std::vector<double> numbers) {
+  SampledInput input;
+  input.name = column.channel;
+  input.unit = thermal::unit_of(thermal::dimension_of(column.unit));
+  input.absolute_temperature = thermal::from_unit(0.0, column.unit) != 0.0;  // a scale with a 0 of its own
+  input.interpolation = column.interpolation;
+  input.times = std::move(times);
+  input.values = std::move(numbers);
+  for (double& value : input.values) value *= column.factor;
+  thermal::from_unit(input.values, column.unit);
+  for (double const offset = offset_of(column); double& value : input.values) value += offset;
+  return input;
+}
+
 bool is_temperature(SampledInput const& input) {
   return input.absolute_temperature || (input.unit == "K" && input.name.ends_with("temperature"));
 }
@@ -173,16 +196,20 @@ std::vector<double> recorded_times(SampledInput const& input) {
 std::optional<HeldChanges> held_changes(SampledInput const& input) {
   Course const samples = finite_part(input);
   if (!is_held(input, samples.values)) return std::nullopt;
+  if (is_stated(input)) return HeldChanges{changed_rows(samples.values).size()};
   return HeldChanges{changed_rows(blocks(samples).values).size(), tolerance_of(samples) > 0.0};
 }
 
 DrivenChannel driven_channel(SampledInput const& input) {
   Course samples = finite_part(input);
   bool const held = is_held(input, samples.values);
-  if (!held && is_temperature(input)) samples.values = without_noise(samples.times, samples.values);
-  Course const course = held ? blocks(samples) : means(samples, input.average);
+  if (held && !is_stated(input)) samples = blocks(samples);
+  if (!held && !is_stated(input) && is_temperature(input))
+    samples.values = without_noise(samples.times, samples.values);
+  Course const course = held ? samples : means(samples, input.average);
   Interpolation const between = held ? Interpolation::step : Interpolation::linear;
-  return {{input.name, input.unit, "measured"}, Signal(course.times, course.values, between)};
+  return {
+      {input.name, input.unit, "measured"}, Signal(course.times, course.values, between), input.absolute_temperature};
 }
 
 }  // namespace thermotwin::scenarios

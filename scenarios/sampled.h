@@ -19,6 +19,17 @@ struct SampledInput {
   double average = 0.0;  ///< linear channels: one breakpoint per this time, the mean of its samples [s]
 };
 
+/// What is added to the numbers of such a column, once they are in SI; a temperature's is a difference. Throws
+/// InputError.
+[[nodiscard]] double offset_of(RecordedColumn const& column);
+
+/// In which a row of units may state a column's numbers; empty: a factor converts them.
+[[nodiscard]] std::string unit_of_numbers(RecordedColumn const& column);
+
+/// The column of a table, as it is read there.
+[[nodiscard]] SampledInput sampled_input(RecordedColumn const& column, std::vector<double> times,
+                                         std::vector<double> numbers);
+
 /// Whether it is a point on the temperature scale: its unit or its name says so.
 [[nodiscard]] bool is_temperature(SampledInput const& input);
 
@@ -42,6 +53,8 @@ struct SampledInput {
 /// neighbours. A noisy block stands still, 0, where its mean is below 0.2 % of the largest, or below 2 % and its
 /// samples are noise about zero. Temperatures that go along straight lines are smoothed (noisy_record.h): a sensor that
 /// lags would explain away the noise of what it is held against.
+///
+/// Where "linear" or "step" is stated, every sample is taken at its word.
 ///
 /// Throws InputError when no sample is finite.
 DrivenChannel driven_channel(SampledInput const& input);

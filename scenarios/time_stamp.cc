@@ -96,6 +96,12 @@ std::optional<std::chrono::minutes> take_zone(Scanner& text) {
   return (ahead ? 1 : -1) * (std::chrono::hours(hours) + std::chrono::minutes(minutes));
 }
 
+/// 0 h of the last Sunday of a month, in the year of a stamp.
+std::chrono::sys_days last_sunday(std::chrono::month month, TimeStamp const& stamp) {
+  auto const year = std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(stamp.clock)).year();
+  return year / month / std::chrono::Sunday[std::chrono::last];
+}
+
 }  // namespace
 
 std::optional<TimeStamp> parse_time_stamp(std::string_view text) {
@@ -113,6 +119,19 @@ std::optional<TimeStamp> parse_time_stamp(std::string_view text) {
 double seconds_between(TimeStamp const& from, TimeStamp const& to) {
   auto const utc = [](TimeStamp const& stamp) { return stamp.clock - stamp.zone.value_or(std::chrono::minutes(0)); };
   return Seconds(utc(to) - utc(from)).count();
+}
+
+bool may_be_put_forward(TimeStamp const& from, TimeStamp const& to) {
+  constexpr auto hour = std::chrono::hours(1);
+  auto const day = last_sunday(std::chrono::March, to);
+  return !to.zone && from.clock < day + 2 * hour && to.clock >= day + 3 * hour &&
+         to.clock - from.clock <= hour + std::chrono::minutes(15);
+}
+
+bool may_be_put_back(TimeStamp const& from, TimeStamp const& to) {
+  constexpr auto hour = std::chrono::hours(1);
+  auto const day = last_sunday(std::chrono::October, to);
+  return !to.zone && to.clock >= day + 2 * hour && to.clock <= from.clock && from.clock <= day + 3 * hour;
 }
 
 double time_of_day(TimeStamp const& stamp, double later) {

@@ -26,4 +26,10 @@ inline constexpr std::string_view time_stamp_forms =
 /// What the clock shows so much later [s], 0 to 86400 s.
 [[nodiscard]] double time_of_day(TimeStamp const& stamp, double later = 0.0);
 
+/// Whether a clock of Central Europe that keeps summer time was put between two of its stamps, which have no zone: from
+/// 2 h to 3 h on a last Sunday of March, with no more than a quarter of an hour between the stamps besides; back from 3
+/// h to 2 h on a last Sunday of October. Other zones, and stamps further apart, are not known.
+[[nodiscard]] bool may_be_put_forward(TimeStamp const& from, TimeStamp const& to);
+[[nodiscard]] bool may_be_put_back(TimeStamp const& from, TimeStamp const& to);
+
 }  // namespace thermotwin::scenarios

@@ -103,6 +103,15 @@ NamedUnit const* find_symbol(std::string_view symbol) {
   return found == named_units.end() ? nullptr : &*found;
 }
 
+bool is_unit(std::string_view name) {
+  if (find_symbol(name)) return true;
+  return std::any_of(prefixes.begin(), prefixes.end(), [&](Prefix const& prefix) {
+    if (!name.starts_with(prefix.symbol)) return false;
+    NamedUnit const* named = find_symbol(name.substr(prefix.symbol.size()));
+    return named && named->takes_prefix;
+  });
+}
+
 /// Reads one unit, left to right; `text` is the whole quantity, for messages.
 class UnitReader {
  public:
@@ -173,6 +182,9 @@ class UnitReader {
       if (named == nullptr || !named->takes_prefix) continue;
       return times(taken(*named), {dim::dimensionless, prefix.numerator, prefix.denominator}, 1);
     }
+    std::string_view const before_kelvin = name.substr(0, name.size() - 1);
+    if (name.ends_with('K') && is_unit(before_kelvin))
+      fail("unknown unit '" + std::string(name) + "'; per both is '/(" + std::string(before_kelvin) + " K)'");
     fail("unknown unit '" + std::string(name) + "'; " + offer(name));
   }
 
@@ -237,7 +249,7 @@ Unit read_unit(std::string_view unit, std::string_view text, std::span<std::stri
 }
 
 std::string in_ascii(std::string_view text) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 11> signs = {{{"\u00b5", "u"},
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> signs = {{{"\u00b5", "u"},
                                                                                            {"\u03bc", "u"},
                                                                                            {"\u00b0C", "degC"},
                                                                                            {"\u00b0", "deg"},
@@ -247,14 +259,16 @@ std::string in_ascii(std::string_view text) {
                                                                                            {"\u00b9", "1"},
                                                                                            {"\u00b7", "*"},
                                                                                            {"\u03a9", "ohm"},
-                                                                                           {"\u2126", "ohm"}}};
-  std::string result(trimmed(text));
+                                                                                           {"\u2126", "ohm"},
+                                                                                           {"\u00a0", " "},
+                                                                                           {"\u202f", " "}}};
+  std::string result(text);
   for (auto const& [sign, letters] : signs) {
     for (auto at = result.find(sign); at != std::string::npos; at = result.find(sign, at + letters.size())) {
       result.replace(at, sign.size(), letters);
     }
   }
-  return result;
+  return std::string(trimmed(result));
 }
 
 }  // namespace thermotwin::thermal

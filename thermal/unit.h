@@ -24,7 +24,8 @@ struct Unit {
 /// offers one of `usual` for an unknown unit that stands alone; by default any unit.
 Unit read_unit(std::string_view unit, std::string_view text, std::span<std::string_view const> usual = {});
 
-/// Writes the usual non-ASCII signs in letters: µ, °C, ⁻¹, ², ³, ·, Ω; without spaces at its ends.
+/// Writes the usual non-ASCII signs in letters: µ, °C, ⁻¹, ², ³, ·, Ω, spaces that do not break; without spaces at its
+/// ends.
 std::string in_ascii(std::string_view text);
 
 }  // namespace thermotwin::thermal

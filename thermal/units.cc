@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "thermal/error.h"
@@ -56,7 +57,8 @@ std::string with_article(std::string const& noun) {
 std::string mismatch(std::string_view text, Quantity const& quantity, Dimension expected) {
   if (quantity.dimension == dimension::dimensionless) return missing_unit(text, expected);
   return "'" + std::string(text) + "' is " + with_article(name_of(quantity.dimension)) + "; " +
-         with_article(name_of(expected)) + " is due, for example \"" + example_of(expected) + "\"";
+         with_article(name_of(expected)) + " is due, for example \"" + example_of(expected) + "\"" +
+         doubt_of_unit(text);
 }
 
 /// Every comma has exactly three digits behind it, and no zero begins the number: "18,000 rpm".
@@ -78,9 +80,22 @@ std::string without_commas(std::string const& letters) {
   return "\"" + joined + "\"" + (is_number ? " or \"" + pointed + "\"" : "");
 }
 
+/// InputError for a character that looks like a plain space, or like nothing.
+void refuse_unseen(std::string_view letters, std::string_view text) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> unseen = {
+      {{"\u2009", "a thin space, U+2009"},
+       {"\u200b", "a zero-width space, U+200B"},
+       {"\ufeff", "a byte order mark, U+FEFF"},
+       {"\t", "a tab"}}};
+  for (auto const& [sign, name] : unseen)
+    if (letters.find(sign) != std::string_view::npos)
+      throw InputError("'" + std::string(text) + "' holds " + std::string(name) + "; plain spaces alone are due");
+}
+
 /// `due` ends the message about a text that is no number; `usual` units are offered for an unknown one.
 Quantity parse(std::string_view text, std::string const& due, std::span<std::string_view const> usual = {}) {
   std::string const letters = in_ascii(text);
+  refuse_unseen(letters, text);
   std::string_view rest = letters;
   if (rest.starts_with('+')) rest.remove_prefix(1);
   double number = 0.0;
@@ -126,6 +141,14 @@ double parse_value(std::string_view text, Dimension expected) {
                      example_of(expected) + "\"");
   }
   return quantity.value;
+}
+
+std::string doubt_of_unit(std::string_view text) {
+  for (std::string_view const per_millikelvin : {"/mK", "/(mK)"})
+    if (text.ends_with(per_millikelvin))
+      return "; mK is a millikelvin: per metre and kelvin is \"" +
+             std::string(text.substr(0, text.size() - per_millikelvin.size())) + "/(m K)\"";
+  return {};
 }
 
 double parse_temperature(std::string_view text) {

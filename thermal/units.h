@@ -29,6 +29,10 @@ Quantity parse_quantity(std::string_view text);
 /// Throws InputError with an example of what to write: "600 has no unit; write for example \"600 mm\"".
 double parse_value(std::string_view text, Dimension expected);
 
+/// The end of a message about a quantity per mK, which is a millikelvin, where metre and kelvin may be meant:
+/// "; mK is a millikelvin: per metre and kelvin is \"80 W/(m K)\""; empty for any other.
+std::string doubt_of_unit(std::string_view text);
+
 /// A point on the temperature scale [K], from "22 degC" or "295.15 K"; not below absolute zero.
 double parse_temperature(std::string_view text);
 

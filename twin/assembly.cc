@@ -16,6 +16,8 @@ using thermal::Body;
 using thermal::InputError;
 using thermal::Site;
 
+constexpr double typed = 1e-9;  ///< of typed lengths, what rounding leaves [m]
+
 /// "40 mm .. 80 mm" or "10 mm" [m].
 struct Extent {
   double low = 0.0;
@@ -77,7 +79,7 @@ Site clip(Site site, double low, double high) {
 Site axial_site(Body const& body, PlaceText const& place) {
   double const length = body.edges[0].back();
   auto const within = [&](double s) {
-    if (s < -1e-9 || s > length + 1e-9)
+    if (s < -typed || s > length + typed)
       throw InputError(
           fmt::format("{:.6g} mm is outside '{}', which is {:.6g} mm long", s * 1e3, body.name, length * 1e3));
   };
@@ -114,7 +116,7 @@ Site block_site(Body const& body, PlaceText const& place) {
     Extent const extent = d == normal ? Extent{place.face.ends_with("max") ? size : 0.0, {}} : place.extents[next++];
     double const end = extent.high.value_or(extent.low);
     for (double s : {extent.low, end})
-      if (s < -1e-9 || s > size + 1e-9)
+      if (s < -typed || s > size + typed)
         throw InputError(fmt::format("{:.6g} mm is outside '{}', which is {:.6g} mm long in {}", s * 1e3, body.name,
                                      size * 1e3, char('x' + d)));
     if (extent.high) is_point = false;
@@ -126,7 +128,27 @@ Site block_site(Body const& body, PlaceText const& place) {
   return thermal::face(body, place.face, Eigen::AlignedBox3d(low, high));
 }
 
+/// Along one direction: a length, or the same point.
+bool have_in_common(Extent const& a, Extent const& b) {
+  double const a_end = a.high.value_or(a.low), b_end = b.high.value_or(b.low);
+  double const common = std::min(a_end, b_end) - std::max(a.low, b.low);
+  return common > typed || (std::abs(a.low - b.low) <= typed && std::abs(a_end - b_end) <= typed);
+}
+
 }  // namespace
+
+bool have_in_common(Place const& a, Place const& b) {
+  if (a.body != b.body) return false;
+  if (a.body->shape == Body::Shape::lump) return true;
+  PlaceText const one = parse_place(a.text), other = parse_place(b.text);
+  auto const face_of = [&](PlaceText const& place) {
+    return place.face.empty() && a.body->faces.contains("surface") ? "surface" : place.face;
+  };
+  if (face_of(one) != face_of(other)) return false;
+  for (std::size_t i = 0; i < std::min(one.extents.size(), other.extents.size()); ++i)
+    if (!have_in_common(one.extents[i], other.extents[i])) return false;
+  return true;
+}
 
 std::string body_of(std::string const& place) { return place.substr(0, place.find_first_of("[.")); }
 

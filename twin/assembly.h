@@ -35,6 +35,10 @@ struct Place {
 /// The name of a place's body.
 [[nodiscard]] std::string body_of(std::string const& place);
 
+/// Whether two places have a stretch, a face or a lump in common, or are the same point. A body without a face means
+/// its "surface", where it has one.
+[[nodiscard]] bool have_in_common(Place const& a, Place const& b);
+
 /// What a place's text means on its body.
 [[nodiscard]] thermal::Site site_of(thermal::Body const& body, std::string const& text);
 

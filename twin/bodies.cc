@@ -1,6 +1,7 @@
 #include "twin/bodies.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "thermal/bar.h"
@@ -15,6 +16,27 @@
 namespace thermotwin::twin {
 
 using thermal::InputError;
+
+namespace {
+
+Location name_place(Value const& table) {
+  Value const* name = table.find("name");
+  return name ? name->where : table.where;
+}
+
+/// A place's text begins with it, and means nothing else.
+void check_body_name(Value const& table, std::string const& name) {
+  auto const blank_at = [&](std::size_t i) { return std::isspace(static_cast<unsigned char>(name[i])) != 0; };
+  bool const begins_places =
+      !name.empty() && name.find_first_of(".[") == std::string::npos && !blank_at(0) && !blank_at(name.size() - 1);
+  if (begins_places && name != "ambient") return;
+  throw FileError(name_place(table),
+                  fmt::format("'{}' cannot be the name of a body: no '.' nor '[', no blank at its ends, nor the whole "
+                              "'ambient', the air of the room, or empty",
+                              name));
+}
+
+}  // namespace
 
 Bodies::Bodies(Tables& tables) {
   read_materials(tables);
@@ -87,10 +109,9 @@ void Bodies::claim_cells(Value const& table, std::string const& name, double cel
 }
 
 void Bodies::add(Value const& table, std::string const& name, thermal::Body body) {
-  if (bodies_.contains(name)) {
-    Value const* place = table.find("name");
-    throw FileError(place ? place->where : table.where, fmt::format("the name '{}' is taken by another body", name));
-  }
+  check_body_name(table, name);
+  if (bodies_.contains(name))
+    throw FileError(name_place(table), fmt::format("the name '{}' is taken by another body", name));
   bodies_[name] = std::move(body);
   order_.push_back(name);
 }

@@ -160,6 +160,8 @@ void add_other_commands(CLI::App& app) {
     if (!data.complete)
       tell(fmt::format(
           "warning: the run of '{}' did not end: instruments have shown nothing yet; --truth has what is\n", *input));
+    if (auto const left_out = output::left_out_of_csv(data); !left_out.empty())
+      tell(fmt::format("note: a table has no place for {} of '{}'\n", fmt::join(left_out, ", "), *input));
     if (output->empty())
       output::export_csv(data, std::cout, *groups);
     else

@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "output/atomic_file.h"
+#include "output/json_text.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
 #include "twin/command_line_number.h"
@@ -17,9 +19,16 @@
 namespace thermotwin::twin {
 namespace {
 
+void print_json(SavedErrorModel const& saved, std::vector<std::string> const& remarks) {
+  auto json = error_model_json(saved);
+  json["remarks"] = remarks;
+  fmt::print("{}", output::json_text(std::move(json)));
+}
+
 struct FitCommand {
   ErrorModelFit fit;
   std::string sampling, twin, output;
+  bool json = false;
 
   void add_to(CLI::App& command);
   void operator()();
@@ -40,6 +49,7 @@ void FitCommand::add_to(CLI::App& command) {
   command.add_option("--sampling", sampling, "fit means over this time: \"1 min\"; default: the rows as they are");
   command.add_option("--seed", fit.seed, "of random starts")->capture_default_str();
   command.add_option("--output,-o", output, "error model to write (TOML)")->required();
+  command.add_flag("--json", json, "print everything as JSON");
 }
 
 void FitCommand::operator()() {
@@ -51,6 +61,7 @@ void FitCommand::operator()() {
   std::vector<std::string> remarks;
   auto const saved = fit_error_model(fit, remarks);
   write_error_model(output, saved);
+  if (json) return print_json(saved, remarks);
   for (auto const& remark : remarks) fmt::print("{}\n", remark);
   fmt::print("{}", error_model_text(saved));
 }
@@ -58,6 +69,7 @@ void FitCommand::operator()() {
 struct PredictCommand {
   std::string model, output;
   std::vector<std::filesystem::path> runs;
+  bool json = false;
 
   void operator()() const;
 };
@@ -71,14 +83,17 @@ void PredictCommand::operator()() const {
     throw thermal::InputError(
         fmt::format("--output {} takes the prediction of one run; {} are given", output, runs.size()));
   auto const saved = read_error_model(model);
-  fmt::print("{}", error_model_text(saved));
+  if (!json) fmt::print("{}", error_model_text(saved));
+  std::vector<ErrorPrediction> predictions;
   for (auto const& run : runs) {
-    auto const prediction = predict_error(saved, run);
+    auto const& prediction = predictions.emplace_back(predict_error(saved, run));
     if (!output.empty()) output::write_atomically(output, prediction_csv(prediction));
+    if (json) continue;
     fmt::print("\n");
     for (auto const& remark : prediction.remarks) fmt::print("{}\n", remark);
     fmt::print("{}", prediction_text(prediction));
   }
+  if (json) fmt::print("{}", predictions_json(saved, predictions));
 }
 
 }  // namespace
@@ -93,6 +108,7 @@ void add_error_model_commands(CLI::App& app) {
   command->add_option("model", predict->model, "error model (thermotwin fit)")->required();
   command->add_option("runs", predict->runs, "data sets (.h5), tables (.csv) or measurement files (.toml)")->required();
   command->add_option("--output,-o", predict->output, "table to write (CSV): error and prediction of every row");
+  command->add_flag("--json", predict->json, "print everything as JSON");
   command->callback([predict] { (*predict)(); });
 }
 

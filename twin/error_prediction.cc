@@ -1,11 +1,14 @@
 #include "twin/error_prediction.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "models/metrics.h"
+#include "output/json_text.h"
 #include "thermal/error.h"
 
 namespace thermotwin::twin {
@@ -13,6 +16,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Json = nlohmann::ordered_json;
 
 /// The run knows what the observer tells, where there is one.
 MatrixXd predicted_of(SavedErrorModel const& saved, std::optional<TwinObserver> const& observer,
@@ -49,11 +53,52 @@ void remark_extrapolation(ModelPart const& part, ErrorModelRun const& run, std::
   }
 }
 
-std::string metrics_line(std::string const& name, Index rows, MatrixXd const& truth, MatrixXd const& said,
-                         std::string const& unit) {
-  auto const judged = models::metrics(truth.reshaped(), said.reshaped());
-  return fmt::format("{:<18}{:>6}{:>10.2f}{:>10.2f}{:>10.2f}  {}\n", name, rows, judged.rmse, judged.mae, judged.max,
-                     unit);
+Index rows_of(ErrorPrediction const& prediction) {
+  return std::max<Index>(0, prediction.predicted.rows() - prediction.unclaimed);
+}
+
+/// How large an error is, or what is left of it.
+struct ErrorSize {
+  models::Metrics metrics;
+  double bias = 0.0;  ///< mean of true less predicted
+};
+
+struct ErrorSizes {
+  ErrorSize error, left;
+};
+
+ErrorSize size_of(MatrixXd const& truth, MatrixXd const& said) {
+  return {models::metrics(truth.reshaped(), said.reshaped()), (truth - said).mean()};
+}
+
+/// Of a run that shows the error and has rows.
+ErrorSizes sizes_of(ErrorPrediction const& prediction) {
+  MatrixXd const shown = prediction.shown().bottomRows(rows_of(prediction));
+  return {size_of(shown, MatrixXd::Zero(shown.rows(), shown.cols())),
+          size_of(shown, prediction.predicted.bottomRows(shown.rows()))};
+}
+
+std::string size_line(std::string const& name, std::size_t width, Index rows, ErrorSize const& size,
+                      std::string const& unit) {
+  double const bias = std::round(100.0 * size.bias) / 100.0 + 0.0;  // no "-0.00"
+  return fmt::format("{:<{}}{:>6}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}  {}\n", name, width, rows, size.metrics.rmse,
+                     size.metrics.mae, bias, size.metrics.max, unit);
+}
+
+Json size_json(ErrorSize const& size) {
+  return {{"rmse", size.metrics.rmse}, {"mae", size.metrics.mae}, {"bias", size.bias}, {"largest", size.metrics.max}};
+}
+
+Json prediction_json(ErrorPrediction const& prediction) {
+  Json json = {{"run", prediction.run.batch.name}, {"rows", rows_of(prediction)}, {"unit", prediction.unit}};
+  if (prediction.run.shown && rows_of(prediction) > 0) {
+    auto const sizes = sizes_of(prediction);
+    json["error"] = size_json(sizes.error);
+    json["less_prediction"] = size_json(sizes.left);
+  }
+  json["fitted_to_these_data"] = prediction.seen_before;
+  json["remarks"] = prediction.remarks;
+  return json;
 }
 
 }  // namespace
@@ -85,16 +130,23 @@ ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::pat
 
 std::string prediction_text(ErrorPrediction const& prediction) {
   auto const& name = prediction.run.batch.name;
-  Index const rows = prediction.predicted.rows() - prediction.unclaimed;
-  if (rows <= 0) return fmt::format("{}: fewer rows than the model's lags reach back\n", name);
+  Index const rows = rows_of(prediction);
+  if (rows == 0) return fmt::format("{}: fewer rows than the model's lags reach back\n", name);
   if (!prediction.run.shown) return fmt::format("{}: {} rows predicted; the run does not show the error\n", name, rows);
-  MatrixXd const shown = prediction.shown().bottomRows(rows);
-  MatrixXd const predicted = prediction.predicted.bottomRows(rows);
-  std::string text = fmt::format("{:<18}{:>6}{:>10}{:>10}{:>10}\n", name, "rows", "RMSE", "mean", "largest");
-  text += metrics_line("error", rows, shown, MatrixXd::Zero(shown.rows(), shown.cols()), prediction.unit);
-  text += metrics_line("less prediction", rows, shown, predicted, prediction.unit);
+  auto const sizes = sizes_of(prediction);
+  auto const width = std::max<std::size_t>(18, name.size() + 2);
+  std::string text =
+      fmt::format("{:<{}}{:>6}{:>10}{:>10}{:>10}{:>10}\n", name, width, "rows", "RMSE", "MAE", "bias", "largest");
+  text += size_line("error", width, rows, sizes.error, prediction.unit);
+  text += size_line("less prediction", width, rows, sizes.left, prediction.unit);
   if (prediction.seen_before) text += "the model was fitted to these very data: this is no test of it\n";
   return text;
+}
+
+std::string predictions_json(SavedErrorModel const& saved, std::vector<ErrorPrediction> const& predictions) {
+  Json runs = Json::array();
+  for (auto const& prediction : predictions) runs.push_back(prediction_json(prediction));
+  return output::json_text({{"model", error_model_json(saved)}, {"runs", runs}});
 }
 
 std::string prediction_csv(ErrorPrediction const& prediction) {

@@ -26,8 +26,12 @@ struct ErrorPrediction {
 /// another machine than those that the model was fitted to, and inputs that leave their range there, are remarked.
 [[nodiscard]] ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::path const& run);
 
-/// RMSE, mean and largest of what is left, beside the same of the error itself.
+/// RMSE, MAE, bias (mean of shown less predicted) and largest of what is left, beside the same of the error itself.
 [[nodiscard]] std::string prediction_text(ErrorPrediction const& prediction);
+
+/// The same of a model's predictions, and the model (error_model_json).
+[[nodiscard]] std::string predictions_json(SavedErrorModel const& saved,
+                                           std::vector<ErrorPrediction> const& predictions);
 
 /// time_s, error, predicted; of a slope with position_mm, and a row per pass and position.
 [[nodiscard]] std::string prediction_csv(ErrorPrediction const& prediction);

@@ -1,6 +1,7 @@
 #include "twin/experiment_remarks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "scenarios/course.h"
@@ -39,16 +40,14 @@ class OddityFinder {
 
   std::vector<std::string> operator()() {
     look_at_sampling();
-    look_at_ends_of_records();
-    auto const& recorded = experiment_.recorded;
-    for (std::size_t r = 0; r < recorded.size(); ++r)
-      for (std::size_t c = 0; c < recorded[r].columns.size(); ++c)
-        look_at_channel(fmt::format("recorded[{}].columns[{}].channel", r, c), recorded[r].columns[c].channel);
-    for (std::size_t i = 0; i < experiment_.inputs.size(); ++i)
-      look_at_channel(fmt::format("inputs[{}].channel", i), experiment_.inputs[i].channel);
-    if (auto const& spindle = experiment_.spindle) look_at_blocks("spindle.blocks", spindle->blocks, spindle->cycles);
-    for (std::size_t a = 0; a < experiment_.axes.size(); ++a)
-      look_at_blocks(fmt::format("axes[{}].blocks", a), experiment_.axes[a].blocks, experiment_.axes[a].cycles);
+    look_at_records();
+    look_at_inputs();
+    look_at_spindle();
+    look_at_axes();
+    look_at_switch("coolant", experiment_.coolant.blocks, experiment_.coolant.on);
+    look_at_switch("chiller", experiment_.chiller.blocks, experiment_.chiller.on);
+    look_at_switch("power", experiment_.power.blocks, experiment_.power.on);
+    look_at_switch("servo", experiment_.servo.blocks, experiment_.servo.on);
     return std::move(found_);
   }
 
@@ -63,19 +62,80 @@ class OddityFinder {
                       text(last), text(experiment_.duration)));
   }
 
-  /// A row stands for as long as it is from the row before.
-  void look_at_ends_of_records() {
-    auto const driven = scenarios::read_recordings(experiment_.recorded, experiment_.directory, experiment_.duration);
-    std::size_t first_column = 0;
-    for (std::size_t r = 0; r < experiment_.recorded.size(); ++r) {
-      auto const& times = driven[first_column].signal.times();
-      double const last = times.back(), row = times.size() > 1 ? last - times[times.size() - 2] : 0.0;
-      if (experiment_.duration - last > row * (1.0 + rounding_of_sum))
-        found_.push_back(
-            fmt::format("recorded[{}].file: it ends at {}, and the run at {}; until then its last values hold", r,
-                        text(last), text(experiment_.duration)));
-      first_column += experiment_.recorded[r].columns.size();
+  void look_at_records() {
+    auto const& recorded = experiment_.recorded;
+    auto const tables = scenarios::read_tables(recorded, experiment_.directory, experiment_.duration);
+    auto const driven = scenarios::driven_channels(recorded, tables);
+    std::size_t next = 0;
+    for (std::size_t r = 0; r < recorded.size(); ++r) {
+      if (!tables[r].clock_remark.empty()) found_.push_back(tables[r].clock_remark);
+      look_at_end_of_record(r, tables[r].times);
+      for (std::size_t c = 0; c < recorded[r].columns.size(); ++c) {
+        std::string const column = fmt::format("recorded[{}].columns[{}].", r, c);
+        look_at_channel(column + "channel", recorded[r].columns[c].channel);
+        look_at_changes(column + "column", driven[next++].signal);
+      }
     }
+  }
+
+  /// A row stands for as long as it is from the row before.
+  void look_at_end_of_record(std::size_t record, std::vector<double> const& times) {
+    double const last = times.back(), row = times.size() > 1 ? last - times[times.size() - 2] : 0.0;
+    if (experiment_.duration - last > row * (1.0 + rounding_of_sum))
+      found_.push_back(
+          fmt::format("recorded[{}].file: it ends at {}, and the run at {}; until then its last values hold", record,
+                      text(last), text(experiment_.duration)));
+  }
+
+  void look_at_inputs() {
+    for (std::size_t i = 0; i < experiment_.inputs.size(); ++i) {
+      auto const& programme = experiment_.inputs[i];
+      look_at_channel(fmt::format("inputs[{}].channel", i), programme.channel);
+      look_at_changes(fmt::format("inputs[{}].blocks", i),
+                      scenarios::driven_channel(programme, experiment_.duration).signal);
+    }
+  }
+
+  void look_at_spindle() {
+    if (!experiment_.spindle) return;
+    auto const& spindle = *experiment_.spindle;
+    look_at_blocks("spindle.blocks", spindle.blocks, spindle.cycles);
+    look_at_changes("spindle", scenarios::spindle_speed(spindle, machine_.limits, experiment_.duration));
+  }
+
+  /// Of a nut that is followed, the passes are not asked for.
+  void look_at_axes() {
+    for (std::size_t a = 0; a < experiment_.axes.size(); ++a) {
+      auto programme = experiment_.axes[a];
+      look_at_blocks(fmt::format("axes[{}].blocks", a), programme.blocks, programme.cycles);
+      auto const axis = std::find_if(machine_.limits.axes.begin(), machine_.limits.axes.end(),
+                                     [&](auto const& one) { return one.name == programme.axis; });
+      programme.resolved = false;
+      look_at_changes(fmt::format("axes[{}].blocks", a),
+                      scenarios::axis_motion(programme, *axis, experiment_.duration).feed,
+                      ", or one block with a `duty`,");
+    }
+  }
+
+  void look_at_switch(std::string const& name, std::vector<scenarios::SwitchBlock> const& blocks, bool afterwards) {
+    look_at_changes(name + ".blocks", scenarios::switching(blocks, afterwards, experiment_.duration, name));
+  }
+
+  /// A row shows what an input is then: of several changes since the row before, the last.
+  void look_at_changes(std::string const& path, scenarios::Signal const& signal, std::string const& instead = "") {
+    auto const changes = signal.jumps();
+    auto const shown_in = [&](double time) { return std::ceil(time / experiment_.sampling - rounding_of_sum); };
+    std::size_t hidden = 0;
+    double shortest = experiment_.sampling;
+    for (std::size_t i = 1; i < changes.size() && changes[i] <= experiment_.duration; ++i) {
+      if (shown_in(changes[i]) == shown_in(changes[i - 1])) ++hidden;
+      shortest = std::min(shortest, changes[i] - changes[i - 1]);
+    }
+    if (hidden == 0) return;
+    found_.push_back(fmt::format(
+        "{}: {} of {} changes are followed by another one before the next row, and the inputs in the data lack them; "
+        "a `sampling` of {} or less{} shows what was given",
+        path, hidden, changes.size(), text(shortest), instead));
   }
 
   void look_at_channel(std::string const& path, std::string const& channel) {

@@ -7,10 +7,12 @@
 #include <span>
 
 #include "scenarios/course.h"
+#include "thermal/bounding_box.h"
 #include "thermal/course_inputs.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
+#include "twin/bodies.h"
 #include "twin/campaign/campaign.h"
 #include "twin/diagnosis/measured_data.h"
 #include "twin/diagnosis/measured_run.h"
@@ -25,6 +27,7 @@
 #include "twin/machine.h"
 #include "twin/placement/candidate_sites.h"
 #include "twin/study/study_runs.h"
+#include "twin/turning_bodies.h"
 #include "twin/uncertain_range.h"
 
 namespace thermotwin::twin {
@@ -63,9 +66,40 @@ void find_implausible(Value const& table, std::vector<FieldRecord> const& fields
       auto const number = field->is_temperature() ? temperature_of(*item) : number_of(*item, field->dimension);
       double const low = field->plausible.low, high = field->plausible.high;
       if (number && (*number < low - rounding * std::abs(low) || *number > high + rounding * std::abs(high)))
-        found.push_back(fmt::format("{}: '{}' is {}; outside what is plausible: {}", item->where.text(), entry.key,
-                                    item->text(), field->range));
+        found.push_back(fmt::format(
+            "{}: '{}' is {}; outside what is plausible: {}{}", item->where.text(), entry.key, item->text(),
+            field->range, item->is_text() ? thermal::doubt_of_unit(std::get<std::string>(item->content)) : ""));
     }
+  }
+}
+
+/// Sensors from which a signal hardly gets out.
+void doubt_turning_sensors(Value const& document, std::vector<std::string>& found) {
+  auto const turning = bodies_on_spindle(document);
+  Tables const tables(document);
+  for (auto const& sensor : tables.of("temperature_sensor"))
+    for (auto const* place : items_of(*sensor.find("at"))) {
+      auto const body = body_of(std::get<std::string>(place->content));
+      if (std::find(turning.begin(), turning.end(), body) != turning.end())
+        found.push_back(fmt::format("{}: sensor '{}' sits on '{}', which turns; its signal needs a way out",
+                                    place->where.text(), name_in(sensor), body));
+    }
+}
+
+/// Masses that do not fit the box that is stated with them. Boxes are drawn for the picture, and castings are hollow.
+void doubt_masses(Value const& document, std::vector<std::string>& found) {
+  constexpr double least_solid = 0.002, most_solid = 2.0;
+  Tables tables(document);
+  Bodies const bodies(tables);
+  for (auto const& lump : tables.of("lump")) {
+    auto const name = name_in(lump);
+    auto const mass = number_in(lump, "mass", dimension::mass);
+    auto const* material = bodies.material_of(name);
+    if (!mass || !material || !lump.find("size")) continue;
+    double const full = material->density * thermal::bounding_box(bodies.all().at(name).cells).volume();
+    if (*mass < least_solid * full || *mass > most_solid * full)
+      found.push_back(fmt::format("{}: 'mass' is {}; full of {}, the box of its 'size' has {:.3g} kg",
+                                  lump.find("mass")->where.text(), lump.find("mass")->text(), material->name, full));
   }
 }
 
@@ -158,8 +192,11 @@ struct CheckedMachine {
   Value document;
   Machine machine;
 
+  /// By its own name, or by a file of the name of either.
   [[nodiscard]] bool is_called(std::string const& name) const {
-    return is_same_machine(machine.name, name) || file.filename() == std::filesystem::path(name).filename();
+    std::filesystem::path const named = name;
+    return is_same_machine(machine.name, name) || is_same_machine(machine.name, named.stem().string()) ||
+           file.filename() == named.filename();
   }
 };
 
@@ -266,6 +303,8 @@ void FileChecker::read_machine(std::filesystem::path const& file, Value const& d
   static_cast<void>(ranged_numbers(document));
   find_implausible(document, machine_fields(), check.warnings);
   find_misspelt_inputs(document, machine, check.warnings);
+  doubt_turning_sensors(document, check.warnings);
+  doubt_masses(document, check.warnings);
   check.text = fmt::format("the machine {}: {}, {}, {}, {}", machine.name,
                            counted(std::size_t(machine.network().nodes()), "node"),
                            counted(machine.network().parts().size(), "part"), counted(machine.sensors.size(), "sensor"),

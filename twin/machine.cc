@@ -115,8 +115,12 @@ void check_channel_name(Value const& table, std::string const& name) {
 }
 
 /// Keys of the two places between which a part carries heat.
-constexpr std::pair<char const*, char const*> ends[] = {{"from", "to"},   {"inner", "outer"},  {"shaft", "ring"},
-                                                        {"nut", "screw"}, {"rotor", "stator"}, {"first", "second"}};
+struct Ends {
+  char const *one, *other;
+  bool of_two_bodies = true;
+};
+constexpr Ends ends[] = {{"from", "to", false}, {"inner", "outer"},  {"shaft", "ring"},
+                         {"nut", "screw"},      {"rotor", "stator"}, {"first", "second", false}};
 
 /// InputError for a sensor without a place, in air and elsewhere at once, or with shares that do not add up to 1.
 void check_places(SensorDescription const& d) {
@@ -153,6 +157,8 @@ class MachineBuilder {
   void read_head();
   void read_parts();
   void check_ends(Value const& table) const;
+  void refuse_common_places(Value const& table, std::string const& key) const;
+  void check_fluid(Value const& film) const;
   void check_terms() const;
   void read_sensors();
   void read_displacements();
@@ -210,7 +216,7 @@ void MachineBuilder::read_head() {
 
 /// What carries heat between two places needs two.
 void MachineBuilder::check_ends(Value const& table) const {
-  for (auto const& [a, b] : ends) {
+  for (auto const& [a, b, of_two_bodies] : ends) {
     auto const one = texts_of(table, a), other = texts_of(table, b);
     if (one.empty() || other.empty()) continue;
     Place const here = assembly_.place(one[0]), there = assembly_.place(other[0]);
@@ -220,7 +226,40 @@ void MachineBuilder::check_ends(Value const& table) const {
     };
     if (here.body == there.body && std::any_of(here.site.contacts.begin(), here.site.contacts.end(), shared))
       throw InputError(fmt::format("'{}' and '{}' share a cell: heat would go from it to itself", one[0], other[0]));
+    if (here.body == there.body && of_two_bodies)
+      throw FileError(table.find(b)->where, fmt::format("'{}' and '{}' are on one body; '{}' and '{}' are due on two",
+                                                        one[0], other[0], a, b));
   }
+}
+
+/// What adds up over the places of a list, or is their mean, takes none of them twice.
+void MachineBuilder::refuse_common_places(Value const& table, std::string const& key) const {
+  Value const* list = table.find(key);
+  if (!list || !list->is_list()) return;
+  auto const& items = std::get<Value::List>(list->content);
+  std::vector<Place> places;
+  for (std::size_t i = 0; items.size() > 1 && i < items.size(); ++i) {
+    auto const& place = places.emplace_back(assembly_.place(std::get<std::string>(items[i].content)));
+    for (std::size_t before = 0; before < i; ++before)
+      if (have_in_common(places[before], place))
+        throw FileError(items[i].where, fmt::format("'{}' and '{}' have in common what would count twice",
+                                                    places[before].text, place.text));
+  }
+}
+
+/// A film leads to a fluid; between solids there are joints.
+void MachineBuilder::check_fluid(Value const& film) const {
+  Value const* to = film.find("to");
+  if (!to || std::get<std::string>(to->content) == "ambient") return;
+  auto const& place = std::get<std::string>(to->content);
+  std::string const body = assembly_.place(place, {"ambient"}).body->name;
+  auto const* solid = bodies_.material_of(body);
+  if (!solid) return;
+  std::vector<std::string> fluids = {"ambient"};
+  for (auto const& name : bodies_.order())
+    if (!bodies_.material_of(name)) fluids.push_back(name);
+  throw FileError(to->where, fmt::format("'{}' is a solid of {}; the body of a fluid is due; {}", place, solid->name,
+                                         thermal::did_you_mean(place, fluids)));
 }
 
 /// Parts are added in the order of the file, whatever their kind: a motor finds the torques that stand before it.
@@ -238,8 +277,10 @@ void MachineBuilder::read_parts() {
     check_channel_name(*table, entry->name + "." + part->name());
     assembly_.begin_part(entry->name + "." + part->name());
     axes_.check(*table);
-    located(*table, [&, &table = *table] {
+    located(*table, [&, &table = *table, entry = entry] {
       check_ends(table);
+      refuse_common_places(table, "on");
+      if (entry->name == "film") check_fluid(table);
       part->add_to(assembly_);
       check_terms();
     });
@@ -278,6 +319,7 @@ void MachineBuilder::read_sensors() {
       claim_channel(table, d.name, "temperature_sensor");
       Sensor sensor{d, {}, {0.0, 0.0, 0.0}};
       check_places(d);
+      if (d.shares.empty()) refuse_common_places(table, "at");
       for (std::size_t i = 0; i < d.at.size(); ++i) {
         if (d.at[i] == "ambient") continue;
         Place const place = assembly_.place(d.at[i], {"ambient"});

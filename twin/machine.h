@@ -39,7 +39,7 @@ struct SensorDescription : TemperatureSensor {
     f.name("name", &SensorDescription::name, "of the channel: T1");
     f("title", &SensorDescription::title, "one line for people");
     f("at", &SensorDescription::at,
-      "place on a body; several: their mean; on a face: what is half a cell below it; \"ambient\": room air");
+      "place on a body; several: their mean; on a face: what is half a cell below it; \"ambient\": room air at 1 m");
     f("shares", &SensorDescription::shares, dimension::dimensionless,
       "of each place in what it reads, sum 1; default: equal; below 0: farther from there than the others are");
     f("component", &SensorDescription::component, "group that it belongs to when sensors are selected");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "thermal/error.h"
 #include "twin/compensation/observed_run.h"
@@ -26,6 +27,14 @@ std::string zero_text(SavedErrorModel const& saved) {
   if (lowest > highest) return {};
   return highest - lowest < 0.05 ? fmt::format(", at {:.1f} degC", lowest)
                                  : fmt::format(", at {:.1f} to {:.1f} degC", lowest, highest);
+}
+
+/// What the fits say of themselves: "R² = 0.9914".
+std::vector<std::string> remarks_of(SavedErrorModel const& saved) {
+  std::vector<std::string> remarks;
+  for (auto const& part : saved.parts)
+    if (!part.model.remark.empty()) remarks.push_back(part.model.remark);
+  return remarks;
 }
 
 }  // namespace
@@ -98,10 +107,26 @@ double SavedErrorModel::rmse() const {
   return rows > 0.0 ? std::sqrt(sum / rows) : 0.0;
 }
 
+nlohmann::ordered_json error_model_json(SavedErrorModel const& saved) {
+  auto runs = nlohmann::ordered_json::array();
+  for (auto const& run : saved.runs)
+    runs.push_back({{"file", run.file},
+                    {"machine", run.machine},
+                    {"rows", run.rows},
+                    {"zero_degC", run.zero},
+                    {"rmse", run.rmse},
+                    {"largest", run.largest}});
+  nlohmann::ordered_json json = {{"method", saved.method()}, {"error", saved.error},     {"unit", saved.unit},
+                                 {"title", saved.title},     {"inputs", saved.inputs()}, {"fits", remarks_of(saved)}};
+  if (saved.zero_position) json["zero_position_mm"] = 1e3 * *saved.zero_position;
+  if (saved.twin) json["twin"] = saved.twin->machine.filename().string();
+  json["fitted_to"] = runs;
+  if (!saved.runs.empty()) json["rmse"] = saved.rmse();
+  return json;
+}
+
 std::string error_model_text(SavedErrorModel const& saved) {
-  std::vector<std::string> remarks;
-  for (auto const& part : saved.parts)
-    if (!part.model.remark.empty()) remarks.push_back(part.model.remark);
+  auto const remarks = remarks_of(saved);
   std::string text =
       fmt::format("{}{} of {} [{}]{} on {}{}{}\n", saved.parts.size() > 1 ? "the mean of " : "", saved.method(),
                   saved.error, saved.unit, saved.title.empty() ? "" : " (" + saved.title + ")",

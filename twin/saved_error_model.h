@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -76,5 +77,7 @@ struct SavedErrorModel {
 
 /// What it predicts, from which inputs, what it was fitted to and what it errs by there: a few lines.
 [[nodiscard]] std::string error_model_text(SavedErrorModel const& saved);
+/// The same for programs.
+[[nodiscard]] nlohmann::ordered_json error_model_json(SavedErrorModel const& saved);
 
 }  // namespace thermotwin::twin

@@ -118,6 +118,14 @@ TEST(Run, ExportsCsv) {
   EXPECT_NE(header.find("E_Z_um"), std::string::npos);
 }
 
+TEST(Run, ExportSaysThatTheLaserStaysOut) {
+  TemporaryDirectory const directory;
+  auto const file = (directory / "feed.h5").string();
+  answer(program + " run feed_12000 -q --set experiment.duration='30 min' -o " + file);
+  EXPECT_EQ(answer(program + " export " + file + " -o " + (directory / "feed.csv").string()),
+            "note: a table has no place for the laser's passes along z of '" + file + "'\n");
+}
+
 TEST(Run, JsonSummaryForPrograms) {
   auto const text = answer(program + " run golden_b_2000 --json --quiet");
   EXPECT_EQ(text.front(), '{');

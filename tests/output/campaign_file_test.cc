@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include "output/dataset_file.h"
 #include "tests/output/temporary_directory.h"
 #include "tests/scenarios/refusal.h"
 #include "thermal/error.h"
@@ -99,6 +100,19 @@ TEST(CampaignFile, RunsAreReadBackAllOrSome) {
   EXPECT_EQ(read_runs(directory / "part.h5", {"readings"}, 100).find("readings"), nullptr);
   tests::put(directory / "none.h5", "no HDF5");
   EXPECT_THROW(static_cast<void>(read_runs(directory / "none.h5", {})), thermal::InputError);
+}
+
+/// Neither a part nor the whole.
+TEST(CampaignFile, IsNoDataSetAndSaysHowToGetOne) {
+  tests::TemporaryDirectory const directory;
+  write_part(layout(), part(0, 4), directory / "0.h5");
+  write_index(layout(), {{"0.h5", 0, 4}}, directory / "campaign.h5");
+  for (std::string const file : {"0.h5", "campaign.h5"})
+    EXPECT_EQ(tests::refusal([&] { static_cast<void>(output::read(directory / file)); }),
+              "'" + (directory / file).string() +
+                  "' cannot be read as a data set: it holds the runs of a campaign, for xarray and the like; "
+                  "`thermotwin campaign CAMPAIGN --show N` prints the command that makes run N a data set of its own, "
+                  "and `thermotwin report DIR` shows them all");
 }
 
 TEST(CampaignFile, APartIsCheckedForItsRunsAndVariables) {

@@ -62,6 +62,15 @@ std::vector<std::string> names(std::vector<Channel> const& channels) {
   return found;
 }
 
+TEST(Csv, SaysWhatStaysOut) {
+  auto dataset = tests::example_dataset();
+  EXPECT_EQ(left_out_of_csv(dataset),
+            (std::vector<std::string>{"the laser's passes along z", "the temperatures of the nodes"}));
+  dataset.positioning.clear();
+  dataset.node_temperatures.reset();
+  EXPECT_TRUE(left_out_of_csv(dataset).empty());
+}
+
 TEST(Csv, GivesBackEveryChannelInItsGroup) {
   TemporaryDirectory const directory;
   Dataset dataset = example_dataset();

@@ -355,6 +355,10 @@ TEST_F(RecordedCourse, RefusesAnotherDimension) {
   Experiment const e = recorded("time_s,n\n0,0\n60,600\n", {{"n", "spindle.speed", "degC", "step"}}, 60.0);
   EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }),
             "channel 'spindle.speed': recorded: n is in K, the channel in rad/s");
+  Experiment const share = recorded("time_s,n\n0,0\n60,40\n", {{"n", "spindle.speed", "%", "step"}}, 60.0);
+  EXPECT_EQ(tests::refusal([&] { ExperimentCourse(share, machine()); }),
+            "channel 'spindle.speed': recorded: n is in 1, the channel in rad/s; or give a factor: unit = \"rpm\", "
+            "factor = 50 reads % of 5000 rpm");
 }
 
 /// 22 degC that were written as 22 K.

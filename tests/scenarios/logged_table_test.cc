@@ -109,6 +109,21 @@ TEST_F(Logged, SaysWhichTimesItReads) {
             "data.csv:3:1: column 't': '2025-11-24 06:59:59' after '2025-11-24 07:00:00': time must increase");
 }
 
+TEST_F(Logged, SaysWhereTheClockWasProbablyPut) {
+  std::string const instead = "; write time stamps with their offset, as 2025-11-24T07:00:00+01:00, or seconds";
+  EXPECT_EQ(refused("t,a\n2025-10-26 02:59:00,1\n2025-10-26 02:00:00,1\n"),
+            "data.csv:3:1: column 't': '2025-10-26 02:00:00' after '2025-10-26 02:59:00': time must increase; the "
+            "clock was probably put back to winter time there" +
+                instead);
+  auto const table = read(file("data.csv", "t,a\n2025-03-30 01:59,1\n2025-03-30 03:00,2\n2025-03-30 03:01,3\n"));
+  EXPECT_THAT(table.times, ElementsAre(0.0, 3660.0, 3720.0));
+  EXPECT_THAT(table.clock_remark,
+              testing::EndsWith("data.csv:3: '2025-03-30 03:00' after '2025-03-30 01:59': the clock was probably put "
+                                "forward to summer time there, and all that follows is an hour late" +
+                                instead));
+  EXPECT_EQ(read(file("data.csv", "t,a\n2025-03-29 01:59,1\n2025-03-29 03:00,2\n")).clock_remark, "");
+}
+
 TEST_F(Logged, TakesNoUnitForTimeStamps) {
   auto data = file("data.csv", "t,a\n2025-11-24 07:00:00,1\n");
   data.time_unit = "min";
@@ -136,11 +151,17 @@ TEST_F(Logged, SkipsNoRowOfData) {
                 std::string(time_stamp_forms));
   EXPECT_THAT(refused("t,a\n11/24/2025,---\n1,2\n"), HasSubstr("data.csv:2:1: column 't': '11/24/2025' is no number"));
   EXPECT_THAT(refused("t,a\nmin,mm\ns,um\n"), HasSubstr("data.csv:3:1: column 't': 's' is no number"));
-  EXPECT_THAT(refused("t,a\n,\n1,2\n"), HasSubstr("data.csv:2:1: column 't': '' is missing"));
+  EXPECT_THAT(refused("t,a\n,5\n1,2\n"), HasSubstr("data.csv:2:1: column 't': '' is missing"));
   EXPECT_EQ(refused("t,a\nmin,mm\n"), "data.csv: has no rows under its header");
   auto const table = read(file("data.csv", "t;a\n24.11.2025 07:00;\n24.11.2025 07:01;1\n"));
   EXPECT_EQ(table.times.size(), 2U);
   EXPECT_TRUE(std::isnan(table.columns[0][0]));
+}
+
+TEST_F(Logged, SkipsRowsOfEmptyCells) {
+  auto const table = read(file("data.csv", "t;a;b\n24.11.2025 07:00;1;\n;;\n24.11.2025 07:01;2;\n;;\n ; ;\n;;;\n"));
+  EXPECT_THAT(table.times, ElementsAre(0.0, 60.0));
+  EXPECT_THAT(table.lines, ElementsAre(2U, 4U));
 }
 
 TEST_F(Logged, LeavesOutWhatWordsSayIsMissing) {

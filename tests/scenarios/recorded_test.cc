@@ -1,10 +1,12 @@
 #include "scenarios/recorded.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
+#include "scenarios/sampled.h"
 #include "tests/output/temporary_directory.h"
 #include "tests/scenarios/refusal.h"
 
@@ -58,6 +60,51 @@ TEST_F(RecordedInput, HoldsItsValueWhereItIsStepped) {
   EXPECT_EQ(signal.jumps(), (std::vector<double>{10.0}));
 }
 
+TEST_F(RecordedInput, IsReadAsThatOfAMeasurementIs) {
+  std::string text = "time_s,n,room\n";
+  for (int i = 0; i <= 60; ++i)
+    text += std::to_string(10 * i) + "," + std::to_string((i < 30 ? 1000.0 : 3000.0) + 7.0 * std::sin(i * i)) + "," +
+            std::to_string(20.0 + 0.1 * std::cos(i * i)) + "\n";
+  Recording logged = recording(text);
+  logged.columns = {{"n", "spindle.speed", "rpm"}, {"room", "ambient.temperature", "degC"}};
+  auto const table = read_tables({logged}, directory_.path(), 600.0).at(0);
+  auto const channels = read(logged, 600.0);
+  EXPECT_EQ(channels[0].signal.jumps(), (std::vector<double>{300.0}));  // noise apart
+  EXPECT_LT(std::abs(channels[1].signal.at(305.0) - 293.15), 0.05);
+  EXPECT_TRUE(channels[1].absolute_temperature);
+  for (std::size_t c = 0; c < 2; ++c) {
+    Signal const measured = driven_channel(sampled_input(logged.columns[c], table.times, table.columns[c])).signal;
+    EXPECT_EQ(channels[c].signal.times(), measured.times()) << c;
+    EXPECT_EQ(channels[c].signal.values(), measured.values()) << c;
+  }
+}
+
+/// A speed that is written down where it changes is held until the next row.
+TEST_F(RecordedInput, HoldsAListOfSpeeds) {
+  Recording list = recording("time_s,a\n0,0\n1800,3000\n12000,0\n14400,0\n", "rpm");
+  list.columns[0].channel = "spindle.speed";
+  list.columns[0].interpolation = RecordedColumn().interpolation;
+  list.max_gap = 14400.0;
+  Signal const speed = read(list, 14400.0)[0].signal;
+  EXPECT_EQ(speed.jumps(), (std::vector<double>{1800.0, 12000.0}));
+  EXPECT_DOUBLE_EQ(speed.integral(14400.0), 10200.0 * thermal::from_unit(3000.0, "rpm"));
+}
+
+/// Per cent of 5000 rpm, and a sensor of the room that shows half a kelvin too much.
+TEST_F(RecordedInput, HasAFactorAndAnOffset) {
+  Recording part = recording("time_s,a\n0,0\n20,50\n", "rpm");
+  part.columns[0].factor = 50.0;
+  EXPECT_DOUBLE_EQ(read(part, 20.0)[0].signal.at(10.0), thermal::from_unit(1250.0, "rpm"));
+  part.columns[0].offset = "10 rpm";
+  EXPECT_DOUBLE_EQ(read(part, 20.0)[0].signal.at(10.0), thermal::from_unit(1260.0, "rpm"));
+  part.columns[0].offset = "10 K";
+  EXPECT_TRUE(refused(part).starts_with("recorded 'data.csv': column 'a': offset: '10 K' is a temperature"))
+      << refused(part);
+  Recording room = recording("time_s,a\n0,20.5\n20,22.5\n", "degC");
+  room.columns[0].offset = "-0.5 K";
+  EXPECT_NEAR(read(room, 20.0)[0].signal.at(10.0), 294.15, 1e-9);
+}
+
 TEST_F(RecordedInput, ShiftsItsClockAndReadsItsUnit) {
   Recording shifted = recording("time_min,a\n0,0\n1,60\n2,120\n");
   shifted.time_column = "time_min";
@@ -101,6 +148,13 @@ TEST_F(RecordedInput, SaysWhereAGapIs) {
   EXPECT_EQ(refused(gap), "accepted");
 }
 
+TEST_F(RecordedInput, SaysWhereItsClockWasPutForward) {
+  Recording night = recording("t,a\n2025-03-30 01:59,1\n2025-03-30 03:00,2\n");
+  night.time_column = "t";
+  EXPECT_TRUE(refused(night).starts_with("data.csv:3: '2025-03-30 03:00' after '2025-03-30 01:59': the clock was"))
+      << refused(night);
+}
+
 TEST_F(RecordedInput, MustCoverTheRun) {
   Recording brief = recording("time_s,a\n0,0\n10,1\n");
   brief.max_gap = 60.0;
@@ -127,7 +181,7 @@ TEST_F(RecordedInput, RefusesUnitsAndWordsThatAreNone) {
   EXPECT_EQ(refused(r), "recorded 'data.csv': time_unit: 'K' is no unit of time; known: 's', 'h', 'min', 'day'");
   r = recording(text);
   r.columns[0].interpolation = "cubic";
-  EXPECT_EQ(refused(r), "recorded 'data.csv': interpolation: 'cubic' must be \"linear\" or \"step\"");
+  EXPECT_EQ(refused(r), "recorded 'data.csv': interpolation: 'cubic' must be \"automatic\", \"linear\" or \"step\"");
   r = recording(text);
   r.max_gap = 0.0;
   EXPECT_EQ(refused(r), "recorded 'data.csv': max_gap: 0 min must be above 0 s");

@@ -99,6 +99,21 @@ TEST(SampledInput, AStaircaseIsTakenAtItsWord) {
   expect_word_for_word(programme(times, values));
 }
 
+/// Where a file states how its samples are joined, noise is no noise.
+TEST(SampledInput, IsTakenAtItsWordWhereItIsStated) {
+  Record record;
+  record.add(60, 300.0, 0.0, 3.0);
+  EXPECT_TRUE(driven_channel(record.input).signal.jumps().empty());
+  record.input.interpolation = "step";
+  expect_word_for_word(record.input);
+  EXPECT_FALSE(held_changes(record.input)->averaged);
+  EXPECT_EQ(held_changes(record.input)->count, 59);
+  record.input.name = "ambient.temperature";
+  record.input.unit = "K";
+  record.input.interpolation = "linear";
+  EXPECT_EQ(driven_channel(record.input).signal.values(), record.input.values);
+}
+
 /// A log in kelvin is a log of temperatures.
 TEST(SampledInput, TemperaturesAreSmoothedWhateverTheirUnit) {
   Record record;

@@ -38,6 +38,24 @@ TEST(TimeStamp, HasTheTimeOfDayOfItsOwnClock) {
   EXPECT_EQ(time_of_day(stamp("24.11.2025 01:00"), -25 * 3600.0), 0.0);
 }
 
+/// In 2025 on 30 March and 26 October.
+TEST(TimeStamp, TellsWhereAClockWasPut) {
+  auto const forward = [](char const* from, char const* to) { return may_be_put_forward(stamp(from), stamp(to)); };
+  EXPECT_TRUE(forward("30.03.2025 01:59:59", "30.03.2025 03:00:00"));
+  EXPECT_TRUE(forward("2025-03-30 01:50", "2025-03-30 03:00"));
+  EXPECT_FALSE(forward("2025-03-30 01:59", "2025-03-30 02:00"));
+  EXPECT_FALSE(forward("2025-03-30 01:00", "2025-03-30 03:00"));  // may be a logger that was off
+  EXPECT_FALSE(forward("2025-03-23 01:59", "2025-03-23 03:00"));
+  EXPECT_FALSE(forward("2025-03-30T01:59+01:00", "2025-03-30T03:00+02:00"));
+  auto const back = [](char const* from, char const* to) { return may_be_put_back(stamp(from), stamp(to)); };
+  EXPECT_TRUE(back("26.10.2025 02:59:59", "26.10.2025 02:00:00"));
+  EXPECT_TRUE(back("2025-10-26 02:50", "2025-10-26 02:05"));
+  EXPECT_FALSE(back("2025-10-26 02:00", "2025-10-26 02:59"));
+  EXPECT_FALSE(back("2025-10-26 03:59", "2025-10-26 03:00"));
+  EXPECT_FALSE(back("2025-10-19 02:59", "2025-10-19 02:00"));
+  EXPECT_FALSE(back("2025-10-26T02:59+02:00", "2025-10-26T02:00+02:00"));
+}
+
 TEST(TimeStamp, IsNothingElse) {
   for (auto const* text : {"",
                            "0",

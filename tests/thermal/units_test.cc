@@ -72,7 +72,7 @@ TEST(ParseQuantity, CountsRevolutionsWhereNoAngleIsSaid) {
 }
 
 TEST(ParseQuantity, MarksDegreesCelsiusAsAPointOnTheScale) {
-  for (char const* text : {"22 degC", "22 °C", " 22degC "}) {
+  for (char const* text : {"22 degC", "22 °C", " 22degC ", "22\u00a0degC", "22\u202f°C\u00a0"}) {
     Quantity const quantity = parse_quantity(text);
     EXPECT_DOUBLE_EQ(quantity.value, 295.15);
     EXPECT_TRUE(quantity.absolute_temperature);
@@ -109,6 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
     Units, RefusesQuantity,
     testing::Values(
         Refusal{"8000 mm/mim", "'8000 mm/mim': unknown unit 'mim'; did you mean 'min'?"},
+        Refusal{"470 J/kgK", "'470 J/kgK': unknown unit 'kgK'; per both is '/(kg K)'"},
         Refusal{"1 degc", "'1 degc': unknown unit 'degc'; did you mean 'degC'?"},
         Refusal{"8 W/m2 K", "'8 W/m2 K': put what is below the line in parentheses, as in \"8 W/(m2 K)\""},
         Refusal{"5 W/degC", "'5 W/degC': degC is a point on the scale; in a compound unit write K"},
@@ -141,6 +142,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "'18,000.5 rpm': nothing sets thousands apart, and decimals follow a point: "
                 "\"18000.5 rpm\""},
         Refusal{"22 C", "'22 C': unknown unit 'C'; did you mean 'degC'?"},
+        Refusal{"45\u2009kg", "'45\u2009kg' holds a thin space, U+2009; plain spaces alone are due"},
+        Refusal{"45\u200b kg", "'45\u200b kg' holds a zero-width space, U+200B; plain spaces alone are due"},
+        Refusal{"\ufeff45 kg", "'\ufeff45 kg' holds a byte order mark, U+FEFF; plain spaces alone are due"},
+        Refusal{"45\tkg", "'45\tkg' holds a tab; plain spaces alone are due"},
         Refusal{"", "'': a number with a unit is due, for example \"600 mm\""},
         Refusal{"mm", "'mm': a number with a unit is due, for example \"600 mm\""}));
 
@@ -173,6 +178,15 @@ TEST(ParseValue, NamesBothDimensions) {
   EXPECT_EQ(refusal("5 um", dimension::dimensionless), "'5 um' is a length; a number is due, for example \"0.8\"");
   EXPECT_EQ(refusal("5 kg m3", dimension::length),
             "'5 kg m3' is a quantity in m^3 kg; a length is due, for example \"600 mm\"");
+}
+
+TEST(ParseValue, SaysThatAMillikelvinIsNoMetreAndKelvin) {
+  EXPECT_DOUBLE_EQ(parse_value("9 W/mK", dimension::conductance), 9000.0);
+  for (std::string const text : {"42 W/mK", "42 W/(mK)"})
+    EXPECT_EQ(refusal(text, dimension::conductivity),
+              "'" + text + "' is a conductance; a " + name_of(dimension::conductivity) + " is due, for example \"" +
+                  example_of(dimension::conductivity) +
+                  "\"; mK is a millikelvin: per metre and kelvin is \"42 W/(m K)\"");
 }
 
 TEST(ParseValue, RefusesAPointOnTheScaleForADifference) {

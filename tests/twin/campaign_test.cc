@@ -1,5 +1,6 @@
 #include "twin/campaign/campaign.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
 #include <omp.h>
@@ -141,10 +142,67 @@ TEST(Campaign, EveryCombinationOnceAndNeighboursShareAMachine) {
   EXPECT_EQ(all.size(), 48u);
   EXPECT_EQ(changes, 3 * 2);
   auto const run = campaign.run(47);
-  EXPECT_EQ(run.positions, (std::vector<double>{0.6, 26.0}));
+  EXPECT_EQ(run.positions, (std::vector<double>{0.6, 26.0, 0.7, 0.1}));
   EXPECT_EQ(run.experiment, 1u);
   EXPECT_EQ(campaign.experiment(run).ambient.mean, 299.15);
   EXPECT_EQ(campaign.experiment(run).duration, 7200.0);
+}
+
+/// What a case leaves alone is missing; of several settings of a path the last one counts.
+TEST(Campaign, RunsSayWhatTheirCaseSets) {
+  TemporaryDirectory const directory;
+  auto const campaign = read(directory, R"toml(
+experiments = ["golden_b_2000"]
+machine = "v450"
+tolerance = 1e-3
+set = ["experiment.duration=2 h"]
+keep = ["summary"]
+[[case]]
+set = ["bearing.front.grease_factor=0.5", "experiment.ambient.drift=0.1 K/h"]
+[[case]]
+set = ["bearing.front.grease_factor=0.7", "bearing.front.grease_factor=1.0", "lump.head_front.material=C45"]
+[[case]]
+set = ["lump.head_front.material=GJL-250"]
+)toml");
+  static_cast<void>(made(campaign, directory / "out", 2));
+  auto const written = [&](std::string const& path) {
+    std::string text;
+    for (int run = 0; run < 3; ++run) {
+      auto const part = output::read_runs(directory / fmt::format("out/parts/{:06}.h5", run), {"parameters"});
+      text += fmt::format("{} ", (*part.find("parameters/" + path))(0));
+      for (auto const& variable : part.variables)
+        if (run == 2 && variable.name == "parameters/" + path)
+          text += fmt::format("[{}] {}", variable.unit, variable.long_name);
+    }
+    return text;
+  };
+  std::string const missing = "; missing where a case leaves it as it is";
+  EXPECT_EQ(written("bearing.front.grease_factor"), "0.5 1 nan [1] bearing.front.grease_factor" + missing);
+  EXPECT_EQ(written("experiment.ambient.drift"), "0.1 nan nan [K/h] experiment.ambient.drift" + missing);
+  EXPECT_EQ(written("lump.head_front.material"), "nan 0 1 [1] lump.head_front.material; 0: C45, 1: GJL-250" + missing);
+}
+
+TEST(Campaign, NoGridVariesWhatACaseSets) {
+  EXPECT_EQ(refusal(example + "[[case]]\nset = [\"experiment.ambient.mean=20 degC\"]\n"),
+            "campaign.toml:17:8: 'experiment.ambient.mean' is varied twice");
+}
+
+/// 295 K are 21.85 °C and 68 °F are 20 °C; of another dimension or words, all are words.
+TEST(Campaign, ValuesAreNumbersInTheUnitOfTheFirst) {
+  auto const stored = [](std::string const& path, std::string const& values) {
+    TemporaryDirectory const directory;
+    auto const campaign = read(directory, "experiments = [\"golden_b_2000\"]\nmachine = \"v450\"\n[[grid]]\npath = \"" +
+                                              path + "\"\nvalues = [" + values + "]\n");
+    std::string text;
+    for (std::int64_t i = 0; i < campaign.runs(); ++i) text += fmt::format("{} ", campaign.run(i).positions[0]);
+    return text + campaign.grid[0].unit;
+  };
+  EXPECT_EQ(stored("experiment.ambient.mean", R"("20 degC", "295 K", "68 degF")"), "20 21.85 20 degC");
+  EXPECT_EQ(stored("experiment.ambient.mean", R"("20 degC", "22 °C")"), "20 22 degC");
+  EXPECT_EQ(stored("experiment.ambient.mean", R"("22 °C", "20.1 degC")"), "22 20.1 degC");
+  EXPECT_EQ(stored("motor_loss.stator.eddy", R"("80 W", "0.12 kW", "80W")"), "80 120 80 W");
+  EXPECT_EQ(stored("bearing.front.grease_factor", R"(0.5, "60 %")"), "0.5 0.6 ");
+  EXPECT_EQ(stored("lump.head_front.material", R"("C45", "GJL-250", "C45")"), "0 1 2 ");
 }
 
 TEST(Campaign, WholeNumbersKeepTheirDigits) {

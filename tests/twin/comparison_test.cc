@@ -84,6 +84,15 @@ TEST(Comparison, RegimesAreSpeedsAndTheirSquaresAddUp) {
   EXPECT_EQ(run.channels[0].parts[1].samples, 60);
 }
 
+/// Twenty letters are six more than the column has for short ones.
+TEST(Comparison, LongNamesMoveTheirHeadings) {
+  GapPair const gap{1.0, 0.5, 60};
+  Comparison const comparison{"a", "b", {{"made", {"idle"}, {{"temperature_of_oil_2", "K", gap, {gap}}}, {}}}};
+  EXPECT_THAT(comparison_table(comparison),
+              HasSubstr("\n  channel                      before    after    before    after    before → after\n"
+                        "  temperature_of_oil_2     K        1      0.5         0        0           1 → 0.5\n"));
+}
+
 TEST(Comparison, PageAndJsonSayTheSame) {
   auto const right = without_lag(worse()), wrong = without_lag(nominal());
   auto const comparison = compare(wrong, right, {measured(right)});

@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -95,6 +96,10 @@ TEST(FileCheck, WarnsOfUnitsThatSlipped) {
               ElementsAre(HasSubstr("outside what is plausible: -10 um/(m K) to 300 um/(m K)")));
   EXPECT_THAT(warnings("conductivity = \"42 W/(m K)\"", "conductivity = \"42 kW/(m K)\""),
               ElementsAre(HasSubstr("'conductivity' is \"42 kW/(m K)\"; outside")));
+  EXPECT_THAT(
+      warnings("conductance = \"18 W/K\"", "conductance = \"18 W/mK\""),
+      ElementsAre(HasSubstr("'conductance' is \"18 W/mK\"; outside what is plausible: 0.01 W/K to 10000 W/K; mK "
+                            "is a millikelvin: per metre and kelvin is \"18 W/(m K)\"")));
   EXPECT_THAT(warnings("lead = \"12 mm\"", "lead = \"12 m\""), ElementsAre(HasSubstr("'lead' is \"12 m\"; outside")));
   EXPECT_THAT(
       warnings(
@@ -229,6 +234,117 @@ TEST(FileCheck, RefusesNamesThatNoChannelCanHave) {
   EXPECT_THAT(mistake("[[rotation]]\nname = \"E_Z\"\n"), HasSubstr("the name 'E_Z' is taken by a [[rotation]]"));
 }
 
+/// A place that began with such a name would be another one, or none.
+TEST(FileCheck, RefusesNamesThatNoPlaceCanBeginWith) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& kind, std::string const& keys, std::string const& name) {
+    put(folder / "mine.toml", machine_with("[[" + kind + "]]\n" + keys + "name = \"" + name + "\"\n"));
+    return check_files({folder / "mine.toml"})[0].mistake;
+  };
+  std::string const lump = "heat_capacity = \"1 kJ/K\"\n", pipe = "length = \"1 m\"\ndiameter = \"10 mm\"\n";
+  for (std::string const name : {"ambient", "head.stock", "head[1]", "head ", " head", ""})
+    EXPECT_THAT(mistake("lump", lump, name),
+                HasSubstr(":8: '" + name +
+                          "' cannot be the name of a body: no '.' nor '[', no blank at its ends, nor the whole "
+                          "'ambient', the air of the room, or empty"));
+  EXPECT_THAT(mistake("channel", pipe, "ambient"), HasSubstr(":8: 'ambient' cannot be the name of a body"));
+  EXPECT_THAT(mistake("lump", lump, "ambient air"), HasSubstr("the body 'ambient air' has no path"));
+}
+
+/// What adds up or is averaged over places takes none of them twice.
+TEST(FileCheck, RefusesPlacesThatHaveSomethingInCommon) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& machine, std::string const& table) {
+    put(folder / "mine.toml", contents(machine_file(machine)) + table);
+    return check_files({folder / "mine.toml"})[0].mistake;
+  };
+  auto const film = [&](std::string const& one, std::string const& other, std::string const& machine = "v450") {
+    return mistake(machine,
+                   "[[film]]\nname = \"both\"\narea = \"0.1 m2\"\non = [\"" + one + "\", \"" + other + "\"]\n");
+  };
+  EXPECT_THAT(film("shaft[40 mm .. 90 mm]", "shaft[80 mm .. 99 mm]"),
+              AllOf(MatchesRegex(".*mine.toml:[0-9]+:32: .*"),
+                    HasSubstr("'shaft[40 mm .. 90 mm]' and 'shaft[80 mm .. 99 mm]' have in common what would count")));
+  for (std::string const other : {"shaft", "shaft.surface", "shaft[1 mm .. 2 mm]"})
+    EXPECT_THAT(film("shaft", other), HasSubstr("'shaft' and '" + other + "' have in common")) << other;
+  EXPECT_THAT(film("bed", "bed.surface"), HasSubstr("have in common"));
+  for (std::string const other : {"shaft.end", "shaft[90 mm .. 99 mm]", "test_bar[40 mm .. 90 mm]"})
+    EXPECT_EQ(film("shaft[40 mm .. 90 mm]", other), "") << other;
+  std::string const low = "table.x_min[0 mm .. 50 mm, 0 mm .. 50 mm]";
+  EXPECT_THAT(film(low, "table.x_min[40 mm .. 60 mm, 40 mm .. 60 mm]", "vmc850_fine"), HasSubstr("have in common"));
+  EXPECT_EQ(film(low, "table.x_min[40 mm .. 60 mm, 50 mm .. 60 mm]", "vmc850_fine"), "");
+
+  auto const sensor = [&](std::string const& keys) {
+    return mistake("v450", "[[temperature_sensor]]\nname = \"both\"\n" + keys);
+  };
+  EXPECT_THAT(sensor("at = [\"bed\", \"motor\", \"bed\"]\n"), MatchesRegex(".*:[0-9]+:23: 'bed' and 'bed' have in .*"));
+  EXPECT_THAT(sensor("at = [\"cartridge[10 mm]\", \"cartridge[1 cm]\"]\n"), HasSubstr("have in common"));
+  EXPECT_EQ(sensor("at = [\"cartridge[10 mm]\", \"cartridge[11 mm]\"]\n"), "");
+  EXPECT_EQ(sensor("at = [\"bed\", \"motor\", \"bed\"]\nshares = [0.2, 0.5, 0.3]\n"), "");
+}
+
+TEST(FileCheck, AFilmLeadsToAFluid) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& machine, std::string const& on, std::string const& to) {
+    put(folder / "mine.toml", contents(machine_file(machine)) + "[[film]]\nname = \"more\"\non = \"" + on +
+                                  "\"\nto = \"" + to + "\"\narea = \"0.1 m2\"\n");
+    return check_files({folder / "mine.toml"})[0].mistake;
+  };
+  EXPECT_THAT(mistake("mill200", "head", "base"),
+              AllOf(MatchesRegex(".*mine.toml:[0-9]+:6: .*"),
+                    HasSubstr("'base' is a solid of GJL-300; the body of a fluid is due; known: 'ambient'")));
+  EXPECT_EQ(mistake("g200", "bed_base", "tank"), "");
+  EXPECT_EQ(mistake("mill200", "head", "ambient"), "");
+}
+
+/// A shaft cannot be its own outer ring.
+TEST(FileCheck, RefusesABearingOnOneBody) {
+  TemporaryDirectory const folder;
+  auto text = contents(machine_file("v450"));
+  std::string const ring = "outer = \"front_ring\"";
+  text.replace(text.find(ring), ring.size(), "outer = \"shaft[300 mm .. 320 mm]\"");
+  put(folder / "mine.toml", text);
+  EXPECT_THAT(
+      check_files({folder / "mine.toml"})[0].mistake,
+      MatchesRegex(".*mine.toml:225:9: 'shaft.*' and 'shaft\\[300 mm .. 320 mm\\]' are on one body; 'inner' and "
+                   "'outer' are due on two"));
+}
+
+/// A screw stands still most of the time, and is measured then.
+TEST(FileCheck, WarnsOfSensorsThatTurnWithTheSpindle) {
+  TemporaryDirectory const folder;
+  auto const warnings = [&](std::string const& machine, std::string const& places) {
+    put(folder / "mine.toml",
+        contents(machine_file(machine)) + "[[temperature_sensor]]\nname = \"more\"\nat = " + places);
+    return check_files({folder / "mine.toml"})[0].warnings;
+  };
+  EXPECT_THAT(warnings("v450", "[\"front_ring\", \"shaft[100 mm]\"]\n"),
+              ElementsAre(MatchesRegex(
+                  ".*mine.toml:[0-9]+:21: sensor 'more' sits on 'shaft', which turns; its signal needs a way out")));
+  EXPECT_THAT(warnings("v450", "\"test_bar[50 mm]\"\n"), ElementsAre(HasSubstr("sits on 'test_bar', which turns")));
+  EXPECT_THAT(warnings("v450", "\"bed\"\n"), ElementsAre());
+  EXPECT_THAT(warnings("vmc850", "\"screw[100 mm]\"\n"), ElementsAre());
+}
+
+TEST(FileCheck, WarnsOfMassesThatDoNotFitTheirBox) {
+  TemporaryDirectory const folder;
+  auto const warnings = [&](std::string const& mass, std::string const& size) {
+    put(folder / "mine.toml",
+        machine_with("[[lump]]\nname = \"case\"\nmaterial = \"GJL-300\"\nmass = \"" + mass + "\"\n" + size +
+                     "[[joint]]\nname = \"case\"\nfrom = \"case\"\nto = \"bed\"\n" + "conductance = \"5 W/K\"\n"));
+    return check_files({folder / "mine.toml"})[0].warnings;
+  };
+  std::string const box = "size = [\"300 mm\", \"250 mm\", \"300 mm\"]\n";
+  EXPECT_THAT(warnings("45 kg", box), ElementsAre());
+  EXPECT_THAT(warnings("2 kg", box), ElementsAre());
+  EXPECT_THAT(
+      warnings("45 g", box),
+      ElementsAre(MatchesRegex(".*mine.toml:[0-9]+:8: 'mass' is \"45 g\"; full of GJL-300, the box of its 'size' "
+                               "has 163 kg")));
+  EXPECT_THAT(warnings("450 kg", box), ElementsAre(HasSubstr("'mass' is \"450 kg\"; full of GJL-300")));
+  EXPECT_THAT(warnings("45 g", ""), ElementsAre());
+}
+
 TEST(FileCheck, RefusesOneNameForTwoChannels) {
   TemporaryDirectory const folder;
   auto const mistake = [&](std::string const& table) {
@@ -330,6 +446,13 @@ TEST(FileCheck, LeavesAComplaintThatNamesItsOwnFile) {
 std::string milling_centre(std::string const& old, std::string const& fresh) {
   auto text = contents(machine_file("vmc850"));
   return text.replace(text.find(old), old.size(), fresh);
+}
+
+TEST(FileCheck, RefusesASupportBearingThatDrivesTwice) {
+  TemporaryDirectory const folder;
+  put(folder / "mine.toml", milling_centre("bearings = [\"upper\", \"lower\"]", "bearings = [\"upper\", \"upper\"]"));
+  EXPECT_THAT(check_files({folder / "mine.toml"})[0].mistake,
+              HasSubstr("mine.toml:191:13: the support bearing 'upper' would count twice"));
 }
 
 /// The screw is 840 mm long; the stroke goes from 120 to 720 mm.
@@ -458,7 +581,9 @@ TEST(FileCheck, WarnsOfAnExperimentOfAnotherMachine) {
   };
   EXPECT_THAT(warnings("v450", "other.toml"),
               Contains(HasSubstr("day.toml: it is an experiment of 'v450', the machine file is 'vmc850'")));
-  for (auto const* named : {"v450", "v450_fine", "mine.toml"})
+  EXPECT_THAT(warnings("v450.toml", "other.toml"),
+              Contains(HasSubstr("day.toml: it is an experiment of 'v450.toml', the machine file is 'vmc850'")));
+  for (auto const* named : {"v450", "v450_fine", "mine.toml", "v450.toml", "machines/v450.toml"})
     EXPECT_THAT(warnings(named, "mine.toml"), testing::Not(Contains(HasSubstr("it is an experiment of")))) << named;
 }
 
@@ -530,6 +655,28 @@ TEST(FileCheck, WarnsOfARecordThatEndsBeforeTheRun) {
   EXPECT_THAT(warnings("90 min"),
               ElementsAre(HasSubstr("experiment.toml:4:8: recorded[0].file: it ends at 1 h, and the run at 90 min; "
                                     "until then its last values hold")));
+}
+
+/// 33 s of a minute at one speed: each row of the data would show it.
+TEST(FileCheck, WarnsOfChangesBetweenTwoRows) {
+  TemporaryDirectory const folder;
+  auto const warnings = [&](std::string const& text) {
+    put(folder / "experiment.toml", text);
+    return check_files({folder / "experiment.toml"})[0].warnings;
+  };
+  std::string const spindle =
+      "machine = \"v450\"\nduration = \"2 h\"\n[spindle]\n"
+      "blocks = [{duration = \"33 s\", speed = \"3000 rpm\"}, {duration = \"27 s\"}]\ncycles = 120\n";
+  EXPECT_THAT(warnings(spindle),
+              ElementsAre(HasSubstr("spindle: 119 of 239 changes are followed by another one before the next row, and "
+                                    "the inputs in the data lack them; a `sampling` of 27 s or less shows what was "
+                                    "given")));
+  EXPECT_THAT(warnings("sampling = \"25 s\"\n" + spindle), SizeIs(0));
+  EXPECT_THAT(warnings("machine = \"vmc850\"\nduration = \"1 h\"\n[[axes]]\ncycles = 10\n"
+                       "blocks = [{duration = \"20 s\", feed = \"8 m/min\"}, {duration = \"20 s\"}]\n"),
+              ElementsAre(HasSubstr("axes[0].blocks: 12 of 19 changes are followed by another one before the next row, "
+                                    "and the inputs in the data lack them; a `sampling` of 20 s or less, or one block "
+                                    "with a `duty`, shows what was given")));
 }
 
 TEST(FileCheck, WarnsOfAnEndOfTheRunWithoutARow) {

@@ -13,7 +13,8 @@ namespace {
 
 /// Sets a parameter, and notes where in its range that is.
 void add(CampaignRun& run, CampaignParameter const& parameter, Setting setting, std::int64_t place) {
-  run.positions.push_back(parameter.numeric ? std::strtod(setting.value.c_str(), nullptr) : double(place));
+  run.positions.push_back(parameter.values.empty() ? std::strtod(setting.value.c_str(), nullptr)
+                                                   : parameter.position(place));
   run.settings.push_back(std::move(setting));
 }
 
@@ -73,6 +74,10 @@ CampaignRun Campaign::run(std::int64_t number) const {
     auto const& latin = *description.latin_hypercube;
     add(run, parameter, parameter.at(latin_hypercube(sample, latin.count, std::uint64_t(latin.seed), parameter.path)),
         0);
+  }
+  if (!cases_.empty()) {
+    auto const& positions = case_positions_[std::size_t(chosen)];
+    run.positions.insert(run.positions.end(), positions.begin(), positions.end());
   }
   return run;
 }

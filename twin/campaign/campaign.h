@@ -16,22 +16,24 @@ struct CampaignRun {
   std::int64_t number = 0;
   std::size_t experiment = 0;
   int seed = 0;                   ///< of the instruments
-  std::vector<double> positions;  ///< per parameter of grid and samples: see CampaignParameter
+  std::vector<double> positions;  ///< per parameter of grid, samples and cases: see CampaignParameter
   std::vector<Setting> settings;  ///< those of every run, of the case, of grid and samples, in this order
 };
 
-/// A parameter that a grid or a Latin hypercube varies.
+/// A parameter that a grid, a Latin hypercube or the cases vary.
 struct CampaignParameter {
   std::string path, unit;
   double from = 0.0, to = 0.0;  ///< as numbers before the unit
   bool logarithmic = false;
   std::vector<std::string> values;  ///< one by one, in place of a range
+  std::vector<double> numbers;      ///< the same in `unit`; none: they are words
   std::int64_t count = 0;           ///< of a grid's values
-  bool numeric = true;              ///< false: values are words, and a run's position is their number from 0
   Location where;                   ///< of its table in the file
 
   [[nodiscard]] bool of_experiment() const { return Setting{path, {}}.of_experiment(); }
 
+  /// What stands for the k-th of the values in the data set: its number, of words k.
+  [[nodiscard]] double position(std::int64_t k) const;
   /// The value at a share of the range, or the k-th.
   [[nodiscard]] Setting at(double share) const;
   [[nodiscard]] Setting value(std::int64_t k) const;
@@ -65,6 +67,7 @@ class Campaign {
   Value machine_document;
   std::vector<CampaignExperiment> experiments;
   std::vector<CampaignParameter> grid, samples;
+  std::vector<CampaignParameter> of_cases;  ///< one per path that any case sets, with the values that it gets
 
   [[nodiscard]] std::int64_t runs() const { return std::int64_t(count()); }
   [[nodiscard]] CampaignRun run(std::int64_t number) const;
@@ -88,6 +91,7 @@ class Campaign {
   void read_experiments();
   void read_machine();
   void read_parameters(Value const& document);
+  void read_cases(Value const& document);
   void check_paths(Value const& document) const;
   void check_settings(Value const& document) const;
   void check_sampling(Value const& document) const;
@@ -95,6 +99,7 @@ class Campaign {
 
   std::vector<Setting> common_;
   std::vector<std::vector<Setting>> cases_;
+  std::vector<std::vector<double>> case_positions_;  ///< per case, those of the cases' parameters; NaN: it sets none
 };
 
 /// A campaign file, or the name of one in scenarios/campaigns; InputError with the nearest name.

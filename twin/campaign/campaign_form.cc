@@ -20,6 +20,7 @@ namespace {
 using Kind = output::CampaignVariable::Kind;
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+constexpr auto left_alone = "; missing where a case leaves it as it is";
 constexpr std::size_t figures = 4;                  // first, last, lowest, highest
 constexpr std::size_t rows_of_run = 2, failed = 3;  // variables of a part
 
@@ -45,6 +46,14 @@ std::vector<Eigen::VectorXd const*> find(std::vector<output::Channel> const& cha
     found.push_back(&channel->values);
   }
   return found;
+}
+
+/// The path, and of words which number stands for which.
+std::string name_of(CampaignParameter const& parameter) {
+  std::string name = parameter.path;
+  for (std::size_t k = 0; parameter.numbers.empty() && k < parameter.values.size(); ++k)
+    name += fmt::format("{} {}: {}", k == 0 ? ";" : ",", k, parameter.values[k]);
+  return name;
 }
 
 /// rows × channels, rows that are not there missing.
@@ -136,14 +145,13 @@ void CampaignForm::add_variables() {
                {Kind::whole, "seed", "1", "of the instruments", {}},
                {Kind::whole, "rows", "1", "readings in time; those after them are missing", {}},
                {Kind::whole, "failed", "1", "1: the run failed, see failures", {}}};
-  for (auto const* parameters : {&campaign_.grid, &campaign_.samples})
-    for (auto const& parameter : *parameters) {
-      std::string words = parameter.path;
-      for (std::size_t k = 0; !parameter.numeric && k < parameter.values.size(); ++k)
-        words += fmt::format("{} {}: {}", k == 0 ? ";" : ",", k, parameter.values[k]);
-      variables.push_back(
-          {Kind::real64, "parameters/" + parameter.path, parameter.unit.empty() ? "1" : parameter.unit, words, {}});
-    }
+  for (auto const* parameters : {&campaign_.grid, &campaign_.samples, &campaign_.of_cases})
+    for (auto const& parameter : *parameters)
+      variables.push_back({Kind::real64,
+                           "parameters/" + parameter.path,
+                           parameter.unit.empty() ? "1" : parameter.unit,
+                           name_of(parameter) + (parameters == &campaign_.of_cases ? left_alone : ""),
+                           {}});
   first_kept_ = variables.size();
   for (auto const& group : campaign_.description.keep) {
     if (group == "readings") keep("readings", "degC", "what the sensors read", {"time", "reading"});
@@ -197,8 +205,8 @@ output::CampaignPart CampaignForm::part(std::int64_t first, std::int64_t count) 
   output::CampaignPart part{first, count, {}, {}};
   auto const runs = std::size_t(count);
   std::vector<std::int64_t> experiment(runs), seed(runs);
-  std::vector<std::vector<double>> parameters(campaign_.grid.size() + campaign_.samples.size(),
-                                              std::vector<double>(runs));
+  std::vector<std::vector<double>> parameters(
+      campaign_.grid.size() + campaign_.samples.size() + campaign_.of_cases.size(), std::vector<double>(runs));
   for (std::size_t r = 0; r < runs; ++r) {
     auto const run = campaign_.run(first + std::int64_t(r));
     experiment[r] = std::int64_t(run.experiment);

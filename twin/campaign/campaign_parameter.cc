@@ -21,6 +21,10 @@ Setting CampaignParameter::set_to(double number) const {
   return {path, unit.empty() ? digits : digits + " " + unit};
 }
 
+double CampaignParameter::position(std::int64_t k) const {
+  return numbers.empty() ? double(k) : numbers[std::size_t(k)];
+}
+
 Setting CampaignParameter::at(double share) const {
   return set_to(logarithmic ? from * std::pow(to / from, share) : from + share * (to - from));
 }

@@ -1,11 +1,16 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
+#include "thermal/unit.h"
+#include "thermal/units.h"
 #include "twin/campaign/campaign.h"
 #include "twin/experiment_file.h"
 #include "twin/file/shipped_file.h"
@@ -87,6 +92,46 @@ void read_range(Value const& table, std::string const& from, std::string const& 
     throw FileError(place_of_key(table, "scale"), "a logarithmic range lies above 0");
 }
 
+/// Nothing for a word.
+std::optional<thermal::Quantity> quantity_in(std::string const& text) {
+  try {
+    return thermal::parse_quantity(text);
+  } catch (thermal::InputError const&) {
+    return std::nullopt;
+  }
+}
+
+/// Values that are all quantities of one dimension become numbers in the unit of the first; what is written in that
+/// unit keeps its digits.
+void read_numbers(CampaignParameter& parameter) {
+  std::string unit, own;
+  double number = 0.0;
+  auto const first = quantity_in(parameter.values.front());
+  split(parameter.values.front(), number, unit);
+  std::vector<double> numbers;
+  for (auto const& text : parameter.values) {
+    auto const quantity = quantity_in(text);
+    if (!first || !quantity || quantity->dimension != first->dimension) return;
+    split(text, number, own);
+    double const zero = first->absolute_temperature ? quantity->value : 0.0;
+    numbers.push_back(
+        own == unit ? number
+                    : thermal::without_rounding(thermal::to_unit(quantity->value, unit.empty() ? "1" : unit), zero));
+  }
+  parameter.unit = thermal::in_ascii(unit);
+  parameter.numbers = std::move(numbers);
+}
+
+/// As many words as an attribute holds.
+void check_letters(CampaignParameter const& parameter, Location const& where) {
+  std::size_t letters = 0;
+  for (auto const& value : parameter.values) letters += value.size();
+  if (parameter.numbers.empty() && letters > most_letters)
+    throw FileError(where, fmt::format("values that are words may have {} letters, not {}: the campaign's file names "
+                                       "each of them beside its numbers",
+                                       most_letters, letters));
+}
+
 CampaignParameter grid_parameter(Value const& table, GridDescription const& grid) {
   CampaignParameter parameter;
   parameter.path = grid.path;
@@ -96,22 +141,8 @@ CampaignParameter grid_parameter(Value const& table, GridDescription const& grid
       throw FileError(table.where, "give either 'values', or 'from', 'to' and 'count'");
     parameter.values = grid.values;
     parameter.count = std::int64_t(grid.values.size());
-    for (std::size_t i = 0; i < grid.values.size(); ++i) {
-      double number = 0.0;
-      std::string unit;
-      parameter.numeric = parameter.numeric && split(grid.values[i], number, unit);
-      if (i == 0) parameter.unit = unit;
-      parameter.numeric = parameter.numeric && unit == parameter.unit;
-    }
-    if (!parameter.numeric) parameter.unit.clear();
-    std::size_t letters = 0;
-    for (auto const& value : grid.values) letters += value.size();
-    if (!parameter.numeric && letters > most_letters)
-      throw FileError(
-          place_of_key(table, "values"),
-          fmt::format("values that are words may have {} letters, not {}: the campaign's file names each of "
-                      "them beside its numbers",
-                      most_letters, letters));
+    read_numbers(parameter);
+    check_letters(parameter, place_of_key(table, "values"));
     return parameter;
   }
   if (grid.count < 1) throw FileError(table.where, "give either 'values', or 'from', 'to' and 'count' from 1 on");
@@ -176,6 +207,36 @@ void Campaign::read_parameters(Value const& document) {
   if (samples.empty()) throw FileError(latin.where, "[latin_hypercube] varies nothing; add [[latin_hypercube.vary]]");
 }
 
+void Campaign::read_cases(Value const& document) {
+  for (auto const& given : description.cases) {
+    auto& settings = cases_.emplace_back();
+    for (auto const& text : given.set) settings.push_back(setting(text));
+  }
+  std::map<std::string, std::size_t> numbers;  // of the parameters, by their paths
+  for (std::size_t c = 0; c < cases_.size(); ++c)
+    for (std::size_t s = 0; s < cases_[c].size(); ++s) {
+      auto const& [path, value] = cases_[c][s];
+      if (numbers.try_emplace(path, of_cases.size()).second) {
+        of_cases.emplace_back().path = path;
+        of_cases.back().where = place_of_key(tables(document, "case")[c], "set", s);
+      }
+      auto& values = of_cases[numbers.at(path)].values;
+      if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+    }
+  for (auto& parameter : of_cases) {
+    read_numbers(parameter);
+    check_letters(parameter, parameter.where);
+  }
+  for (auto const& settings : cases_) {
+    auto& positions = case_positions_.emplace_back(of_cases.size(), std::numeric_limits<double>::quiet_NaN());
+    for (auto const& [path, value] : settings) {
+      auto const& parameter = of_cases[numbers.at(path)];
+      auto const& values = parameter.values;
+      positions[numbers.at(path)] = parameter.position(std::find(values.begin(), values.end(), value) - values.begin());
+    }
+  }
+}
+
 /// Builds what the settings make, on the first experiment; a complaint gets the place of what asked for it.
 void Campaign::try_setting(Location const& where, std::vector<Setting> const& settings) const {
   try {
@@ -195,10 +256,12 @@ void Campaign::try_setting(Location const& where, std::vector<Setting> const& se
 void Campaign::check_settings(Value const& document) const {
   std::set<std::string> paths;
   try_setting(document.where, {});
-  for (auto const* parameters : {&grid, &samples})
-    for (auto const& parameter : *parameters) {
+  for (auto const* parameters : {&of_cases, &grid, &samples})
+    for (auto const& parameter : *parameters)
       if (!paths.insert(parameter.path).second)
         throw FileError(parameter.where, fmt::format("'{}' is varied twice", parameter.path));
+  for (auto const* parameters : {&grid, &samples})
+    for (auto const& parameter : *parameters) {
       if (parameter.values.empty()) {
         try_setting(parameter.where, {parameter.at(0.0)});
         try_setting(parameter.where, {parameter.at(1.0)});
@@ -275,12 +338,7 @@ Campaign Campaign::read(fs::path const& file) {
   located("set", [&] {
     for (auto const& text : description.set) campaign.common_.push_back(setting(text));
   });
-  located("case", [&] {
-    for (auto const& given : description.cases) {
-      auto& settings = campaign.cases_.emplace_back();
-      for (auto const& text : given.set) settings.push_back(setting(text));
-    }
-  });
+  located("case", [&] { campaign.read_cases(document); });
   if (campaign.count() > most_runs)
     throw FileError(document.where,
                     fmt::format("these are {:.3g} runs; at most {:.0e} are possible", campaign.count(), most_runs));

@@ -23,14 +23,16 @@ std::string verdict_of(CalibratedNumber const& number) {
   return text + fmt::format("; {:.0f} prior deviations from the file", number.departure());
 }
 
+/// Of the number itself, in SI, where it may have either sign.
 Json json_of(CalibratedNumber const& number) {
+  std::string const of_what = number.number.of_either_sign ? "" : "_of_logarithm";
   return {{"path", number.number.path},
           {"unit", thermal::unit_of(number.number.dimension)},
           {"nominal", number.number.nominal},
           {"estimate", number.estimate()},
           {"standard_error", number.standard_error()},
-          {"prior_deviation_of_logarithm", number.number.deviation},
-          {"deviation_of_logarithm", number.deviation},
+          {"prior_deviation" + of_what, number.number.deviation},
+          {"deviation" + of_what, number.deviation},
           {"departure", number.departure()},
           {"written", number.number.value(number.written)},
           {"verdict", number.identified ? "identified" : "not identified"},
@@ -62,21 +64,27 @@ Json list_of(Items const& items) {
   return list;
 }
 
+/// How uncertain a number is before the data, as people read it.
+std::string prior_text(UncertainNumber const& number) {
+  return number.of_either_sign ? written_value(number.deviation, number.unit, 2)
+                               : fmt::format("{:.0f} %", 100.0 * number.deviation);
+}
+
 std::string number_table(Calibration const& calibration) {
-  std::string text = fmt::format("{:<42} {:>14} {:>14} {:>14} {:>6} {:>14}\n", "number", "nominal", "estimate",
+  std::string text = fmt::format("{:<42} {:>14} {:>14} {:>14} {:>10} {:>14}\n", "number", "nominal", "estimate",
                                  "std. error", "prior", "in the file");
   for (auto const& number : calibration.numbers) {
     auto const& of = number.number;
     double const written = of.value(number.written);
     text +=
-        fmt::format("{:<42} {:>14} {:>14} {:>14} {:>4.0f} % {:>14}  {}\n", of.path, written_value(of.nominal, of.unit),
+        fmt::format("{:<42} {:>14} {:>14} {:>14} {:>10} {:>14}  {}\n", of.path, written_value(of.nominal, of.unit),
                     written_value(number.estimate(), of.unit, 4), written_value(number.standard_error(), of.unit, 2),
-                    100.0 * of.deviation, written_value(written, of.unit, 4), verdict_of(number));
+                    prior_text(of), written_value(written, of.unit, 4), verdict_of(number));
   }
   return text + fmt::format(
-                    "prior: standard deviation of the logarithm before the data. Not identified: after them it is "
-                    "still above {:.0f} %\nof that; such a number keeps its nominal value. In the file: what is most "
-                    "probable with those at nominal.\n",
+                    "prior: standard deviation before the data, of the logarithm where it is in %, else of the number. "
+                    "Not identified:\nafter them it is still above {:.0f} % of that; such a number keeps its nominal "
+                    "value. In the file: what is most\nprobable with those at nominal.\n",
                     100.0 * still_uncertain);
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
 #include <set>
 #include <string>
 #include <utility>
@@ -15,7 +14,7 @@ namespace thermotwin::twin {
 namespace {
 
 constexpr double least_off = 0.3;  // [K]
-constexpr Eigen::Index side = 5;   // rows on each side whose median is where a reading stands
+constexpr Eigen::Index side = 3;   // rows on each side whose median is where a reading stands
 constexpr Eigen::Index turn = 1;   // rows that it may take
 
 /// A step of a sensor's residual between two rows.
@@ -26,12 +25,7 @@ struct Jump {
   double statistic = 0.0;  ///< T
 };
 
-/// Of those that were measured; 0: none.
-double median(Eigen::VectorXd const& values) {
-  std::vector<double> measured;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(measured), [](double v) { return !std::isnan(v); });
-  return measured.empty() ? 0.0 : models::upper_median(std::move(measured));
-}
+double median(Eigen::VectorXd const& values) { return models::upper_median({values.begin(), values.end()}); }
 
 /// How much higher a residual stands after a row than before the one before it.
 double step_at(Eigen::VectorXd const& residual, Eigen::Index row) {
@@ -40,16 +34,21 @@ double step_at(Eigen::VectorXd const& residual, Eigen::Index row) {
 
 /// The clearest one of a sensor in a run; T 0: none. `residual`: NaN where nothing was measured.
 Jump clearest(Eigen::VectorXd const& residual, Whitening const& whitening, Eigen::VectorXd const& time) {
-  auto const rows = residual.size();
-  Eigen::MatrixXd white = residual, steps = Eigen::MatrixXd::Zero(rows, rows);
-  for (Eigen::Index row = 0; row < rows; ++row) steps.col(row).tail(rows - row).setOnes();
+  std::vector<Eigen::Index> measured;
+  for (Eigen::Index row = 0; row < residual.size(); ++row)
+    if (!std::isnan(residual[row])) measured.push_back(row);
+  auto const count = Eigen::Index(measured.size());
+  Eigen::VectorXd const shown = residual(measured);
+  Eigen::MatrixXd white = residual, steps = Eigen::MatrixXd::Zero(residual.size(), count);
+  for (Eigen::Index k = 0; k < count; ++k) steps.col(k).tail(residual.size() - measured[std::size_t(k)]).setOnes();
   whitening.apply(white);
   whitening.apply(steps);
   Jump best;
-  for (Eigen::Index row = side + turn; row + turn + side <= rows; ++row) {
-    double const information = steps.col(row).squaredNorm(), b = steps.col(row).dot(white.col(0));
-    double const statistic = b * b / std::max(information, 1e-30), by = step_at(residual, row);
-    if (statistic > best.statistic && std::abs(by) >= least_off) best = {{}, {}, time[row], by, statistic};
+  for (Eigen::Index k = side + turn; k + turn + side <= count; ++k) {
+    double const information = steps.col(k).squaredNorm(), b = steps.col(k).dot(white.col(0));
+    double const statistic = b * b / information, by = step_at(shown, k);
+    if (statistic > best.statistic && std::abs(by) >= least_off)
+      best = {{}, {}, time[measured[std::size_t(k)]], by, statistic};
   }
   return best;
 }

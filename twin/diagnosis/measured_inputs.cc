@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <string_view>
 
@@ -22,6 +23,8 @@ namespace {
 
 using scenarios::SampledInput;
 using thermal::InputError;
+
+constexpr double most_revolutions_lost = 0.02;  ///< of all
 
 /// An experiment's own channels that a record may lack.
 struct Supposition {
@@ -102,7 +105,9 @@ void check_unit(Value const& table, std::string const& name, thermal::Dimension 
   try {
     thermal::require_unit(text, due);
   } catch (InputError const& error) {
-    throw InputError(fmt::format("{}; the channel is {}", error.what(), name));
+    bool const share = thermal::dimension_of(text) == thermal::dimension::dimensionless;
+    throw InputError(fmt::format("{}; the channel is {}{}", error.what(), name,
+                                 share ? scenarios::or_a_factor : std::string_view()));
   }
 }
 
@@ -193,6 +198,24 @@ void remark_suppositions(MeasuredData const& data, Machine const& machine, std::
   if (!said.empty()) remarks.push_back(fmt::format("not in the data, and supposed: {}", fmt::join(said, "; ")));
 }
 
+/// What the spindle was given between two rows is lost; its counter of revolutions tells.
+void remark_revolutions(MeasuredData const& data, std::vector<scenarios::DrivenChannel> const& driven,
+                        std::vector<std::string>& remarks) {
+  SampledInput const* counter = find(data.inputs, "spindle.revolutions");
+  auto const given =
+      std::find_if(driven.begin(), driven.end(), [](auto const& d) { return d.channel.name == "spindle.speed"; });
+  if (!counter || given == driven.end()) return;
+  auto const counted = scenarios::driven_channel(*counter).signal, speed = given->signal.magnitude();
+  double const from = counted.times().front(), to = counted.times().back();
+  double const shown = counted.at(to) - counted.at(from);
+  double const made = (speed.integral(to) - speed.integral(from)) / (2.0 * std::numbers::pi);
+  if (std::abs(made - shown) <= most_revolutions_lost * std::max(std::abs(made), std::abs(shown))) return;
+  remarks.push_back(fmt::format(
+      "'spindle.speed' makes {:.0f} revolutions in all, 'spindle.revolutions' {:.0f}: the speed changes between two "
+      "rows, where nothing is known of it; rows closer together show what was given",
+      made, shown));
+}
+
 /// Of the recorded clock [s]: rows may begin before the run, and the first may be empty.
 std::optional<double> start_time_of_day(SampledInput const& clock) {
   constexpr double day = 86400.0;
@@ -272,6 +295,7 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
                           [&](RecordGap const& gap) { return gap.to == change.time; });
     });
   }
+  remark_revolutions(data, experiment.driven, run.remarks);
   remark_gaps(gaps, experiment, run.remarks);
   run.course = std::make_shared<scenarios::ExperimentCourse const>(experiment, machine.limits);
   move_to_jumps(run.changes, *run.course);

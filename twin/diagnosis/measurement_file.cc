@@ -26,6 +26,18 @@ struct LoadedTable {
   std::vector<std::vector<double>> inputs, readings;
 };
 
+/// One column that shows what two sensors saw.
+void remark_twins(MeasuredTable const& table, std::vector<std::string>& remarks) {
+  auto const& readings = table.readings;
+  for (auto second = readings.begin(); second != readings.end(); ++second) {
+    auto const first =
+        std::find_if(readings.begin(), second, [&](auto const& r) { return r.column == second->column; });
+    if (first != second)
+      remarks.push_back(fmt::format("{}: column '{}' is given to two channels, {} and {}", table.file, second->column,
+                                    first->sensor, second->sensor));
+  }
+}
+
 LoadedTable load(MeasuredTable const& table, std::filesystem::path const& directory, scenarios::TableReader& reader,
                  std::vector<std::string>& remarks) {
   if (table.inputs.empty() && table.readings.empty())
@@ -33,7 +45,7 @@ LoadedTable load(MeasuredTable const& table, std::filesystem::path const& direct
   std::vector<std::string> columns, units;
   for (auto const& input : table.inputs) {
     columns.push_back(input.column);
-    units.push_back(input.unit);
+    units.push_back(scenarios::unit_of_numbers(input));
   }
   for (auto const& reading : table.readings) {
     columns.push_back(reading.column);
@@ -41,7 +53,9 @@ LoadedTable load(MeasuredTable const& table, std::filesystem::path const& direct
   }
   auto logged = reader.read(table, scenarios::resolved_path(table.file, directory), columns);
   scenarios::check_units(logged, table, columns, units);
-  if (!logged.remark.empty()) remarks.push_back(logged.remark);
+  for (auto const& remark : {logged.remark, logged.clock_remark})
+    if (!remark.empty()) remarks.push_back(remark);
+  remark_twins(table, remarks);
   auto const first_reading = logged.columns.begin() + std::ptrdiff_t(table.inputs.size());
   return {std::move(logged.times), {logged.columns.begin(), first_reading}, {first_reading, logged.columns.end()}};
 }
@@ -83,16 +97,9 @@ bool is_scale(std::string const& unit) { return thermal::from_unit(0.0, unit) !=
 
 scenarios::SampledInput make_input(InputColumn const& column, LoadedTable const& table,
                                    std::vector<double> const& numbers, double start) {
-  scenarios::SampledInput input;
-  input.name = column.channel;
-  input.unit = thermal::unit_of(thermal::dimension_of(column.unit));
-  input.absolute_temperature = is_scale(column.unit);
-  input.interpolation = column.interpolation;
-  input.average = column.average;
-  input.times = table.times;
+  auto input = scenarios::sampled_input(column, table.times, numbers);
   for (double& t : input.times) t -= start;
-  input.values = numbers;
-  thermal::from_unit(input.values, column.unit);
+  input.average = column.average;
   return input;
 }
 

@@ -6,25 +6,19 @@
 #include <vector>
 
 #include "scenarios/logged_table.h"
+#include "scenarios/recorded.h"
 #include "twin/description.h"
 #include "twin/diagnosis/measured_data.h"
 
 namespace thermotwin::twin {
 
 /// `[[table.input]]`: a column that says what the machine was given.
-struct InputColumn {
-  std::string column, channel;
-  std::string unit = "1";
-  std::string interpolation = "automatic";
+struct InputColumn : scenarios::RecordedColumn {
   double average = 0.0;
 
   template <class Fields>
   static void fields(Fields& f) {
-    f.name("column", &InputColumn::column, "exact name of the column in the table's header");
-    f.name("channel", &InputColumn::channel, "input channel that it is: spindle.speed, ambient.temperature");
-    f("unit", &InputColumn::unit, "of the numbers in the table: \"rpm\", \"degC\", \"%\"");
-    f.choice("interpolation", &InputColumn::interpolation, {"automatic", "linear", "step"},
-             "between two rows; automatic: speeds, shares and flags are held, temperatures go straight");
+    RecordedColumn::fields(f);
     f("average", &InputColumn::average, dimension::time, "straight ones: one point per this time, the mean of its rows",
       positive);
   }

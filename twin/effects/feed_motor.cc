@@ -59,6 +59,8 @@ struct FeedMotor {
 
   void add_to(Assembly& assembly) const {
     if (bearings.size() > 2) throw thermal::InputError("feed_motor '" + name + "' drives at most two support bearings");
+    if (bearings.size() == 2 && bearings[0] == bearings[1])
+      throw thermal::InputError("the support bearing '" + bearings[0] + "' would count twice");
     auto const motor = assembly.port(at);
     auto const& load = assembly.torque_of(nut);
     std::vector<thermal::Port> ports = {motor, load.ports[0], load.ports[1]};

@@ -68,6 +68,8 @@ Value parse_toml(std::string_view text, std::string const& file_name) {
   } catch (toml::parse_error const& error) {
     std::string what(error.description());
     if (what.find("control characters") != std::string::npos) what += "; is a quote missing at the end of the line?";
+    if (what.find("parsing boolean") != std::string::npos || what.find("determine value type") != std::string::npos)
+      what += "; a text needs straight quotes, for example \"bed\"";
     throw FileError(location(error.source(), file_name), what);
   }
 }

@@ -9,6 +9,7 @@
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
+#include "twin/instruments/averaging_window.h"
 #include "twin/instruments/first_order_lag.h"
 #include "twin/instruments/random_stream.h"
 #include "twin/instruments/sampling.h"
@@ -105,18 +106,17 @@ class Conversion {
         specimen_(specimen),
         apparent_(apparent(probe, specimen, course)),
         runout_(probe, course, specimen.phase),
-        noise_(channel.seed, channel.name + "/noise") {}
+        noise_(channel.seed, channel.name + "/noise"),
+        window_(probe.averaging_window, probe.conversion_interval) {}
 
-  double reading(double t, int count) {
+  double reading(double t) {
     double const runout = runout_.mean(t);
     double const end = 0.5 * probe_.full_scale;
-    double sum = 0.0;
-    for (int i = count - 1; i >= 0; --i) {
-      double const gap = apparent_.at(t - i * probe_.conversion_interval) + runout;
+    return window_.mean(t, [&](double at) {
+      double const gap = apparent_.at(at) + runout;
       double const shown = (1.0 + specimen_.scale_error) * gap + specimen_.noise * noise_.normal();
-      sum += quantised(std::clamp(shown, -end, end), probe_.resolution);
-    }
-    return sum / count;
+      return quantised(std::clamp(shown, -end, end), probe_.resolution);
+    });
   }
 
  private:
@@ -125,6 +125,7 @@ class Conversion {
   FirstOrderLag apparent_;
   Runout runout_;
   RandomStream noise_;
+  AveragingWindow window_;
 };
 
 }  // namespace
@@ -160,13 +161,9 @@ Readings read(DisplacementProbe const& probe, InstrumentChannel const& channel, 
                      {"temperature_coefficient", specimen.temperature_coefficient},
                      {"drift", specimen.drift},
                      {"noise", specimen.noise}}};
-  double last = -std::numeric_limits<double>::infinity();
-  for (Eigen::Index k = 0; k < sample_times.size(); ++k) {
-    if (!served[static_cast<std::size_t>(k)]) continue;
-    int const count = conversions(probe.averaging_window, probe.conversion_interval, sample_times[k] - last);
-    readings.values[k] = thermal::without_rounding(conversion.reading(sample_times[k], count) / micrometre);
-    last = sample_times[k];
-  }
+  for (Eigen::Index k = 0; k < sample_times.size(); ++k)
+    if (served[static_cast<std::size_t>(k)])
+      readings.values[k] = thermal::without_rounding(conversion.reading(sample_times[k]) / micrometre);
   if (probe.zeroed && readings.values.size() > 0)
     for (double const zero = readings.values[0]; double& value : readings.values)
       value = thermal::without_rounding(value - zero, zero);

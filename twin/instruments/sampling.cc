@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
-#include "thermal/error.h"
 #include "twin/instruments/random_stream.h"
 
 namespace thermotwin::twin {
@@ -56,13 +54,6 @@ void drop_out(Eigen::VectorXd& values, Eigen::VectorXd const& sample_times, Inst
     bool const lost = chance.uniform() < dropout;
     if (lost || sample_times[k] >= dead_from) values[k] = std::numeric_limits<double>::quiet_NaN();
   }
-}
-
-int conversions(double window, double interval, double since_last_reading) {
-  if (!(interval > 0.0))
-    throw thermal::InputError(fmt::format("conversion_interval is {} s; it must be positive", interval));
-  double const span = std::min(window, since_last_reading);
-  return std::max(1, static_cast<int>(std::floor(span / interval + 1e-9)));
 }
 
 double quantised(double x, double resolution) { return resolution > 0.0 ? resolution * std::round(x / resolution) : x; }

@@ -21,10 +21,6 @@ std::vector<double> looks(std::span<double const> sample_times, thermal::Course 
 void drop_out(Eigen::VectorXd& values, Eigen::VectorXd const& sample_times, InstrumentChannel const& channel,
               double dropout, double dead_from);
 
-/// How many conversions, `interval` apart, are averaged into a reading: those within the window, not further back than
-/// the reading before, at least one. Throws InputError unless the interval is positive.
-int conversions(double window, double interval, double since_last_reading);
-
 /// Quant(x) = q round(x/q); x itself for q = 0.
 double quantised(double x, double resolution);
 

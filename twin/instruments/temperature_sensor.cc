@@ -8,6 +8,7 @@
 #include "thermal/error.h"
 #include "thermal/physical_constant.h"
 #include "thermal/units.h"
+#include "twin/instruments/averaging_window.h"
 #include "twin/instruments/correlated_noise.h"
 #include "twin/instruments/first_order_lag.h"
 #include "twin/instruments/random_stream.h"
@@ -62,7 +63,8 @@ class Converter {
         element_(element(specimen, course)),
         white_(channel.seed, channel.name + "/noise"),
         correlated_({channel.seed, channel.name + "/correlated_noise"}, sensor.correlated_noise,
-                    sensor.correlation_time) {}
+                    sensor.correlation_time),
+        window_(sensor.averaging_window, specimen.conversion_interval) {}
 
   double convert(double t, double cold_junction) {
     double const celsius = indicated(sensor_, specimen_, element_.at(t - sensor_.clock_offset));
@@ -73,10 +75,8 @@ class Converter {
                       specimen_.highest - zero_celsius);
   }
 
-  double reading(double t, int count, double cold_junction) {
-    double sum = 0.0;
-    for (int i = count - 1; i >= 0; --i) sum += convert(t - i * specimen_.conversion_interval, cold_junction);
-    double const mean = sum / count;
+  double reading(double t, double cold_junction) {
+    double const mean = window_.mean(t, [&](double at) { return convert(at, cold_junction); });
     return specimen_.resolution > 0.0 ? thermal::without_rounding(mean, zero_celsius) : mean;
   }
 
@@ -86,6 +86,7 @@ class Converter {
   FirstOrderLag element_;
   RandomStream white_;
   CorrelatedNoise correlated_;
+  AveragingWindow window_;
 };
 
 }  // namespace
@@ -116,14 +117,8 @@ Readings read(TemperatureSensor const& sensor, InstrumentChannel const& channel,
   Readings readings{Eigen::VectorXd::Constant(sample_times.size(), std::numeric_limits<double>::quiet_NaN()),
                     sample_times.unaryExpr([&](double t) { return body.at(t) - zero_celsius; }),
                     chance_properties(specimen)};
-  double last = -std::numeric_limits<double>::infinity();
-  for (Eigen::Index k = 0; k < sample_times.size(); ++k) {
-    if (!served[static_cast<std::size_t>(k)]) continue;
-    double const t = sample_times[k];
-    int const count = conversions(sensor.averaging_window, specimen.conversion_interval, t - last);
-    readings.values[k] = converter.reading(t, count, cold_junction[k]);
-    last = t;
-  }
+  for (Eigen::Index k = 0; k < sample_times.size(); ++k)
+    if (served[static_cast<std::size_t>(k)]) readings.values[k] = converter.reading(sample_times[k], cold_junction[k]);
   drop_out(readings.values, sample_times, channel, sensor.dropout,
            sensor.dead_from.value_or(std::numeric_limits<double>::infinity()));
   return readings;

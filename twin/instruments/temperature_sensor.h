@@ -99,8 +99,8 @@ struct TemperatureSensor {
     f("lead_resistance", &S::lead_resistance, dimension::resistance, "of a two-wire pt100's wires", Range{0, 5});
     f("clock_offset", &S::clock_offset, dimension::time, "by which the logger's time stamps are late");
     f("sampling_interval", &S::sampling_interval, dimension::time, "0: as the data set", Range{0, 3600});
-    f("averaging_window", &S::averaging_window, dimension::time, "conversions up to the sample that are averaged",
-      Range{0, 600});
+    f("averaging_window", &S::averaging_window, dimension::time,
+      "conversions up to the sample that are averaged, however close the rows are", Range{0, 600});
     f("conversion_interval", &S::conversion_interval, dimension::time, "between conversions that are averaged",
       Range{0.001, 10});
     f("dropout", &S::dropout, number, "probability that a reading is missing", Range{0, 1});

@@ -98,6 +98,18 @@ std::vector<CandidateSite> mesh_of_sites(Bodies const& bodies, std::set<std::str
   return sites;
 }
 
+/// The dearest counts: the sensor is on all of them.
+double cost_on_bodies(std::vector<std::string> const& at, std::vector<BodyCost> const& bodies) {
+  std::optional<double> dearest;
+  for (auto const& place : at) {
+    auto const is_there = [on = body_of(place)](BodyCost const& body) { return body.name == on; };
+    auto const body = std::find_if(bodies.begin(), bodies.end(), is_there);
+    double const cost = body == bodies.end() ? 1.0 : body->cost;
+    dearest = std::max(cost, dearest.value_or(cost));
+  }
+  return dearest.value_or(1.0);
+}
+
 /// Checks rules against a machine; a complaint gets the place in the rules' file in front.
 class RulesCheck {
  public:
@@ -173,9 +185,12 @@ CandidateRules read_candidate_rules(std::filesystem::path const& path) {
   read_file_fields(document, FileKind::candidates, rules);
   rules.document = document;
   Tables names(document);
+  auto site = rules.sites.begin();
   for (auto const& table : names.of("site")) {
     if (texts_of(table, "at").empty()) throw FileError(table.where, "a site needs a place: at = \"head\"");
     if (auto const name = name_in(table); !name.empty()) names.claim(table, "site", name);
+    if (!table.find("cost")) site->cost = cost_on_bodies(site->at, rules.bodies);
+    ++site;
   }
   for (auto const& table : names.of("body")) names.claim(table, "body", name_in(table));
   return rules;
@@ -190,15 +205,19 @@ std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules
   auto sites = rules.sites;
   if (sites.empty()) {
     sites = mesh_of_sites(bodies, without, rules.most);
-    for (auto& site : sites)
-      for (auto const& body : rules.bodies)
-        if (body_of(site.at.front()) == body.name) site.cost = body.cost;
+    for (auto& site : sites) site.cost = cost_on_bodies(site.at, rules.bodies);
   }
   for (auto& site : sites)
     if (site.name.empty()) site.name = fmt::format("{}", fmt::join(site.at, " and "));
   if (sites.empty()) throw InputError("no site is left on which a sensor could sit");
   check.affordable(sites);
   return sites;
+}
+
+double cost_at(std::vector<std::string> const& at, CandidateRules const& rules) {
+  auto const there =
+      std::find_if(rules.sites.begin(), rules.sites.end(), [&](CandidateSite const& site) { return site.at == at; });
+  return there == rules.sites.end() ? cost_on_bodies(at, rules.bodies) : there->cost;
 }
 
 std::set<std::string> bodies_without_candidates(Value const& document, CandidateRules const& rules) {

@@ -23,7 +23,7 @@ struct CandidateSite {
   static void fields(Fields& f) {
     f("name", &CandidateSite::name, "of the site; default: its place");
     f("at", &CandidateSite::at, "place on a body, as of a temperature_sensor; \"ambient\": room air");
-    f("cost", &CandidateSite::cost, {}, "of a sensor there, in the unit of the budget");
+    f("cost", &CandidateSite::cost, {}, "of a sensor there, in the unit of the budget; without: what its body costs");
   }
 };
 
@@ -67,6 +67,9 @@ struct CandidateRules {
 /// own diagonal. Where the rules name a body that is not there or a place beyond it, or a budget that buys no sensor:
 /// FileError with the place in their file. InputError for a machine without any site.
 [[nodiscard]] std::vector<CandidateSite> candidate_sites(Value const& document, CandidateRules const& rules);
+
+/// What a sensor at these places costs: what the rules say of a site there, or else the dearest of its bodies.
+[[nodiscard]] double cost_at(std::vector<std::string> const& at, CandidateRules const& rules);
 
 /// Bodies that carry no candidate since they are forbidden or turn; one that turns does carry sites of the rules' own.
 [[nodiscard]] std::set<std::string> bodies_without_candidates(Value const& document, CandidateRules const& rules);

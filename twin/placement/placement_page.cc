@@ -52,8 +52,9 @@ std::string teacher_text(Teacher teacher) {
 std::string numbers_text(PlacementReport const& report) {
   std::string const by_kind =
       "by 20 % (coefficients, films, powers, friction) or 10 % (capacities, weights of the loop)";
-  if (report.ranged == 0) return fmt::format("{} numbers drawn {}", report.numbers, by_kind);
-  return fmt::format("{} numbers drawn within the file's own ranges, {} {}", report.ranged,
+  auto const numbers = [](std::size_t count) { return count == 1 ? "1 number" : fmt::format("{} numbers", count); };
+  if (report.ranged == 0) return fmt::format("{} drawn {}", numbers(report.numbers), by_kind);
+  return fmt::format("{} drawn within the file's own ranges, {} {}", numbers(report.ranged),
                      report.numbers - report.ranged, by_kind);
 }
 

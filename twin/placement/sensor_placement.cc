@@ -50,7 +50,8 @@ void check(PlacementOptions const& options, std::size_t candidates) {
 /// Sites that a user proposes, by name: a candidate's, a sensor's of the machine, or a place.
 class Proposal {
  public:
-  Proposal(Value const& document, std::vector<CandidateSite>& sites) : sites_(sites), tables_(document) {
+  Proposal(Value const& document, CandidateRules const& rules, std::vector<CandidateSite>& sites)
+      : rules_(rules), sites_(sites), tables_(document) {
     Value copy = document;
     for (auto const* table : tables_of(copy, "temperature_sensor")) {
       auto& sensor = sensors_.emplace_back(CandidateSite{name_in(*table), texts_of(*table, "at")});
@@ -76,6 +77,7 @@ class Proposal {
     for (std::size_t i = 0; i < sites_.size(); ++i)
       if (sites_[i].name == name) return Index(i);
     sites_.push_back(site_of(name));
+    sites_.back().cost = cost_at(sites_.back().at, rules_);
     return Index(sites_.size()) - 1;
   }
   [[nodiscard]] CandidateSite site_of(std::string const& name) const {
@@ -93,6 +95,7 @@ class Proposal {
         fmt::format("there is no site, sensor or body '{}'; {}", name, thermal::did_you_mean(name, known)));
   }
 
+  CandidateRules const& rules_;
   std::vector<CandidateSite>& sites_;
   std::vector<CandidateSite> sensors_;
   Tables tables_;
@@ -179,7 +182,7 @@ Judge::Judge(Value const& document, PlacementOptions const& options)
   check(options, sites_.size());
   sites_ = with_spares(sites_, options.dead);
   candidates_ = Index(sites_.size());
-  proposed_ = Proposal(document, sites_)(options.proposed);
+  proposed_ = Proposal(document, options.rules, sites_)(options.proposed);
   Machine const machine = Machine::build(with_sensors_at(document, sites_));
   machine_ = machine.name;
   for (std::size_t s = machine.sensors.size() - sites_.size(); s < machine.sensors.size(); ++s)

@@ -267,6 +267,23 @@ TEST_F(CalibrationTest, JsonHoldsEveryNumber) {
   EXPECT_NEAR(json.at("gap").at("after"), whole(calibration.gaps).after, 1e-12);
 }
 
+/// 0.6 W/K are no 60 % of 0 W/K.
+TEST_F(CalibrationTest, PriorsOfEitherSignHaveTheUnitOfTheNumber) {
+  Calibration both;
+  both.numbers.push_back({{"bearing.front.conductance_speed", 0.0, thermal::dimension::conductance, 0.6, "W/K", true}});
+  both.numbers.push_back({{"bearing.front.grease_factor", 0.55, thermal::dimension::dimensionless, 0.3}});
+  both.numbers[0].deviation = 0.56;
+  auto const table = calibration_table(both);
+  EXPECT_THAT(table, testing::ContainsRegex("conductance_speed +0 W/K +0 W/K +0.56 W/K +0.6 W/K +0 W/K  not"));
+  EXPECT_THAT(table, testing::ContainsRegex("grease_factor +0.55 +0.55 +0 +30 % +0.55  not"));
+  auto const json = nlohmann::json::parse(calibration_json(both)).at("numbers");
+  EXPECT_EQ(json[0].at("prior_deviation"), 0.6);
+  EXPECT_EQ(json[0].at("deviation"), 0.56);
+  EXPECT_FALSE(json[0].contains("prior_deviation_of_logarithm"));
+  EXPECT_EQ(json[1].at("prior_deviation_of_logarithm"), 0.3);
+  EXPECT_FALSE(json[1].contains("prior_deviation"));
+}
+
 TEST(EstimateText, UnitsAreTheAuthors) {
   EXPECT_EQ(written_value(0.5156583, "m2"), "0.515658 m2");
   EXPECT_EQ(written_value(0.5156583, ""), "0.515658");

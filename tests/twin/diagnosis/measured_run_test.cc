@@ -112,6 +112,18 @@ TEST(MeasuredRun, SuppositionsAreTold) {
   EXPECT_THAT(run.remarks, Contains(HasSubstr("as warm above as below")));
 }
 
+/// Whose counter of revolutions goes on by 55 % of what the rows show, as where it stands for 27 s of each minute.
+TEST(MeasuredRun, ASpeedThatChangesBetweenRowsIsTold) {
+  auto dataset = simulated();
+  EXPECT_THAT(measured_run(dataset, machine(), "whole").remarks,
+              testing::Not(Contains(HasSubstr("spindle.revolutions"))));
+  channel(dataset.inputs, "spindle.revolutions").values *= 0.55;
+  EXPECT_THAT(measured_run(dataset, machine(), "coarse").remarks,
+              Contains("'spindle.speed' makes 380000 revolutions in all, 'spindle.revolutions' 209000: the speed "
+                       "changes between two rows, where nothing is known of it; rows closer together show what was "
+                       "given"));
+}
+
 /// A challenge's runs keep no file of a machine; the name of the finer form is that of the machine.
 TEST(MeasuredRun, OfAnotherMachineIsTold) {
   auto dataset = simulated();

@@ -160,6 +160,46 @@ TEST_F(MeasurementFileTest, SaysWhereAUnitContradictsTheChannel) {
   EXPECT_THAT(refusal([&] { (void)read(whole + speed); }), HasSubstr("the channel is spindle.speed"));
 }
 
+/// As those of readings: the unit is that of the number times the factor.
+TEST_F(MeasurementFileTest, InputsHaveAFactorAndAnOffset) {
+  write_tables();
+  auto const duty = [&](std::string const& keys) {
+    return value_at(*read(with(whole, "unit = \"%\"", keys)).course, "heater1.duty", 0.0);
+  };
+  EXPECT_DOUBLE_EQ(duty("unit = \"%\""), 0.7);
+  EXPECT_DOUBLE_EQ(duty("unit = \"1\"\nfactor = 0.01"), 0.7);
+  EXPECT_DOUBLE_EQ(duty("unit = \"%\"\nfactor = 0.5\noffset = \"5 %\""), 0.4);
+  std::string const share =
+      "\n[[table]]\nfile = \"duty.csv\"\ntime_column = \"t\"\n[[table.input]]\n"
+      "column = \"h1\"\nchannel = \"spindle.speed\"\nunit = \"%\"\n";
+  EXPECT_THAT(refusal([&] { (void)read(whole + share); }),
+              HasSubstr("the channel is spindle.speed; or give a factor: unit = \"rpm\", factor = 50 reads % of 5000"));
+  EXPECT_DOUBLE_EQ(value_at(*read(whole + with(share, "\"%\"", "\"rpm\"\nfactor = 50")).course, "spindle.speed", 0.0),
+                   thermal::from_unit(3500.0, "rpm"));
+}
+
+TEST_F(MeasurementFileTest, TellsOfAColumnForTwoSensors) {
+  write_tables();
+  auto text = with(with(whole, "column = \"b\"", "column = \"a\""), "unit = \"K\"", "unit = \"degC\"");
+  EXPECT_THAT(read(with(text, "factor = -1", "factor = 1")).remarks,
+              Contains("readings.csv: column 'a' is given to two channels, T1 and T2"));
+  EXPECT_THAT(read(whole).remarks, testing::Not(Contains(HasSubstr("is given to two"))));
+}
+
+TEST_F(MeasurementFileTest, TellsThatItsClockWasPutForward) {
+  std::string table = "t;h1;h2;a\n";
+  for (int i = 0; i < 40; ++i)
+    table += fmt::format("30.03.2025 {:02}:{:02};70;0;{},5\n", i < 20 ? 1 : 3, (40 + i) % 60, 20 + i);
+  put(folder / "all.csv", table);
+  EXPECT_THAT(read("[[constant]]\nchannel = \"ambient.temperature\"\nvalue = \"20 degC\"\n[[table]]\nfile = "
+                   "\"all.csv\"\ntime_column = \"t\"\n"
+                   "input = [{column = \"h1\", channel = \"heater1.duty\", unit = \"%\"}, "
+                   "{column = \"h2\", channel = \"heater2.duty\", unit = \"%\"}]\n"
+                   "reading = [{column = \"a\", sensor = \"T1\", unit = \"degC\"}]\n")
+                  .remarks,
+              Contains(HasSubstr("all.csv:22: '30.03.2025 03:00' after '30.03.2025 01:59': the clock was probably")));
+}
+
 /// Nobody quotes a number that has no unit; one that lacks it is told.
 TEST_F(MeasurementFileTest, AConstantWithoutUnitNeedsNoQuotes) {
   write_tables();

@@ -1,5 +1,6 @@
 #include "twin/file/value.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/scenarios/refusal.h"
@@ -21,6 +22,12 @@ TEST(Value, OffersThePathOfATableWithoutName) {
             "'experiment.spindle.blocks.0.speed'?");
   EXPECT_EQ(said("spindle.block[0].speed"),
             "parameter 'experiment.spindle.block[0].speed': there is no 'block[0]'; known: 'blocks'");
+}
+
+TEST(Value, ATextNeedsStraightQuotes) {
+  for (std::string const text : {"T3", "front", "\u201cT3\u201d"})
+    EXPECT_THAT(refusal([&] { static_cast<void>(parse_toml("name = " + text + "\n", "mine.toml")); }),
+                testing::MatchesRegex("mine.toml:1:[0-9]+: .*; a text needs straight quotes, for example \"bed\""));
 }
 
 }  // namespace

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <limits>
 
 #include "tests/thermal/function_course.h"
-#include "thermal/error.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -25,15 +23,6 @@ TEST(Sampling, CountsFromTheFirstSampleNotFromZero) {
   Eigen::VectorXd times(3);
   times << 17.0, 77.0, 107.0;
   EXPECT_THAT(due(times, 60.0), ElementsAre(true, true, false));
-}
-
-TEST(Sampling, AveragesWhatFitsIntoTheWindow) {
-  double const ever = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(conversions(0.0, 0.1, ever), 1);
-  EXPECT_EQ(conversions(0.3, 0.1, ever), 3);
-  EXPECT_EQ(conversions(60.0, 0.75, ever), 80);
-  EXPECT_EQ(conversions(60.0, 1.0, 10.0), 10);
-  EXPECT_THROW(conversions(1.0, 0.0, ever), thermal::InputError);
 }
 
 TEST(Sampling, LooksOftenAfterAJumpAndOnceAMinuteInTheEnd) {

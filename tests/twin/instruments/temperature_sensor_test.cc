@@ -182,6 +182,20 @@ TEST(TemperatureSensor, AveragingWindowShowsItsMiddle) {
   EXPECT_NEAR(readings.values[4], 20.0 + 0.01 * (240.0 - 15.0), 1e-12);
 }
 
+/// A jump has gone in by a tenth after one of ten minutes, though rows are one minute apart.
+TEST(TemperatureSensor, AveragesOverAWindowLongerThanTheTimeBetweenItsRows) {
+  TemperatureSensor sensor = ideal();
+  sensor.conversion_interval = 1.0;
+  sensor.averaging_window = 600.0;
+  TemperatureCourse const jump{VectorXd{{0.0, 3600.0, 3600.001, 7200.0}}, VectorXd{{293.15, 293.15, 303.15, 303.15}},
+                               VectorXd{{293.15, 293.15, 303.15, 303.15}}};
+  VectorXd const values = read(sensor, {"T1"}, jump, every(60.0, 7200.0)).values;
+  EXPECT_NEAR(values[0], 20.0, 1e-12);
+  EXPECT_NEAR(values[60], 20.0, 1e-12);
+  for (int minute = 1; minute <= 10; ++minute) EXPECT_NEAR(values[60 + minute], 20.0 + minute, 1e-9) << minute;
+  EXPECT_NEAR(values[75], 30.0, 1e-9);
+}
+
 TEST(TemperatureSensor, CorrelatedNoiseDecaysExponentially) {
   TemperatureSensor sensor = ideal();
   sensor.correlated_noise = 0.05;

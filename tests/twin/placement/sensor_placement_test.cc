@@ -92,6 +92,22 @@ TEST(CandidateSites, AreThoseOfAFileWithTheirCosts) {
   EXPECT_LE(place_sensors(v450(), options).recommended.cost, 3.5);
 }
 
+/// A site of which the file says no cost has that of its body, the dearest of several.
+TEST(CandidateSites, CostWhatTheirBodiesCost) {
+  auto const rules = rules_from(
+      "[[site]]\nname = \"nose\"\nat = \"cartridge[10 mm]\"\n[[site]]\nat = [\"bed\", \"motor\"]\n[[site]]\nname = "
+      "\"ring\"\nat = \"motor\"\ncost = 1.5\n[[body]]\nname = \"motor\"\ncost = 3\n[[body]]\nname = \"bed\"\ncost = "
+      "0.5\n");
+  auto const sites = candidate_sites(v450(), rules);
+  EXPECT_EQ(sites[0].cost, 1.0);
+  EXPECT_EQ(sites[1].cost, 3.0);
+  EXPECT_EQ(sites[2].cost, 1.5);
+  EXPECT_EQ(cost_at({"motor"}, rules), 1.5) << "a site there says so";
+  EXPECT_EQ(cost_at({"motor.surface[0 mm]"}, rules), 3.0);
+  EXPECT_EQ(cost_at({"bed"}, rules), 0.5);
+  EXPECT_EQ(cost_at({"ambient"}, rules), 1.0);
+}
+
 TEST(CandidateSites, RefuseWhatIsNotThere) {
   CandidateRules rules;
   rules.forbidden = {"colum_front"};
@@ -157,7 +173,7 @@ TEST(Ensemble, IsDrawnFromTheRangesOfTheFile) {
   EXPECT_EQ(known.ranged, 1U);
   EXPECT_GT(known.numbers, 30U);
   EXPECT_LT(known.floor_um, unknown.floor_um);
-  EXPECT_THAT(placement_text(known), HasSubstr("1 numbers drawn within the file's own ranges, "));
+  EXPECT_THAT(placement_text(known), HasSubstr("1 number drawn within the file's own ranges, "));
   EXPECT_EQ(nlohmann::json::parse(placement_json(known))["numbers_drawn"]["within_stated_ranges"], 1);
 }
 
@@ -434,6 +450,19 @@ TEST(PlaceSensors, SaysWhatABudgetLeavesOf) {
                                    "the proposed set sits on what is forbidden: bed",
                                    "the proposed set costs 3, more than the budget of 2"));
   EXPECT_THAT(placement_text(report), HasSubstr(report.remarks.front()));
+}
+
+/// T6 sits on head_front, T8 on the motor.
+TEST(PlaceSensors, PricesASensorByItsBody) {
+  auto options = quick(1);
+  options.rules.budget = 3.0;
+  options.rules.bodies = {{"head_front", 4.0}, {"motor", 2.0}};
+  options.rules.forbidden = {"motor"};
+  options.proposed = {"T6", "T8"};
+  auto const report = place_sensors(v450(), options);
+  EXPECT_EQ(report.proposed->set.cost, 6.0);
+  EXPECT_THAT(report.remarks, testing::ElementsAre("the proposed set sits on what is forbidden: motor",
+                                                   "the proposed set costs 6, more than the budget of 3"));
 }
 
 TEST(PlaceSensors, SaysWhichSitesTurn) {

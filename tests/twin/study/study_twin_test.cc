@@ -69,8 +69,8 @@ TEST(Study, ObserverIsRefusedWhereItCannotTellTheError) {
   std::string const screw = R"(
 [[world]]
 name = "screw"
-machine = "vmc850"
-error = "E_P_720mm"
+machine = "loose.toml"
+error = "E_P_fixed_720mm"
 sampling = "3 min"
 train = ["feed_8000"]
 test = ["feed_12000"]
@@ -93,13 +93,17 @@ combination = "all + twin observer"
 at_most = 1e6
 )";
   SmallStudy const small("folds = 2\nalso = [\"all + twin observer\"]\n" + head + world + screw + claims);
+  std::string loose = tests::contents(machine_file("vmc850"));
+  constexpr std::string_view holds = "unilateral = false";
+  loose.replace(loose.find(holds), holds.size(), "unilateral = true");
+  tests::put(small.file().parent_path() / "loose.toml", loose);
   auto study = read_study(small.file());
   study.description.seeds = 1;
   auto const report = run_study(study);
   auto const& on_screw = report.rows.back();
   EXPECT_EQ(on_screw.world + ": " + on_screw.name(), "screw: all + twin observer");
-  EXPECT_THAT(on_screw.refused, testing::HasSubstr("the observer: 'E_P_720mm' of the machine is an error along a "
-                                                   "screw; the twin observes displacements of a structural loop"));
+  EXPECT_THAT(on_screw.refused, testing::HasSubstr("the observer: 'E_P_fixed_720mm' is the error along a screw that "
+                                                   "loses its pretension"));
   EXPECT_TRUE(on_screw.figures.empty());
   EXPECT_EQ(report.means.back().refused, "screw: " + on_screw.refused);
   EXPECT_TRUE(report.means.back().figures.empty());

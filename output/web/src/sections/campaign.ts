@@ -100,7 +100,7 @@ class Shown {
   /** A point per run: the channel's last value over what was varied. */
   private against(parameter: number): HTMLElement {
     const {name: path, unit, values: ref, title} = this.section.parameters[parameter]!, varied = this.numbers.single(ref);
-    const order = Array.from(varied.keys()).filter((i) => Number.isFinite(this.last[i]!)).sort((a, b) => varied[a]! - varied[b]!);
+    const order = Array.from(varied.keys()).filter((i) => Number.isFinite(this.last[i]!) && Number.isFinite(varied[i]!)).sort((a, b) => varied[a]! - varied[b]!);
     const x = order.map((i) => varied[i]!), y = order.map((i) => this.last[i]!), {name} = this.channel;
     const low = x[0] ?? 0, high = x[x.length - 1] ?? 1, room = 0.03 * (high - low) || 1;
     const words = title.includes(';') ? title.slice(title.indexOf(';') + 1).trim() : '';
