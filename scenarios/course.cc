@@ -288,7 +288,7 @@ void ExperimentCourse::replace_or_add(DrivenChannel const& driven) {
   if (place < 0) return add(driven.channel, driven.signal);
   auto const& known = channels_[std::size_t(place)];
   if (thermal::dimension_of(known.unit) != thermal::dimension_of(driven.channel.unit)) {
-    bool const share = driven.channel.unit == "1" && driven.channel.description.starts_with("recorded");
+    bool const share = driven.channel.unit == "1" && known.unit == "rad/s";
     throw InputError("channel '" + known.name + "': " + driven.channel.description + " is in " + driven.channel.unit +
                      ", the channel in " + known.unit + (share ? std::string(or_a_factor) : ""));
   }

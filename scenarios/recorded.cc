@@ -108,7 +108,7 @@ std::vector<LoggedTable> read_tables(std::vector<Recording> const& recordings, s
     LoggedTable const& table =
         tables.emplace_back(reader.read(recording, resolved_path(recording.file, directory), names));
     std::vector<std::string> units;
-    for (RecordedColumn const& column : recording.columns) units.push_back(unit_of_numbers(column));
+    for (RecordedColumn const& column : recording.columns) units.push_back(unit_of_numbers(column.factor, column.unit));
     check_units(table, recording, names, units);
     check_gaps(recording, table);
     check_cover(recording, table, duration);

@@ -70,7 +70,7 @@ std::vector<LoggedTable> read_tables(std::vector<Recording> const& recordings, s
 std::vector<DrivenChannel> driven_channels(std::vector<Recording> const& recordings,
                                            std::vector<LoggedTable> const& tables);
 
-/// Both.
+/// `read_tables`, then `driven_channels`.
 std::vector<DrivenChannel> read_recordings(std::vector<Recording> const& recordings,
                                            std::filesystem::path const& directory, double duration);
 

@@ -155,7 +155,7 @@ double offset_of(RecordedColumn const& column) {
   return column.offset.empty() ? 0.0 : thermal::parse_value(column.offset, thermal::dimension_of(column.unit));
 }
 
-std::string unit_of_numbers(RecordedColumn const& column) { return std::abs(column.factor) == 1.0 ? column.unit : ""; }
+std::string unit_of_numbers(double factor, std::string const& unit) { return std::abs(factor) == 1.0 ? unit : ""; }
 
 SampledInput sampled_input(RecordedColumn const& column, std::vector<double> times, std::vector<double> numbers) {
   SampledInput input;
@@ -194,6 +194,7 @@ std::vector<double> recorded_times(SampledInput const& input) {
 }
 
 std::optional<HeldChanges> held_changes(SampledInput const& input) {
+  if (recorded_times(input).empty()) return std::nullopt;
   Course const samples = finite_part(input);
   if (!is_held(input, samples.values)) return std::nullopt;
   if (is_stated(input)) return HeldChanges{changed_rows(samples.values).size()};

@@ -23,8 +23,9 @@ struct SampledInput {
 /// InputError.
 [[nodiscard]] double offset_of(RecordedColumn const& column);
 
-/// In which a row of units may state a column's numbers; empty: a factor converts them.
-[[nodiscard]] std::string unit_of_numbers(RecordedColumn const& column);
+/// In which a row of units may state the numbers of a column whose unit is that of factor · number; empty: the factor
+/// converts them.
+[[nodiscard]] std::string unit_of_numbers(double factor, std::string const& unit);
 
 /// The column of a table, as it is read there.
 [[nodiscard]] SampledInput sampled_input(RecordedColumn const& column, std::vector<double> times,
@@ -65,7 +66,7 @@ struct HeldChanges {
   bool averaged = false;  ///< what neighbours differ by was taken for noise
 };
 
-/// As driven_channel reads it; nothing where it goes along straight lines.
+/// As driven_channel reads it; nothing where it goes along straight lines, or has no sample.
 [[nodiscard]] std::optional<HeldChanges> held_changes(SampledInput const& input);
 
 }  // namespace thermotwin::scenarios

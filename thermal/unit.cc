@@ -183,7 +183,7 @@ class UnitReader {
       return times(taken(*named), {dim::dimensionless, prefix.numerator, prefix.denominator}, 1);
     }
     std::string_view const before_kelvin = name.substr(0, name.size() - 1);
-    if (name.ends_with('K') && is_unit(before_kelvin))
+    if (name.size() < whole_.size() && name.ends_with('K') && is_unit(before_kelvin))
       fail("unknown unit '" + std::string(name) + "'; per both is '/(" + std::string(before_kelvin) + " K)'");
     fail("unknown unit '" + std::string(name) + "'; " + offer(name));
   }

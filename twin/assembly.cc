@@ -150,7 +150,7 @@ bool have_in_common(Place const& a, Place const& b) {
   return true;
 }
 
-std::string body_of(std::string const& place) { return place.substr(0, place.find_first_of("[.")); }
+std::string body_of(std::string const& place) { return trim(place.substr(0, place.find_first_of("[."))); }
 
 Site site_of(Body const& body, std::string const& text) {
   PlaceText const parsed = parse_place(text);

@@ -12,6 +12,7 @@
 #include "thermal/lump.h"
 #include "thermal/nearest_name.h"
 #include "twin/channel_flow.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 
@@ -19,21 +20,17 @@ using thermal::InputError;
 
 namespace {
 
-Location name_place(Value const& table) {
-  Value const* name = table.find("name");
-  return name ? name->where : table.where;
-}
-
 /// A place's text begins with it, and means nothing else.
 void check_body_name(Value const& table, std::string const& name) {
   auto const blank_at = [&](std::size_t i) { return std::isspace(static_cast<unsigned char>(name[i])) != 0; };
   bool const begins_places =
       !name.empty() && name.find_first_of(".[") == std::string::npos && !blank_at(0) && !blank_at(name.size() - 1);
   if (begins_places && name != "ambient") return;
-  throw FileError(name_place(table),
-                  fmt::format("'{}' cannot be the name of a body: no '.' nor '[', no blank at its ends, nor the whole "
-                              "'ambient', the air of the room, or empty",
-                              name));
+  throw FileError(
+      where_of(table, "name"),
+      fmt::format("'{}' cannot be the name of a body: it has no '.' and no '[', no blank at its ends, is not "
+                  "empty, and is not 'ambient', which is the air of the room",
+                  name));
 }
 
 }  // namespace
@@ -111,7 +108,7 @@ void Bodies::claim_cells(Value const& table, std::string const& name, double cel
 void Bodies::add(Value const& table, std::string const& name, thermal::Body body) {
   check_body_name(table, name);
   if (bodies_.contains(name))
-    throw FileError(name_place(table), fmt::format("the name '{}' is taken by another body", name));
+    throw FileError(where_of(table, "name"), fmt::format("the name '{}' is taken by another body", name));
   bodies_[name] = std::move(body);
   order_.push_back(name);
 }

@@ -44,7 +44,7 @@ struct Trial {
   };
   std::string amplitude = {};  ///< key of the number that grows from nothing; the flows are linear in it
   double largest = 0.0;        ///< plausible upper end of the amplitude [SI]
-  double hidden_up_to = 0.0;   ///< instead of that in hidden worlds, where HIDE-1000 was drawn so; 0: that [SI]
+  double hidden_up_to = 0.0;   ///< upper end in hidden worlds, where HIDE-1000 has a smaller one; 0: `largest` [SI]
   bool either_sign = false;    ///< it may be negative
   bool needs_spindle = false;  ///< it has no place in a machine without one, nor in a feed drive
   /// Sought only where this input channel changes, and never hidden: HIDE-1000 was drawn without it. Empty: always.

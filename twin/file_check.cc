@@ -195,8 +195,8 @@ struct CheckedMachine {
   /// By its own name, or by a file of the name of either.
   [[nodiscard]] bool is_called(std::string const& name) const {
     std::filesystem::path const named = name;
-    return is_same_machine(machine.name, name) || is_same_machine(machine.name, named.stem().string()) ||
-           file.filename() == named.filename();
+    return is_same_machine(machine.name, name) || file.filename() == named.filename() ||
+           (named.extension() == ".toml" && is_same_machine(machine.name, named.stem().string()));
   }
 };
 

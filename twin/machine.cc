@@ -108,9 +108,8 @@ void check_machine_name(Value const& document, std::string const& name) {
 /// Data sets and their CSV files hold each channel by its name.
 void check_channel_name(Value const& table, std::string const& name) {
   if (!name.empty() && name != "." && name != "time" && name.find('/') == std::string::npos) return;
-  Value const* place = table.find("name");
   throw FileError(
-      place ? place->where : table.where,
+      where_of(table, "name"),
       fmt::format("'{}' cannot be the name of a channel: no '/', nor the whole '.', 'time' or empty", name));
 }
 
@@ -237,12 +236,13 @@ void MachineBuilder::refuse_common_places(Value const& table, std::string const&
   Value const* list = table.find(key);
   if (!list || !list->is_list()) return;
   auto const& items = std::get<Value::List>(list->content);
+  if (items.size() < 2) return;
   std::vector<Place> places;
-  for (std::size_t i = 0; items.size() > 1 && i < items.size(); ++i) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
     auto const& place = places.emplace_back(assembly_.place(std::get<std::string>(items[i].content)));
     for (std::size_t before = 0; before < i; ++before)
       if (have_in_common(places[before], place))
-        throw FileError(items[i].where, fmt::format("'{}' and '{}' have in common what would count twice",
+        throw FileError(items[i].where, fmt::format("'{}' and '{}' overlap: what they share would count twice",
                                                     places[before].text, place.text));
   }
 }
@@ -258,8 +258,9 @@ void MachineBuilder::check_fluid(Value const& film) const {
   std::vector<std::string> fluids = {"ambient"};
   for (auto const& name : bodies_.order())
     if (!bodies_.material_of(name)) fluids.push_back(name);
-  throw FileError(to->where, fmt::format("'{}' is a solid of {}; the body of a fluid is due; {}", place, solid->name,
-                                         thermal::did_you_mean(place, fluids)));
+  throw FileError(to->where,
+                  fmt::format("'{}' is a solid of {}; a fluid is due, which has a heat_capacity and no material; {}",
+                              place, solid->name, thermal::did_you_mean(place, fluids)));
 }
 
 /// Parts are added in the order of the file, whatever their kind: a motor finds the torques that stand before it.

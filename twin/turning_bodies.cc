@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "twin/assembly.h"
 #include "twin/file/document.h"

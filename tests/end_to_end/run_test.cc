@@ -126,6 +126,21 @@ TEST(Run, ExportSaysThatTheLaserStaysOut) {
             "note: a table has no place for the laser's passes along z of '" + file + "'\n");
 }
 
+/// All that is printed is one answer.
+TEST(Run, FitAndPredictSpeakToPrograms) {
+  TemporaryDirectory const directory;
+  auto const run = (directory / "run.h5").string(), model = (directory / "model.toml").string();
+  answer(program + " run golden_b_6000 -q -o " + run);
+  auto const fitted =
+      nlohmann::json::parse(answer(program + " fit " + run + " --error E_Z --sensors T1,T7 --json -o " + model));
+  EXPECT_EQ(fitted.at("inputs"), nlohmann::json({"T1", "T7"}));
+  auto const said = nlohmann::json::parse(answer(program + " predict " + model + " " + run + " --json"));
+  EXPECT_EQ(said.at("model").at("fitted_to"), fitted.at("fitted_to"));
+  ASSERT_EQ(said.at("runs").size(), 1);
+  EXPECT_EQ(said.at("runs")[0].at("fitted_to_these_data"), true);
+  EXPECT_NEAR(said.at("runs")[0].at("less_prediction").at("rmse"), fitted.at("rmse"), 1e-6);
+}
+
 TEST(Run, JsonSummaryForPrograms) {
   auto const text = answer(program + " run golden_b_2000 --json --quiet");
   EXPECT_EQ(text.front(), '{');

@@ -158,6 +158,7 @@ TEST(SampledInput, IsToldToChangeAsItIsRead) {
   record.input.name = "ambient.temperature";
   record.input.unit = "K";
   EXPECT_FALSE(held_changes(record.input));
+  EXPECT_FALSE(held_changes(programme({0, 600}, {std::nan(""), std::nan("")})));
 }
 
 }  // namespace

@@ -109,6 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
     Units, RefusesQuantity,
     testing::Values(
         Refusal{"8000 mm/mim", "'8000 mm/mim': unknown unit 'mim'; did you mean 'min'?"},
+        Refusal{"22 degK", "'22 degK': unknown unit 'degK'; did you mean 'degC'?"},
         Refusal{"470 J/kgK", "'470 J/kgK': unknown unit 'kgK'; per both is '/(kg K)'"},
         Refusal{"1 degc", "'1 degc': unknown unit 'degc'; did you mean 'degC'?"},
         Refusal{"8 W/m2 K", "'8 W/m2 K': put what is below the line in parentheses, as in \"8 W/(m2 K)\""},

@@ -176,7 +176,7 @@ set = ["lump.head_front.material=GJL-250"]
     }
     return text;
   };
-  std::string const missing = "; missing where a case leaves it as it is";
+  std::string const missing = " (missing where a case leaves it as it is)";
   EXPECT_EQ(written("bearing.front.grease_factor"), "0.5 1 nan [1] bearing.front.grease_factor" + missing);
   EXPECT_EQ(written("experiment.ambient.drift"), "0.1 nan nan [K/h] experiment.ambient.drift" + missing);
   EXPECT_EQ(written("lump.head_front.material"), "nan 0 1 [1] lump.head_front.material; 0: C45, 1: GJL-250" + missing);

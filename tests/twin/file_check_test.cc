@@ -245,8 +245,8 @@ TEST(FileCheck, RefusesNamesThatNoPlaceCanBeginWith) {
   for (std::string const name : {"ambient", "head.stock", "head[1]", "head ", " head", ""})
     EXPECT_THAT(mistake("lump", lump, name),
                 HasSubstr(":8: '" + name +
-                          "' cannot be the name of a body: no '.' nor '[', no blank at its ends, nor the whole "
-                          "'ambient', the air of the room, or empty"));
+                          "' cannot be the name of a body: it has no '.' and no '[', no blank at its ends, is not "
+                          "empty, and is not 'ambient', which is the air of the room"));
   EXPECT_THAT(mistake("channel", pipe, "ambient"), HasSubstr(":8: 'ambient' cannot be the name of a body"));
   EXPECT_THAT(mistake("lump", lump, "ambient air"), HasSubstr("the body 'ambient air' has no path"));
 }
@@ -262,23 +262,25 @@ TEST(FileCheck, RefusesPlacesThatHaveSomethingInCommon) {
     return mistake(machine,
                    "[[film]]\nname = \"both\"\narea = \"0.1 m2\"\non = [\"" + one + "\", \"" + other + "\"]\n");
   };
-  EXPECT_THAT(film("shaft[40 mm .. 90 mm]", "shaft[80 mm .. 99 mm]"),
-              AllOf(MatchesRegex(".*mine.toml:[0-9]+:32: .*"),
-                    HasSubstr("'shaft[40 mm .. 90 mm]' and 'shaft[80 mm .. 99 mm]' have in common what would count")));
+  EXPECT_THAT(
+      film("shaft[40 mm .. 90 mm]", "shaft[80 mm .. 99 mm]"),
+      AllOf(MatchesRegex(".*mine.toml:[0-9]+:32: .*"),
+            HasSubstr("'shaft[40 mm .. 90 mm]' and 'shaft[80 mm .. 99 mm]' overlap: what they share would count")));
   for (std::string const other : {"shaft", "shaft.surface", "shaft[1 mm .. 2 mm]"})
-    EXPECT_THAT(film("shaft", other), HasSubstr("'shaft' and '" + other + "' have in common")) << other;
-  EXPECT_THAT(film("bed", "bed.surface"), HasSubstr("have in common"));
+    EXPECT_THAT(film("shaft", other), HasSubstr("'shaft' and '" + other + "' overlap")) << other;
+  EXPECT_THAT(film("bed", "bed.surface"), HasSubstr("overlap"));
   for (std::string const other : {"shaft.end", "shaft[90 mm .. 99 mm]", "test_bar[40 mm .. 90 mm]"})
     EXPECT_EQ(film("shaft[40 mm .. 90 mm]", other), "") << other;
   std::string const low = "table.x_min[0 mm .. 50 mm, 0 mm .. 50 mm]";
-  EXPECT_THAT(film(low, "table.x_min[40 mm .. 60 mm, 40 mm .. 60 mm]", "vmc850_fine"), HasSubstr("have in common"));
+  EXPECT_THAT(film(low, "table.x_min[40 mm .. 60 mm, 40 mm .. 60 mm]", "vmc850_fine"), HasSubstr("overlap"));
   EXPECT_EQ(film(low, "table.x_min[40 mm .. 60 mm, 50 mm .. 60 mm]", "vmc850_fine"), "");
 
   auto const sensor = [&](std::string const& keys) {
     return mistake("v450", "[[temperature_sensor]]\nname = \"both\"\n" + keys);
   };
-  EXPECT_THAT(sensor("at = [\"bed\", \"motor\", \"bed\"]\n"), MatchesRegex(".*:[0-9]+:23: 'bed' and 'bed' have in .*"));
-  EXPECT_THAT(sensor("at = [\"cartridge[10 mm]\", \"cartridge[1 cm]\"]\n"), HasSubstr("have in common"));
+  EXPECT_THAT(sensor("at = [\"bed\", \"motor\", \"bed\"]\n"),
+              MatchesRegex(".*:[0-9]+:23: 'bed' and 'bed' overlap: .*"));
+  EXPECT_THAT(sensor("at = [\"cartridge[10 mm]\", \"cartridge[1 cm]\"]\n"), HasSubstr("overlap"));
   EXPECT_EQ(sensor("at = [\"cartridge[10 mm]\", \"cartridge[11 mm]\"]\n"), "");
   EXPECT_EQ(sensor("at = [\"bed\", \"motor\", \"bed\"]\nshares = [0.2, 0.5, 0.3]\n"), "");
 }
@@ -292,7 +294,8 @@ TEST(FileCheck, AFilmLeadsToAFluid) {
   };
   EXPECT_THAT(mistake("mill200", "head", "base"),
               AllOf(MatchesRegex(".*mine.toml:[0-9]+:6: .*"),
-                    HasSubstr("'base' is a solid of GJL-300; the body of a fluid is due; known: 'ambient'")));
+                    HasSubstr("'base' is a solid of GJL-300; a fluid is due, which has a heat_capacity and no "
+                              "material; known: 'ambient'")));
   EXPECT_EQ(mistake("g200", "bed_base", "tank"), "");
   EXPECT_EQ(mistake("mill200", "head", "ambient"), "");
 }

@@ -1,6 +1,7 @@
 #include "twin/campaign/campaign.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 
 #include "thermal/units.h"

@@ -20,7 +20,7 @@ namespace {
 using Kind = output::CampaignVariable::Kind;
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
-constexpr auto left_alone = "; missing where a case leaves it as it is";
+constexpr auto left_alone = " (missing where a case leaves it as it is)";
 constexpr std::size_t figures = 4;                  // first, last, lowest, highest
 constexpr std::size_t rows_of_run = 2, failed = 3;  // variables of a part
 

@@ -13,6 +13,7 @@
 #include "thermal/units.h"
 #include "twin/campaign/campaign.h"
 #include "twin/experiment_file.h"
+#include "twin/file/document.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/text_file.h"
 #include "twin/file_kind.h"
@@ -37,8 +38,7 @@ fs::path file_of(std::string const& name, fs::path const& campaign, Shipped ship
 
 Location place_of_key(Value const& table, std::string const& key, std::size_t item = 0) {
   Value const* value = table.find(key);
-  if (!value) return table.where;
-  if (!value->is_list() || item >= std::get<Value::List>(value->content).size()) return value->where;
+  if (!value || !value->is_list() || item >= std::get<Value::List>(value->content).size()) return where_of(table, key);
   return std::get<Value::List>(value->content)[item].where;
 }
 

@@ -51,7 +51,8 @@ struct HiddenWorld {
 /// Draws coefficients (20 % lognormal for conductances, film coefficients and areas, powers, friction), heat capacities
 /// and weights of the structural loop (10 %), and the specimen of every sensor (offset 0.15 K, lag 10 to 60 s, model
 /// error AR(1) of 10 min and 0.1 K); then the effects, at sites of the nominal machine, between 0.15 and 0.8 of the
-/// largest plausible amplitude, such that the nominal machine shows them on the held-out run: 1 µm or 0.4 K.
+/// largest plausible amplitude (or of Trial::hidden_up_to), such that the nominal machine shows them on the held-out
+/// run: 1 µm or 0.4 K.
 [[nodiscard]] HiddenWorld draw_hidden_world(Value const& nominal, std::uint64_t seed, CaseKind kind);
 
 /// The draw without anything hidden: spread 1 is that of a challenge, 0 leaves all coefficients. Numbers of which the

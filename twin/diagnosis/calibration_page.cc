@@ -25,14 +25,14 @@ std::string verdict_of(CalibratedNumber const& number) {
 
 /// Of the number itself, in SI, where it may have either sign.
 Json json_of(CalibratedNumber const& number) {
-  std::string const of_what = number.number.of_either_sign ? "" : "_of_logarithm";
+  bool const either = number.number.of_either_sign;
   return {{"path", number.number.path},
           {"unit", thermal::unit_of(number.number.dimension)},
           {"nominal", number.number.nominal},
           {"estimate", number.estimate()},
           {"standard_error", number.standard_error()},
-          {"prior_deviation" + of_what, number.number.deviation},
-          {"deviation" + of_what, number.deviation},
+          {either ? "prior_deviation" : "prior_deviation_of_logarithm", number.number.deviation},
+          {either ? "deviation" : "deviation_of_logarithm", number.deviation},
           {"departure", number.departure()},
           {"written", number.number.value(number.written)},
           {"verdict", number.identified ? "identified" : "not identified"},

@@ -101,7 +101,7 @@ Diagnosis Diagnostician::operator()() {
   if (!d.effects.empty()) d.left = scan_for_free_heat(amended, d.amended);
   d.faulty_sensor = faulty_sensor(machine_, runs_);
   if (!d.faulty_sensor && d.effects.empty() && !is_heat_left()) {
-    d.faulty_sensor = jumping_sensor(search_.plain(), d.calibrated, options_.threshold);
+    d.faulty_sensor = jumping_sensor(machine_, search_.plain(), d.calibrated, options_.threshold);
     if (!d.faulty_sensor) d.faulty_sensor = drifting_sensor(search_.plain(), d.calibrated, d.hypotheses);
   }
   d.verdict = verdict_on(d, is_heat_left());

@@ -50,7 +50,7 @@ struct Explanation {
 
   /// One more place of an effect. Its weight against the first, exp of half of what their strengths differ by and no
   /// more than 1, goes to the name: the most evident place, to be added first, speaks for it. `too_large`: how many
-  /// times their 2 ln are, R² of the fit.
+  /// times too large their 2 ln are taken to be.
   void add(Finding const& finding, double too_large);
   /// Weights add up to 1, and no more names are kept than hold what is missing with a probability of 95 %; three at
   /// most.

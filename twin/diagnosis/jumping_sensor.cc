@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "models/quantile.h"
@@ -63,10 +62,11 @@ std::set<std::string> on_bodies(Machine const& machine) {
 
 }  // namespace
 
-std::optional<FaultySensor> jumping_sensor(Estimation const& estimation, Fit const& calibrated, double threshold) {
+std::optional<FaultySensor> jumping_sensor(Machine const& machine, Estimation const& estimation, Fit const& calibrated,
+                                           double threshold) {
   auto const residuals = estimation.residuals_at(calibrated.x);
   auto const& known = estimation.channels();
-  auto const asked = on_bodies(Machine::build(estimation.document()));
+  auto const asked = on_bodies(machine);
   std::vector<Jump> jumps;
   double moments = 0.0;
   for (std::size_t r = 0; r < residuals.size(); ++r) {

@@ -12,9 +12,10 @@ namespace thermotwin::twin {
 /// it.
 ///
 /// Of every moment between two rows, T = b²/a of the whitened step; with the noise that is heard, which has heard the
-/// step as well. The largest of a sensor must reach `threshold` and 2 ln of the number of moments of all sensors, and
-/// so must none of another: what a machine does shows in several. One that hangs in the air may jump.
-[[nodiscard]] std::optional<FaultySensor> jumping_sensor(Estimation const& estimation, Fit const& calibrated,
-                                                         double threshold);
+/// step as well. The largest of a sensor must reach `threshold` + 2 ln of the number of moments of all sensors, move it
+/// by 0.3 K, and have four measured rows on either side; where another sensor's does so, too, it is the machine. One
+/// that hangs in the air may jump.
+[[nodiscard]] std::optional<FaultySensor> jumping_sensor(Machine const& machine, Estimation const& estimation,
+                                                         Fit const& calibrated, double threshold);
 
 }  // namespace thermotwin::twin

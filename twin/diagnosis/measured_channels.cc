@@ -73,6 +73,26 @@ void leave_out_failure(MeasuredChannel& channel, output::Channel const& shown, E
     if (is_impossible(value)) value = missing;
 }
 
+/// 85 °C, as a DS18B20 shows that has just been switched on and not converted yet; where nothing else is near it.
+void leave_out_power_on(MeasuredChannel& channel, Eigen::VectorXd const& time, std::vector<std::string>& remarks) {
+  constexpr double power_on = 358.15, near = 5.0;
+  Eigen::Index first = -1, count = 0;
+  for (Eigen::Index r = 0; r < channel.values.size(); ++r) {
+    double const away = std::abs(channel.values[r] - power_on);
+    if (!(away < near)) continue;
+    if (away > 1e-6) return;
+    if (first < 0) first = r;
+    ++count;
+  }
+  if (first < 0) return;
+  remarks.push_back(
+      fmt::format("'{}' reads 85 degC in {} row{} from {:.2f} h on, as a DS18B20 does that was switched "
+                  "on: left out",
+                  channel.name, count, count == 1 ? "" : "s", time[first] / 3600.0));
+  for (double& value : channel.values)
+    if (std::abs(value - power_on) < near) value = missing;
+}
+
 MeasuredChannel in_si(output::Channel const& channel, Expected const& expected, MeasuredData const& data,
                       std::vector<std::string>& remarks) {
   if (thermal::dimension_of(channel.unit) != expected.dimension)
@@ -83,6 +103,7 @@ MeasuredChannel in_si(output::Channel const& channel, Expected const& expected, 
   thermal::from_unit({result.values.data(), std::size_t(result.values.size())}, channel.unit);
   if (expected.displacement) return result;
   leave_out_failure(result, channel, data.time, remarks);
+  leave_out_power_on(result, data.time, remarks);
   if (is_impossible(median_of_finite(result.values)))
     throw InputError(fmt::format("sensor '{}' reads {:.1f} {} most of the time; is its unit right?", channel.name,
                                  median_of_finite(channel.values), channel.unit));

@@ -105,7 +105,8 @@ void check_unit(Value const& table, std::string const& name, thermal::Dimension 
   try {
     thermal::require_unit(text, due);
   } catch (InputError const& error) {
-    bool const share = thermal::dimension_of(text) == thermal::dimension::dimensionless;
+    bool const share =
+        due == thermal::dimension::angular_speed && thermal::dimension_of(text) == thermal::dimension::dimensionless;
     throw InputError(fmt::format("{}; the channel is {}{}", error.what(), name,
                                  share ? scenarios::or_a_factor : std::string_view()));
   }
@@ -184,7 +185,8 @@ void remark_suppositions(MeasuredData const& data, Machine const& machine, std::
   auto const needed = needed_channels(machine);
   std::vector<std::string> said;
   for (auto const& known : suppositions()) {
-    bool const due = std::find(needed.begin(), needed.end(), known.channel) != needed.end();
+    bool const tried = known.channel == "coolant.temperature" && find(data.inputs, "coolant.on");
+    bool const due = tried || std::find(needed.begin(), needed.end(), known.channel) != needed.end();
     if (due && !find(data.inputs, known.channel)) said.push_back(known.said);
   }
   for (auto const& axis : machine.limits.axes) {
@@ -206,6 +208,7 @@ void remark_revolutions(MeasuredData const& data, std::vector<scenarios::DrivenC
       std::find_if(driven.begin(), driven.end(), [](auto const& d) { return d.channel.name == "spindle.speed"; });
   if (!counter || given == driven.end()) return;
   auto const counted = scenarios::driven_channel(*counter).signal, speed = given->signal.magnitude();
+  if (!std::is_sorted(counted.values().begin(), counted.values().end())) return;  // it was set back
   double const from = counted.times().front(), to = counted.times().back();
   double const shown = counted.at(to) - counted.at(from);
   double const made = (speed.integral(to) - speed.integral(from)) / (2.0 * std::numbers::pi);

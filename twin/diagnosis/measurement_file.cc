@@ -45,11 +45,11 @@ LoadedTable load(MeasuredTable const& table, std::filesystem::path const& direct
   std::vector<std::string> columns, units;
   for (auto const& input : table.inputs) {
     columns.push_back(input.column);
-    units.push_back(scenarios::unit_of_numbers(input));
+    units.push_back(scenarios::unit_of_numbers(input.factor, input.unit));
   }
   for (auto const& reading : table.readings) {
     columns.push_back(reading.column);
-    units.push_back(std::abs(reading.factor) == 1.0 ? reading.unit : "");  // another factor converts
+    units.push_back(scenarios::unit_of_numbers(reading.factor, reading.unit));
   }
   auto logged = reader.read(table, scenarios::resolved_path(table.file, directory), columns);
   scenarios::check_units(logged, table, columns, units);

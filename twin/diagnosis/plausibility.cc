@@ -41,6 +41,7 @@ constexpr double least_shift = 5.0 * minute, same_shift = 3.0 * minute;
 constexpr double shift_gain = 0.5;       // of what is not explained
 constexpr double least_warming = 1.0;    // K RMS
 constexpr double far_more = 3.0;         // times what the machine would go through
+constexpr double other_offset = 0.5;     // at the start of a run than of the first one [K]
 constexpr double crawling = 0.1;         // of the machine's largest speed
 constexpr double hottest_room = 323.15;  // K
 constexpr double speed_step = 0.1;       // of the run's largest speed
@@ -284,6 +285,35 @@ bool hold_the_same(MeasuredRun const& a, MeasuredRun const& b) {
                     [](auto const& x, auto const& y) { return x.name == y.name && is_same(x.values, y.values); });
 }
 
+/// Sensors on bodies that stand otherwise against the rest than in the first run, where both begin at rest: their
+/// offsets are taken to be the same in all runs.
+void compare_offsets(Machine const& machine, BinnedRun const& first, BinnedRun const& run, std::vector<Doubt>& doubts) {
+  if (first.run->warm_start || run.run->warm_start) return;
+  auto const begins_at = [](BinnedRun const& of, std::string const& sensor) {
+    auto const& channels = of.run->channels;
+    auto const channel =
+        std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == sensor; });
+    return channel == channels.end() ? std::nan("") : of.values(0, channel - channels.begin());
+  };
+  std::vector<std::pair<std::string, double>> risen;
+  std::vector<double> rises;
+  for (auto const& sensor : machine.sensors) {
+    auto const& name = sensor.description.name;
+    double const rise = begins_at(run, name) - begins_at(first, name);
+    if (sensor.weights.empty() || !std::isfinite(rise)) continue;
+    risen.emplace_back(name, rise);
+    rises.push_back(rise);
+  }
+  if (rises.size() <= several) return;
+  double const room_rise = upper_median(rises);
+  for (auto const& [sensor, rise] : risen)
+    if (std::abs(rise - room_rise) > other_offset)
+      doubts.push_back({run.run->name, sensor,
+                        fmt::format("{} stands {:+.1f} K otherwise against the other sensors than at the start of {}, "
+                                    "and its offset is taken to be one; was it exchanged, or calibrated anew?",
+                                    sensor, rise - room_rise, first.run->name)});
+}
+
 }  // namespace
 
 std::vector<Doubt> doubts(Machine const& machine, std::vector<BinnedRun> const& runs) {
@@ -291,6 +321,7 @@ std::vector<Doubt> doubts(Machine const& machine, std::vector<BinnedRun> const& 
   for (std::size_t r = 0; r < runs.size(); ++r) {
     auto const& name = runs[r].run->name;
     for (auto& doubt : Examination(machine, runs[r])()) all.push_back(std::move(doubt));
+    if (r > 0) compare_offsets(machine, runs[0], runs[r], all);
     for (std::size_t before = 0; before < r; ++before)
       if (hold_the_same(*runs[before].run, *runs[r].run))
         all.push_back({name, "",

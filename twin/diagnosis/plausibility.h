@@ -29,6 +29,7 @@ struct Doubt {
 ///   room        hotter than any, or up and down with the spindle, as a sensor on the machine is
 ///   sign, unit  a displacement follows the mirror image of its prediction, or a thousand times or a thousandth of it
 ///   swap        of two sensors on bodies, each follows the other's prediction four times as well as its own
+///   offset      a sensor on a body stands 0.5 K otherwise against the others at the start of a run than of the first
 ///   twice       two of the runs hold the same readings
 ///
 /// What stays hidden: two neighbours swapped that are equally warm, and a run that is cut off where nothing moves.

@@ -12,7 +12,7 @@ struct DisplacementStep {
   static void fields(Fields& f) {
     f.name("name", &DisplacementStep::name, "unique among these");
     f.name("displacement", &DisplacementStep::displacement, "channel that jumps");
-    f("step", &DisplacementStep::step, dimension::length, "per unit of the input", Range{-20e-6, 20e-6});
+    f("step", &DisplacementStep::step, dimension::length, "per unit of the input", Range{-10e-6, 10e-6});
     f("follows", &DisplacementStep::follows,
       "input channel that counts or switches: spindle.running, servo.on, tool.changes");
   }

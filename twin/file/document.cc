@@ -41,6 +41,11 @@ std::string name_in(Value const& table) {
   return names.empty() ? "" : names[0];
 }
 
+Location where_of(Value const& table, std::string const& key) {
+  Value const* value = table.find(key);
+  return value ? value->where : table.where;
+}
+
 std::optional<double> number_in(Value const& table, std::string const& key, thermal::Dimension dimension) {
   Value const* value = table.find(key);
   if (!value) return {};

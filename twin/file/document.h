@@ -21,6 +21,9 @@ namespace thermotwin::twin {
 /// The name of a table; empty without one.
 [[nodiscard]] std::string name_in(Value const& table);
 
+/// Where a key stands; without it, the table.
+[[nodiscard]] Location where_of(Value const& table, std::string const& key);
+
 /// The number under a key, in SI.
 [[nodiscard]] std::optional<double> number_in(Value const& table, std::string const& key, thermal::Dimension dimension);
 

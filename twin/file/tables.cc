@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "twin/file/document.h"
+
 namespace thermotwin::twin {
 
 std::vector<std::string> quoted(std::string const& message) {
@@ -53,9 +55,7 @@ Value::List const& Tables::of(std::string const& kind) const {
 
 void Tables::claim(Value const& table, std::string const& kind, std::string const& name) {
   if (names_.insert({kind, name}).second) return;
-  Value const* place = table.find("name");
-  throw FileError(place ? place->where : table.where,
-                  fmt::format("the name '{}' is taken by another [[{}]]", name, kind));
+  throw FileError(where_of(table, "name"), fmt::format("the name '{}' is taken by another [[{}]]", name, kind));
 }
 
 }  // namespace thermotwin::twin

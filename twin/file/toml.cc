@@ -69,7 +69,7 @@ Value parse_toml(std::string_view text, std::string const& file_name) {
     std::string what(error.description());
     if (what.find("control characters") != std::string::npos) what += "; is a quote missing at the end of the line?";
     if (what.find("parsing boolean") != std::string::npos || what.find("determine value type") != std::string::npos)
-      what += "; a text needs straight quotes, for example \"bed\"";
+      what += "; a text needs straight quotes, for example \"bed\"; a flag is true or false";
     throw FileError(location(error.source(), file_name), what);
   }
 }

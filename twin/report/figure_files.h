@@ -24,7 +24,7 @@ struct FigurePanel {
   std::vector<std::size_t> runs{};  ///< of each curve, where several data sets are drawn by their dashes
 };
 
-/// All panels that these files have, in the page's order: `input_<unit>`, `input_count`, `sensor_temperatures_degC`,
+/// All panels that these files have, in the page's order: `input_<unit>`, `sensor_temperatures_degC`,
 /// `displacements_um`, `tilt_urad`, `residual_…` of several data sets, `heat`, `positioning_<run>_<axis>`,
 /// `unknown_heat`, `unaccounted_heat`, `ranking_<world>`, `functions_<axis>`, `drift`. InputError names the file.
 [[nodiscard]] std::vector<FigurePanel> figure_panels(std::vector<std::filesystem::path> const& files);

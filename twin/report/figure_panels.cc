@@ -216,29 +216,23 @@ void add_held(TimeFigure& figure, std::string const& name, Samples const& sample
   figure.add(name, time, values);
 }
 
-/// Of its unit; without one, what counts beyond 1 stands apart from flags and shares, which would be a line at 0.
-std::string input_panel(output::Channel const& input) {
-  bool const counts = input.unit == "1" && (input.values.array() > 1.0).any();
-  return counts ? "input_count" : "input_" + file_part(input.unit);
-}
-
+/// All but counters, beside which flags and shares would be a line at 0.
 void add_inputs(std::vector<FigurePanel>& panels, ShownRun const& run) {
-  std::vector<std::pair<std::string, TimeFigure>> figures;
-  for (auto const& input : run.data.inputs) {
-    if (!varies(input.values)) continue;
-    auto const name = input_panel(input);
-    auto figure = std::find_if(figures.begin(), figures.end(), [&](auto const& made) { return made.first == name; });
-    if (figure == figures.end()) {
-      auto const quantity = name == "input_count" ? "Count" : quantity_of(input.unit);
-      figure = figures.insert(figure, {name, {axis_text(quantity, input.unit), start_of(run), end_of(run)}});
-    }
-    auto const samples = samples_of(run, input.values);
-    if (is_held(input))
-      add_held(figure->second, input.name, samples);
-    else
-      figure->second.add(input.name, samples.time_s, samples.values);
+  for (auto const& unit : units_of(
+           {run}, [](auto const& d) -> auto const& { return d.inputs; })) {
+    TimeFigure figure(axis_text(quantity_of(unit), unit), start_of(run), end_of(run));
+    bool any = false;
+    for (auto const& input : run.data.inputs)
+      if (input.unit == unit && varies(input.values) && !input.name.ends_with(".revolutions")) {
+        auto const samples = samples_of(run, input.values);
+        if (is_held(input))
+          add_held(figure, input.name, samples);
+        else
+          figure.add(input.name, samples.time_s, samples.values);
+        any = true;
+      }
+    if (any) panels.push_back({"input_" + file_part(unit), figure.take()});
   }
-  for (auto& [name, figure] : figures) panels.push_back({name, figure.take()});
 }
 
 void add_runs(std::vector<FigurePanel>& panels, std::vector<ShownRun> runs) {

@@ -26,7 +26,7 @@ std::optional<FaultySensor> jumping(Value const& truth, std::set<std::string> co
   tests::add_noise(run, 0.02, 0.05e-6, 11);
   std::vector<BinnedRun> const data = {bin(run, 300.0)};
   auto const estimation = expected_estimation(tests::v450(), data);
-  return jumping_sensor(estimation, estimation.fit(estimation.prior_mean()), 11.0);
+  return jumping_sensor(Machine::build(tests::v450()), estimation, estimation.fit(estimation.prior_mean()), 11.0);
 }
 
 TEST(JumpingSensor, IsNoneOfAHealthyMachine) { EXPECT_FALSE(jumping(tests::v450(), {}, 0.0)); }

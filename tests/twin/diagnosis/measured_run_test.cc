@@ -110,6 +110,40 @@ TEST(MeasuredRun, SuppositionsAreTold) {
   keep_inputs(dataset, {"spindle.speed", "ambient.temperature"});
   auto const run = measured_run(dataset, machine(), "bare");
   EXPECT_THAT(run.remarks, Contains(HasSubstr("as warm above as below")));
+  EXPECT_THAT(run.remarks, testing::Not(Contains(HasSubstr("the coolant is supplied at 20 degC"))));
+}
+
+/// No machine part asks for it; the flood that is tried does.
+TEST(MeasuredRun, TheTemperatureOfCoolantThatIsSwitchedIsSupposed) {
+  auto dataset = simulated();
+  keep_inputs(dataset, {"spindle.speed", "ambient.temperature"});
+  dataset.inputs.push_back({"coolant.on", "1", "", (dataset.time_s.array() > 3600.0).cast<double>().matrix()});
+  EXPECT_THAT(measured_run(dataset, machine(), "wet").remarks,
+              Contains(HasSubstr("the coolant is supplied at 20 degC")));
+}
+
+/// Before its first row a speed is not known, as in a gap.
+TEST(MeasuredRun, InputsThatBeginLaterThanReadingsHaveAGapThere) {
+  auto dataset = simulated();
+  channel(dataset.inputs, "spindle.speed").values.head(60).setConstant(std::nan(""));
+  auto const run = measured_run(dataset, machine(), "late");
+  EXPECT_THAT(run.remarks, Contains(HasSubstr("not recorded from 0.00 h to 1.00 h: spindle.speed, which a fit")));
+  EXPECT_EQ(run.time[1], (60.0 + 15.0) * 60.0);
+  EXPECT_TRUE(std::any_of(run.alternatives.begin(), run.alternatives.end(),
+                          [](auto const& other) { return other.name.starts_with("spindle.speed from 0.00 h"); }));
+}
+
+/// What a digital sensor shows that was just switched on, unless it is that warm.
+TEST(MeasuredRun, APowerOnValueIsLeftOut) {
+  auto dataset = simulated();
+  dataset.readings[4].values[7] = dataset.readings[4].values[90] = 85.0;
+  auto const run = measured_run(dataset, machine(), "cold");
+  EXPECT_THAT(run.remarks, Contains("'" + dataset.readings[4].name +
+                                    "' reads 85 degC in 2 rows from 0.12 h on, as a "
+                                    "DS18B20 does that was switched on: left out"));
+  EXPECT_TRUE(std::isnan(run.channels[4].values[7]));
+  dataset.readings[4].values[91] = 83.0;
+  EXPECT_FALSE(std::isnan(measured_run(dataset, machine(), "hot").channels[4].values[7]));
 }
 
 /// Whose counter of revolutions goes on by 55 % of what the rows show, as where it stands for 27 s of each minute.

@@ -172,6 +172,22 @@ TEST_F(PlausibilityTest, ARunThatIsGivenTwice) {
   EXPECT_EQ(doubt_lines({}), "");
 }
 
+TEST_F(PlausibilityTest, ASensorThatWasExchangedBetweenTwoRuns) {
+  Machine const machine = Machine::read(machine_file("v450"));
+  auto const before = measured_run(data, machine, "monday");
+  for (auto& reading : data.readings) reading.values.array() += 0.1;  // another morning
+  auto const same = measured_run(data, machine, "tuesday");
+  EXPECT_TRUE(doubts(machine, {bin(before, 300.0), bin(same, 300.0)}).empty());
+  sensor("T8").array() -= 0.7;
+  auto const after = measured_run(data, machine, "tuesday");
+  auto const all = doubts(machine, {bin(before, 300.0), bin(after, 300.0)});
+  ASSERT_EQ(all.size(), 1);
+  EXPECT_EQ(all[0].channel, "T8");
+  EXPECT_EQ(all[0].text,
+            "T8 stands -0.7 K otherwise against the other sensors than at the start of monday, and its offset is taken "
+            "to be one; was it exchanged, or calibrated anew?");
+}
+
 /// Where there is no fit, people are told what may be why.
 TEST(Doubts, FollowTheComplaintOfAFit) {
   std::vector<Doubt> const doubts = {{"monday", "", "the run lasts 5 s in all; is `time_unit` right?"}};

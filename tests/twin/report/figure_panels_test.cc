@@ -79,22 +79,15 @@ TEST_F(FigurePanels, AreThoseOfThePage) {
                           "displacements_um", "residual_displacements_um", "tilt_urad", "residual_tilt_urad", "heat"));
 }
 
-/// A flag beside 700,000 revolutions would be a line at 0.
-TEST_F(FigurePanels, CountsStandApartFromFlags) {
+TEST_F(FigurePanels, DrawNoCounterBesideFlags) {
   auto data = warm_up(0.0);
   Eigen::VectorXd const on = (data.time_s.array() < 7200.0).cast<double>().matrix();
-  data.inputs = {{"spindle.running", "1", "", on},
-                 {"spindle.revolutions", "1", "", data.time_s * 70.0},
-                 {"z.duty", "1", "", 0.5 * on}};
+  data.inputs = {{"spindle.running", "1", "", on}, {"spindle.revolutions", "1", "", data.time_s * 70.0}};
   output::write(data, folder / "a.h5");
   auto const panels = figure_panels({folder / "a.h5"});
-  EXPECT_EQ(panel(panels, "input_count").lines.size(), 1U);
-  EXPECT_EQ(panel(panels, "input_count").y_label, "Count");
   auto const& flags = panel(panels, "input_1");
-  ASSERT_EQ(flags.lines.size(), 2U);
+  ASSERT_EQ(flags.lines.size(), 1U);
   EXPECT_EQ(flags.lines[0].name, "spindle.running");
-  EXPECT_EQ(flags.lines[1].name, "z.duty");
-  EXPECT_EQ(flags.y_label, "Setting");
 }
 
 TEST_F(FigurePanels, HoldTheNumbersOfTheDataSet) {
