@@ -88,7 +88,6 @@ std::string words_of(RecordGap const& gap) {
 std::vector<RecordGap> gaps_of(scenarios::SampledInput const& input, double longest, double end) {
   auto times = scenarios::recorded_times(input);
   double const least = std::max(longest, usual_intervals * usual_interval(times));
-  if (times.front() > 0.0) times.insert(times.begin(), 0.0);
   times.push_back(end);
   std::vector<RecordGap> gaps;
   for (std::size_t i = 1; i < times.size(); ++i) {
@@ -164,9 +163,9 @@ void remark_gaps(std::vector<std::vector<RecordGap>> const& gaps, Experiment con
     std::string remark = fmt::format("not recorded {}: ", words_of(gap));
     if (!estimated.empty())
       remark += fmt::format(
-          "{}, which a fit to this run estimates; without a fit the {} value is held, and readings after the gap "
+          "{}, which a fit to this run estimates; without a fit the last value is held, and readings after the gap "
           "depend on it (until {:.0f} min after it they are left out)",
-          fmt::join(estimated, ", "), gap.from > 0.0 ? "last" : "first", settling / 60.0);
+          fmt::join(estimated, ", "), settling / 60.0);
     if (!estimated.empty() && !others.empty()) remark += "; ";
     if (!others.empty()) remark += fmt::format("{}, taken from the rows beside the gap", fmt::join(others, ", "));
     remarks.push_back(remark);

@@ -9,7 +9,7 @@
 
 namespace thermotwin::twin {
 
-/// The gaps from 0 until `end`, the end of the run, that are longer than `longest` and than ten usual intervals of the
+/// The gaps until `end`, the end of the run, that are longer than `longest` and than ten usual intervals of the
 /// input: what is recorded only where it changes has none.
 [[nodiscard]] std::vector<RecordGap> gaps_of(scenarios::SampledInput const& input, double longest, double end);
 

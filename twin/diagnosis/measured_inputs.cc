@@ -292,6 +292,11 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine) {
     if (is_derived(input, data)) continue;
     experiment.driven.push_back(scenarios::driven_channel(input));
     gaps.push_back(gaps_of(input, data.max_gap, experiment.duration));
+    if (double const begin = scenarios::recorded_times(input).front(); begin > run.time[0] + data.max_gap)
+      run.remarks.push_back(
+          fmt::format("'{}' is recorded from {:.2f} h on only; for the readings before that its first "
+                      "value is taken",
+                      input.name, begin / 3600.0));
     auto const changes = changes_of(input, experiment.driven.back().signal);
     std::copy_if(changes.begin(), changes.end(), std::back_inserter(run.changes), [&](auto const& change) {
       return std::none_of(gaps.back().begin(), gaps.back().end(),

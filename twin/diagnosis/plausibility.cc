@@ -289,17 +289,18 @@ bool hold_the_same(MeasuredRun const& a, MeasuredRun const& b) {
 /// offsets are taken to be the same in all runs.
 void compare_offsets(Machine const& machine, BinnedRun const& first, BinnedRun const& run, std::vector<Doubt>& doubts) {
   if (first.run->warm_start || run.run->warm_start) return;
-  auto const begins_at = [](BinnedRun const& of, std::string const& sensor) {
-    auto const& channels = of.run->channels;
+  auto const begins_at = [](MeasuredRun const& of, std::string const& sensor) {
+    auto const& channels = of.channels;
     auto const channel =
         std::find_if(channels.begin(), channels.end(), [&](auto const& c) { return c.name == sensor; });
-    return channel == channels.end() ? std::nan("") : of.values(0, channel - channels.begin());
+    bool const has_past = of.time[0] > 10.0 * minute;
+    return channel == channels.end() || has_past ? std::nan("") : channel->values[0];
   };
   std::vector<std::pair<std::string, double>> risen;
   std::vector<double> rises;
   for (auto const& sensor : machine.sensors) {
     auto const& name = sensor.description.name;
-    double const rise = begins_at(run, name) - begins_at(first, name);
+    double const rise = begins_at(*run.run, name) - begins_at(*first.run, name);
     if (sensor.weights.empty() || !std::isfinite(rise)) continue;
     risen.emplace_back(name, rise);
     rises.push_back(rise);

@@ -35,8 +35,8 @@ output::Dataset made(Value const& document, std::string const& blocks, std::stri
   return run(Machine::build(document), experiment, {}).dataset;
 }
 
-/// A machine with 60 W in its column, measured in two runs; its file knows nothing of them. Diagnosed once for all
-/// tests.
+/// A machine with 60 W in its column, measured in two runs by the same instruments; its file knows nothing of them.
+/// Diagnosed once for all tests.
 class DiagnoseFilesTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -45,7 +45,7 @@ class DiagnoseFilesTest : public testing::Test {
     Value const truth = tests::with_table(read_toml(machine_file("v450")), heat);
     output::write(made(truth, R"([{duration = "4 h", speed = "5000 rpm"}, {duration = "4 h", speed = "0 rpm"}])", "1"),
                   *folder / "run1.h5");
-    output::write(made(truth, R"([{duration = "2 h", speed = "0 rpm"}, {duration = "6 h", speed = "3000 rpm"}])", "2"),
+    output::write(made(truth, R"([{duration = "2 h", speed = "0 rpm"}, {duration = "6 h", speed = "3000 rpm"}])", "1"),
                   *folder / "unseen.h5");
     report = diagnose_files(
         {*folder / "mine.toml", {*folder / "run1.h5"}, {*folder / "unseen.h5"}, *folder / "amended.toml", {}, {}});
