@@ -80,7 +80,7 @@ class FitErrorModel : public testing::Test {
       output::write(data, folder_ / name);
     return folder_ / name;
   }
-  SavedErrorModel fitted(ErrorModelFit fit) {
+  SavedErrorModel fitted(ErrorModelFit const& fit) {
     remarks_.clear();
     return fit_error_model(fit, remarks_);
   }
