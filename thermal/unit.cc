@@ -103,13 +103,20 @@ NamedUnit const* find_symbol(std::string_view symbol) {
   return found == named_units.end() ? nullptr : &*found;
 }
 
-bool is_unit(std::string_view name) {
-  if (find_symbol(name)) return true;
-  return std::any_of(prefixes.begin(), prefixes.end(), [&](Prefix const& prefix) {
-    if (!name.starts_with(prefix.symbol)) return false;
+/// A symbol and its prefix, or null; without a symbol it is no unit.
+struct PrefixedUnit {
+  NamedUnit const* named = nullptr;
+  Prefix const* prefix = nullptr;
+};
+
+PrefixedUnit find_unit(std::string_view name) {
+  if (NamedUnit const* named = find_symbol(name)) return {named};
+  for (Prefix const& prefix : prefixes) {
+    if (!name.starts_with(prefix.symbol)) continue;
     NamedUnit const* named = find_symbol(name.substr(prefix.symbol.size()));
-    return named && named->takes_prefix;
-  });
+    if (named != nullptr && named->takes_prefix) return {named, &prefix};
+  }
+  return {};
 }
 
 /// Reads one unit, left to right; `text` is the whole quantity, for messages.
@@ -175,15 +182,11 @@ class UnitReader {
   Unit look_up(std::string_view name) {
     if (name == "degC" || name == "degF")
       fail(std::string(name) + " is a point on the scale; in a compound unit write K");
-    if (NamedUnit const* named = find_symbol(name)) return taken(*named);
-    for (Prefix const& prefix : prefixes) {
-      if (!name.starts_with(prefix.symbol)) continue;
-      NamedUnit const* named = find_symbol(name.substr(prefix.symbol.size()));
-      if (named == nullptr || !named->takes_prefix) continue;
-      return times(taken(*named), {dim::dimensionless, prefix.numerator, prefix.denominator}, 1);
-    }
+    if (auto const [named, prefix] = find_unit(name); named != nullptr)
+      return prefix ? times(taken(*named), {dim::dimensionless, prefix->numerator, prefix->denominator}, 1)
+                    : taken(*named);
     std::string_view const before_kelvin = name.substr(0, name.size() - 1);
-    if (name.size() < whole_.size() && name.ends_with('K') && is_unit(before_kelvin))
+    if (name.size() < whole_.size() && name.ends_with('K') && find_unit(before_kelvin).named)
       fail("unknown unit '" + std::string(name) + "'; per both is '/(" + std::string(before_kelvin) + " K)'");
     fail("unknown unit '" + std::string(name) + "'; " + offer(name));
   }

@@ -36,12 +36,6 @@ fs::path file_of(std::string const& name, fs::path const& campaign, Shipped ship
   return fs::path(name).extension() == ".toml" && fs::exists(beside) ? beside : shipped(name);
 }
 
-Location place_of_key(Value const& table, std::string const& key, std::size_t item = 0) {
-  Value const* value = table.find(key);
-  if (!value || !value->is_list() || item >= std::get<Value::List>(value->content).size()) return where_of(table, key);
-  return std::get<Value::List>(value->content)[item].where;
-}
-
 Value::List const& tables(Value const& document, std::string const& key) {
   static Value::List const none;
   Value const* value = document.find(key);
@@ -81,15 +75,15 @@ void read_range(Value const& table, std::string const& from, std::string const& 
                 CampaignParameter& parameter) {
   std::string other;
   if (!split(from, parameter.from, parameter.unit))
-    throw FileError(place_of_key(table, "from"), fmt::format("'from' is '{}'; a number with its unit is due", from));
+    throw FileError(where_of(table, "from"), fmt::format("'from' is '{}'; a number with its unit is due", from));
   if (!split(to, parameter.to, other))
-    throw FileError(place_of_key(table, "to"), fmt::format("'to' is '{}'; a number with its unit is due", to));
+    throw FileError(where_of(table, "to"), fmt::format("'to' is '{}'; a number with its unit is due", to));
   if (other != parameter.unit)
-    throw FileError(place_of_key(table, "to"),
+    throw FileError(where_of(table, "to"),
                     fmt::format("'to' is in '{}' and 'from' in '{}'; one unit is due", other, parameter.unit));
   parameter.logarithmic = scale == "log";
   if (parameter.logarithmic && (parameter.from <= 0.0 || parameter.to <= 0.0))
-    throw FileError(place_of_key(table, "scale"), "a logarithmic range lies above 0");
+    throw FileError(where_of(table, "scale"), "a logarithmic range lies above 0");
 }
 
 /// Nothing for a word.
@@ -135,14 +129,14 @@ void check_letters(CampaignParameter const& parameter, Location const& where) {
 CampaignParameter grid_parameter(Value const& table, GridDescription const& grid) {
   CampaignParameter parameter;
   parameter.path = grid.path;
-  parameter.where = place_of_key(table, "path");
+  parameter.where = where_of(table, "path");
   if (!grid.values.empty()) {
     if (!grid.from.empty() || !grid.to.empty() || grid.count > 0)
       throw FileError(table.where, "give either 'values', or 'from', 'to' and 'count'");
     parameter.values = grid.values;
     parameter.count = std::int64_t(grid.values.size());
     read_numbers(parameter);
-    check_letters(parameter, place_of_key(table, "values"));
+    check_letters(parameter, where_of_item(table, "values", 0));
     return parameter;
   }
   if (grid.count < 1) throw FileError(table.where, "give either 'values', or 'from', 'to' and 'count' from 1 on");
@@ -162,7 +156,7 @@ void check_keep(Value const& document, std::vector<std::string> const& keep) {
   std::vector<std::string> const groups = {"readings", "displacements", "inputs", "truth", "summary"};
   std::set<std::string> seen;
   for (std::size_t k = 0; k < keep.size(); ++k) {
-    auto const where = place_of_key(document, "keep", k);
+    auto const where = where_of_item(document, "keep", k);
     if (std::find(groups.begin(), groups.end(), keep[k]) == groups.end())
       throw FileError(where,
                       fmt::format("there is no '{}' to keep; {}", keep[k], thermal::did_you_mean(keep[k], groups)));
@@ -201,7 +195,7 @@ void Campaign::read_parameters(Value const& document) {
     Value const& table = tables(latin, "vary")[v];
     auto& parameter = samples.emplace_back();
     parameter.path = varied[v].path;
-    parameter.where = place_of_key(table, "path");
+    parameter.where = where_of(table, "path");
     read_range(table, varied[v].from, varied[v].to, varied[v].scale, parameter);
   }
   if (samples.empty()) throw FileError(latin.where, "[latin_hypercube] varies nothing; add [[latin_hypercube.vary]]");
@@ -218,7 +212,7 @@ void Campaign::read_cases(Value const& document) {
       auto const& [path, value] = cases_[c][s];
       if (numbers.try_emplace(path, of_cases.size()).second) {
         of_cases.emplace_back().path = path;
-        of_cases.back().where = place_of_key(tables(document, "case")[c], "set", s);
+        of_cases.back().where = where_of_item(tables(document, "case")[c], "set", s);
       }
       auto& values = of_cases[numbers.at(path)].values;
       if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
@@ -297,14 +291,14 @@ void Campaign::check_sampling(Value const& document) const {
     for (std::size_t e = 0; e < experiments.size(); ++e) try {
         scenarios::check_readings(experiment(nominal(e)));
       } catch (thermal::InputError const& error) {
-        throw FileError(place_of_key(document, "every"), error.what());
+        throw FileError(where_of(document, "every"), error.what());
       }
     return;
   }
   double const first = experiment(nominal(0)).sampling;
   for (std::size_t e = 1; e < experiments.size(); ++e)
     if (double const sampling = experiment(nominal(e)).sampling; sampling != first)
-      throw FileError(place_of_key(document, "experiments", e),
+      throw FileError(where_of_item(document, "experiments", e),
                       fmt::format("'{}' is read every {:g} s and '{}' every {:g} s; give 'every', for all",
                                   experiments[e].name, sampling, experiments[0].name, first));
 }
@@ -319,7 +313,7 @@ Campaign Campaign::read(fs::path const& file) {
   auto const& description = campaign.description;
   check_keep(document, description.keep);
   if (!(description.tolerance >= finest_tolerance && description.tolerance <= coarsest_tolerance))
-    throw FileError(place_of_key(document, "tolerance"),
+    throw FileError(where_of(document, "tolerance"),
                     fmt::format("'tolerance' is {}; allowed is {} to {}", description.tolerance, finest_tolerance,
                                 coarsest_tolerance));
   if (description.experiments.empty()) throw FileError(document.where, "the campaign names no 'experiments'");
@@ -329,7 +323,7 @@ Campaign Campaign::read(fs::path const& file) {
     } catch (FileError const&) {
       throw;
     } catch (thermal::InputError const& error) {
-      throw FileError(place_of_key(document, key), error.what());
+      throw FileError(where_of_item(document, key, 0), error.what());
     }
   };
   located("experiments", [&] { campaign.read_experiments(); });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <limits>
+#include <optional>
 
 #include "models/quantile.h"
 #include "thermal/error.h"
@@ -18,6 +19,7 @@ using thermal::InputError;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr double coldest = 213.15, hottest = 523.15;  // K, that a sensor of a machine shows
+constexpr double power_on = 358.15;                   // K, of a DS18B20
 constexpr int fewest_rows_of_standstill = 20;
 constexpr double least_share_of_standstill = 0.1;
 
@@ -54,43 +56,49 @@ std::vector<Expected> all_channels(MeasuredData const& data) {
 
 bool is_impossible(double temperature) { return temperature < coldest || temperature > hottest; }
 
-/// What a broken sensor shows: one value throughout, which none shows that works. Missing, and told.
-void leave_out_failure(MeasuredChannel& channel, output::Channel const& shown, Eigen::VectorXd const& time,
-                       std::vector<std::string>& remarks) {
-  Eigen::Index first = -1, count = 0;
-  for (Eigen::Index r = 0; r < channel.values.size(); ++r) {
-    if (!is_impossible(channel.values[r])) continue;
-    if (first >= 0 && channel.values[r] != channel.values[first]) return;
-    if (first < 0) first = r;
-    ++count;
+bool is_about_power_on(double temperature) { return std::abs(temperature - power_on) < 5.0; }
+
+/// Rows of a channel that a sensor shows that does not measure: one value throughout, which none shows that works.
+struct Failure {
+  Eigen::Index first, count;
+
+  [[nodiscard]] std::string rows_text(Eigen::VectorXd const& time) const {
+    return fmt::format("in {} row{} from {:.2f} h on", count, count == 1 ? "" : "s", time[first] / 3600.0);
   }
-  if (first < 0) return;
-  remarks.push_back(
-      fmt::format("'{}' reads {:.1f} {} in {} row{} from {:.2f} h on, which no sensor of a machine shows: "
-                  "left out",
-                  channel.name, shown.values[first], shown.unit, count, count == 1 ? "" : "s", time[first] / 3600.0));
-  for (double& value : channel.values)
-    if (is_impossible(value)) value = missing;
+};
+
+/// Those whose value is so; nothing where there are none, or several values.
+template <class Test>
+std::optional<Failure> find_failure(Eigen::VectorXd const& values, Test is_so) {
+  Failure found{-1, 0};
+  for (Eigen::Index r = 0; r < values.size(); ++r) {
+    if (!is_so(values[r])) continue;
+    if (found.count++ == 0) found.first = r;
+    if (values[r] != values[found.first]) return std::nullopt;
+  }
+  return found.count > 0 ? std::optional(found) : std::nullopt;
 }
 
-/// 85 °C, as a DS18B20 shows that has just been switched on and not converted yet; where nothing else is near it.
-void leave_out_power_on(MeasuredChannel& channel, Eigen::VectorXd const& time, std::vector<std::string>& remarks) {
-  constexpr double power_on = 358.15, near = 5.0;
-  Eigen::Index first = -1, count = 0;
-  for (Eigen::Index r = 0; r < channel.values.size(); ++r) {
-    double const away = std::abs(channel.values[r] - power_on);
-    if (!(away < near)) continue;
-    if (away > 1e-6) return;
-    if (first < 0) first = r;
-    ++count;
+template <class Test>
+void leave_out(Eigen::VectorXd& values, Test is_so) {
+  for (double& value : values)
+    if (is_so(value)) value = missing;
+}
+
+/// What a broken sensor shows, and a DS18B20 that was just switched on and has not converted yet: missing, and told.
+void leave_out_failures(MeasuredChannel& channel, output::Channel const& shown, Eigen::VectorXd const& time,
+                        std::vector<std::string>& remarks) {
+  auto& values = channel.values;
+  if (auto const broken = find_failure(values, is_impossible)) {
+    remarks.push_back(fmt::format("'{}' reads {:.1f} {} {}, which no sensor of a machine shows: left out", channel.name,
+                                  shown.values[broken->first], shown.unit, broken->rows_text(time)));
+    leave_out(values, is_impossible);
   }
-  if (first < 0) return;
-  remarks.push_back(
-      fmt::format("'{}' reads 85 degC in {} row{} from {:.2f} h on, as a DS18B20 does that was switched "
-                  "on: left out",
-                  channel.name, count, count == 1 ? "" : "s", time[first] / 3600.0));
-  for (double& value : channel.values)
-    if (std::abs(value - power_on) < near) value = missing;
+  auto const on = find_failure(values, is_about_power_on);
+  if (!on || std::abs(values[on->first] - power_on) > 1e-6) return;
+  remarks.push_back(fmt::format("'{}' reads 85 degC {}, as a DS18B20 does that was switched on: left out", channel.name,
+                                on->rows_text(time)));
+  leave_out(values, is_about_power_on);
 }
 
 MeasuredChannel in_si(output::Channel const& channel, Expected const& expected, MeasuredData const& data,
@@ -102,13 +110,11 @@ MeasuredChannel in_si(output::Channel const& channel, Expected const& expected, 
   if (auto const clock = data.clocks.find(channel.name); clock != data.clocks.end()) result.clock = clock->second;
   thermal::from_unit({result.values.data(), std::size_t(result.values.size())}, channel.unit);
   if (expected.displacement) return result;
-  leave_out_failure(result, channel, data.time, remarks);
-  leave_out_power_on(result, data.time, remarks);
+  leave_out_failures(result, channel, data.time, remarks);
   if (is_impossible(median_of_finite(result.values)))
     throw InputError(fmt::format("sensor '{}' reads {:.1f} {} most of the time; is its unit right?", channel.name,
                                  median_of_finite(channel.values), channel.unit));
-  for (double& value : result.values)
-    if (is_impossible(value)) value = missing;
+  leave_out(result.values, is_impossible);
   return result;
 }
 

@@ -46,6 +46,12 @@ Location where_of(Value const& table, std::string const& key) {
   return value ? value->where : table.where;
 }
 
+Location where_of_item(Value const& table, std::string const& key, std::size_t item) {
+  Value const* value = table.find(key);
+  auto const* list = value && value->is_list() ? &std::get<Value::List>(value->content) : nullptr;
+  return list && item < list->size() ? (*list)[item].where : where_of(table, key);
+}
+
 std::optional<double> number_in(Value const& table, std::string const& key, thermal::Dimension dimension) {
   Value const* value = table.find(key);
   if (!value) return {};

@@ -23,6 +23,8 @@ namespace thermotwin::twin {
 
 /// Where a key stands; without it, the table.
 [[nodiscard]] Location where_of(Value const& table, std::string const& key);
+/// Where an item of the list under a key stands; without it, the key.
+[[nodiscard]] Location where_of_item(Value const& table, std::string const& key, std::size_t item);
 
 /// The number under a key, in SI.
 [[nodiscard]] std::optional<double> number_in(Value const& table, std::string const& key, thermal::Dimension dimension);

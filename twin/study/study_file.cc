@@ -10,6 +10,7 @@
 #include "models/error_model.h"
 #include "models/selection.h"
 #include "thermal/nearest_name.h"
+#include "twin/file/document.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/tables.h"
 #include "twin/file/value.h"
@@ -19,21 +20,12 @@
 namespace thermotwin::twin {
 namespace {
 
-/// Where the item of a list stands, or the list, or the document.
-Location place_of_item(Value const& table, std::string const& key, std::size_t item) {
-  Value const* value = table.find(key);
-  if (!value) return table.where;
-  if (!value->is_list()) return value->where;
-  auto const& list = std::get<Value::List>(value->content);
-  return item < list.size() ? list[item].where : value->where;
-}
-
 /// Each item of a list through `check`, once; a complaint gets the item's place.
 template <class Check>
 void check_items(Value const& table, std::string const& key, std::vector<std::string> const& items, Check check) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    auto const where = place_of_item(table, key, i);
+    auto const where = where_of_item(table, key, i);
     try {
       check(items[i]);
     } catch (std::invalid_argument const& error) {
@@ -43,26 +35,21 @@ void check_items(Value const& table, std::string const& key, std::vector<std::st
     }
     if (!seen.insert(items[i]).second) throw FileError(where, fmt::format("'{}' is given twice", items[i]));
   }
-  if (items.empty()) throw FileError(place_of_item(table, key, 0), fmt::format("'{}' names none", key));
-}
-
-Location place_of_key(Value const& table, std::string const& key) {
-  Value const* value = table.find(key);
-  return value ? value->where : table.where;
+  if (items.empty()) throw FileError(where_of_item(table, key, 0), fmt::format("'{}' names none", key));
 }
 
 void check_world(Value const& table, StudyWorld const& world) {
   check_items(table, "train", world.train, [](auto const&) {});
   if (!world.sensors.empty()) check_items(table, "sensors", world.sensors, [](auto const&) {});
   if (world.split && (world.train.size() != 1 || !world.test.empty()))
-    throw FileError(place_of_key(table, "split"),
+    throw FileError(where_of(table, "split"),
                     fmt::format("'split' cuts one run; here are {} in 'train' and {} in 'test'", world.train.size(),
                                 world.test.size()));
   if (world.split && !(*world.split > 0.0))
-    throw FileError(place_of_key(table, "split"), "'split' is 0 s; a time after the first reading is due");
+    throw FileError(where_of(table, "split"), "'split' is 0 s; a time after the first reading is due");
   if (world.fit == "each" && (world.train.size() < 3 || world.test.size() == 1))
     throw FileError(
-        place_of_key(table, "fit"),
+        where_of(table, "fit"),
         fmt::format("'fit' is each: at least three runs to train on, and none or at least two to test on, are due; "
                     "here are {} and {}",
                     world.train.size(), world.test.size()));
@@ -71,23 +58,23 @@ void check_world(Value const& table, StudyWorld const& world) {
                     fmt::format("the world '{}' has nothing to test on; give 'test' or 'split'", world.name));
   for (auto const& name : world.test)
     if (std::find(world.train.begin(), world.train.end(), name) != world.train.end())
-      throw FileError(place_of_key(table, "test"), fmt::format("'{}' is in 'train', too", name));
+      throw FileError(where_of(table, "test"), fmt::format("'{}' is in 'train', too", name));
   if (world.sampling && !(*world.sampling > 0.0))
-    throw FileError(place_of_key(table, "sampling"), "'sampling' is 0 s; an interval of more than 0 is due");
+    throw FileError(where_of(table, "sampling"), "'sampling' is 0 s; an interval of more than 0 is due");
   if (!world.instants.empty() && !world.slope())
-    throw FileError(place_of_item(table, "instant", 0),
+    throw FileError(where_of_item(table, "instant", 0),
                     fmt::format("an 'instant' judges the error over an axis, but 'error' is '{}'; give a slope, for "
                                 "example \"slope z\"",
                                 world.error));
   if (!world.instants.empty() && world.fit == "each")
-    throw FileError(place_of_item(table, "instant", 0),
+    throw FileError(where_of_item(table, "instant", 0),
                     "an 'instant' is judged by the one model of all of 'train', but 'fit' is each; give fit = "
                     "\"together\", or no 'instant'");
   std::vector<std::string> runs = world.train;
   runs.insert(runs.end(), world.test.begin(), world.test.end());
   for (std::size_t i = 0; i < world.instants.size(); ++i)
     if (std::find(runs.begin(), runs.end(), world.instants[i].experiment) == runs.end())
-      throw FileError(place_of_item(table, "instant", i),
+      throw FileError(where_of_item(table, "instant", i),
                       fmt::format("no run '{}' in this world; {}", world.instants[i].experiment,
                                   thermal::did_you_mean(world.instants[i].experiment, runs)));
 }
@@ -95,7 +82,7 @@ void check_world(Value const& table, StudyWorld const& world) {
 void check_combination(Value const& table, std::string const& key, std::string const& name,
                        std::vector<std::string> const& known) {
   if (!name.empty() && std::find(known.begin(), known.end(), name) == known.end())
-    throw FileError(place_of_key(table, key),
+    throw FileError(where_of(table, key),
                     fmt::format("the study has no combination '{}'; {}", name, thermal::did_you_mean(name, known)));
 }
 
@@ -104,12 +91,12 @@ void check_comparison(Value const& table, StudyClaim const& claim) {
   if (claim.than.empty() == !claim.at_most)
     throw FileError(table.where, "a claim is either less 'than' another combination or 'at_most' a number");
   if (claim.improvement && claim.than.empty())
-    throw FileError(place_of_key(table, "improvement"), "an 'improvement' is over another combination; give 'than'");
+    throw FileError(where_of(table, "improvement"), "an 'improvement' is over another combination; give 'than'");
   if (claim.tolerance && (claim.than.empty() || claim.improvement))
-    throw FileError(place_of_key(table, "tolerance"),
+    throw FileError(where_of(table, "tolerance"),
                     "a 'tolerance' says no worse than another combination; give 'than', and no 'improvement'");
   if (claim.share && (claim.than.empty() || claim.improvement || claim.tolerance))
-    throw FileError(place_of_key(table, "share"),
+    throw FileError(where_of(table, "share"),
                     "a 'share' is of another combination; give 'than', and no 'improvement' or 'tolerance'");
 }
 
@@ -121,12 +108,12 @@ void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::s
   check_combination(table, "combination", claim.combination, combinations);
   check_comparison(table, claim);
   if (claim.combination == chosen_by_validation && study.folds == 0)
-    throw FileError(place_of_key(table, "combination"), "there is no cross-validation to choose by; give 'folds'");
+    throw FileError(where_of(table, "combination"), "there is no cross-validation to choose by; give 'folds'");
   std::vector<std::string> worlds;
   for (auto const& world : study.worlds) worlds.push_back(world.name);
   if (worlds.size() > 1) worlds.emplace_back(mean_of_worlds);
   if (!claim.world.empty() && std::find(worlds.begin(), worlds.end(), claim.world) == worlds.end())
-    throw FileError(place_of_key(table, "world"),
+    throw FileError(where_of(table, "world"),
                     fmt::format("no world '{}'; {}", claim.world, thermal::did_you_mean(claim.world, worlds)));
 }
 
@@ -201,10 +188,10 @@ void check_study(Value const& document, StudyDescription const& study) {
   for (std::size_t w = 0; w < study.worlds.size(); ++w)
     if (study.folds > 0 && study.worlds[w].fit == "each")
       throw FileError(
-          place_of_key(tables(document, "world")[w], "fit"),
+          where_of(tables(document, "world")[w], "fit"),
           "'fit' is each: every run predicts every other, and 'folds' have nothing to leave out; give 'folds' "
           "= 0, or fit = \"together\"");
-  if (study.folds == 1) throw FileError(place_of_key(document, "folds"), "'folds' is 1; 0 or at least 2 are due");
+  if (study.folds == 1) throw FileError(where_of(document, "folds"), "'folds' is 1; 0 or at least 2 are due");
 }
 
 }  // namespace
