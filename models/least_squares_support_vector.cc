@@ -50,6 +50,7 @@ LeastSquaresSupportVectors solve_least_squares_leaving_out(MatrixXd const& kerne
 ErrorModel fit_least_squares_support_vector(std::span<Batch const> batches, FitOptions const&) {
   auto const set = training_set(batches);
   require_samples(set, set.regressors.cols() + 2);
+  require_kernel_room(set.error.size());
   auto const input = range_scaling(set.regressors, 0.0, 1.0), target = range_scaling(set.error, 0.0, 1.0);
   KernelForm form;
   form.support = scaled(set.regressors, input);

@@ -166,6 +166,7 @@ SupportVectorRegression SupportVectorSolver::solve(VectorXd const& target, std::
 ErrorModel fit_support_vector(std::span<Batch const> batches, FitOptions const& options) {
   auto const set = training_set(batches);
   require_samples(set, set.regressors.cols() + 2);
+  require_kernel_room(set.error.size());
   auto const best = best_of_grid(set, options.folds);
   StandardSamples const samples(set.regressors, set.error);
   auto const& [input, target, x, y] = samples;

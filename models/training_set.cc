@@ -98,8 +98,8 @@ double sample_period(Batch const& batch) {
     if (double const step = steps[static_cast<std::size_t>(i - 1)]; std::abs(step - usual) > uneven_step * usual)
       throw std::invalid_argument(
           fmt::format("batch '{}': row {} comes {:.6g} s after the one before, others {:.6g} s; "
-                      "lags need even steps",
-                      batch.name, i + 1, step, usual));
+                      "lags need even steps (it is the one at {:.6g} s; rows that are left out do not count)",
+                      batch.name, i + 1, step, usual, batch.time(i)));
   return period;
 }
 

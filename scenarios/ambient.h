@@ -71,7 +71,7 @@ struct Ambient {
 
   template <class Fields>
   static void fields(Fields& f) {
-    f.temperature("mean", &Ambient::mean, "mean air temperature");
+    f.temperature("mean", &Ambient::mean, "mean air temperature", {coldest_air, hottest_air});
     f("drift", &Ambient::drift, thermal::dimension::temperature_rate, "steady change from the start of the run",
       {-20.0 / 3600.0, 20.0 / 3600.0});
     f("stratification", &Ambient::stratification, thermal::dimension::temperature_gradient,

@@ -1,10 +1,12 @@
 #include "scenarios/course.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "scenarios/motion_limit.h"
@@ -18,6 +20,7 @@ namespace {
 using thermal::InputError;
 
 constexpr double seconds_per_day = 86400.0;
+constexpr double rounding_of_share = 1e-9;  ///< of a share that is written in another unit
 
 void check_range(DrivenChannel const& driven, std::string const& place) {
   for (double const value : driven.signal.values())
@@ -42,6 +45,26 @@ void check_temperature(DrivenChannel const& driven) {
                        "; is its unit right?");
 }
 
+/// What is off, on or in between: switches that every experiment has, and what the machine's parts take so.
+bool is_switch(std::string const& channel, MachineLimits const& machine) {
+  constexpr std::array<std::string_view, 6> own = {"spindle.running", "ambient.door", "coolant.on",
+                                                   "chiller.on",      "machine.on",   "servo.on"};
+  return std::find(own.begin(), own.end(), channel) != own.end() ||
+         std::find(machine.shares.begin(), machine.shares.end(), channel) != machine.shares.end() ||
+         std::any_of(machine.axes.begin(), machine.axes.end(),
+                     [&](AxisLimits const& axis) { return channel == axis.name + ".running"; });
+}
+
+/// What counts, tool changes or revolutions, may be any number. `most`: in place of 1.
+void check_switch(DrivenChannel const& driven, MachineLimits const& machine, double most) {
+  auto const& [name, unit, description] = driven.channel;
+  if (unit != "1" || !is_switch(name, machine)) return;
+  for (double const value : driven.signal.values())
+    if (!(value >= 1.0 - most - rounding_of_share && value <= most + rounding_of_share))
+      throw InputError("channel '" + name + "': " + description + " reaches " + thermal::format_number(value) +
+                       "; allowed is 0 (off) to 1 (on); is its unit right?");
+}
+
 /// `most`: times what the machine can do.
 void check_motion(DrivenChannel const& driven, MachineLimits const& machine, double most) {
   auto const& [name, unit, description] = driven.channel;
@@ -50,19 +73,17 @@ void check_motion(DrivenChannel const& driven, MachineLimits const& machine, dou
 }
 
 /// Whether a channel of another dimension is driven is told by ExperimentCourse::replace_or_add.
-DrivenChannel checked(DrivenChannel driven, MachineLimits const& machine, double most) {
+void check(DrivenChannel const& driven, MachineLimits const& machine, double most) {
   auto const dimension = thermal::dimension_of(driven.channel.unit);
-  if (dimension == thermal::dimension::temperature_difference)
-    check_temperature(driven);
-  else
-    check_motion(driven, machine, most);
-  return driven;
+  if (dimension == thermal::dimension::temperature_difference) check_temperature(driven);
+  check_switch(driven, machine, most);
+  check_motion(driven, machine, most);
 }
 
-/// The fields of an experiment that drive channels, "inputs[0]" and "recorded[0].columns[1]", in the order in which
-/// they do.
+/// The fields of an experiment that drive channels, "inputs[0]." and "recorded[0].columns[1].", in the order in which
+/// they do; empty where that is in memory.
 std::vector<std::string> driving_fields(Experiment const& experiment) {
-  std::vector<std::string> fields;
+  std::vector<std::string> fields(experiment.driven.size());
   for (std::size_t i = 0; i < experiment.inputs.size(); ++i) fields.push_back("inputs[" + std::to_string(i) + "].");
   for (std::size_t r = 0; r < experiment.recorded.size(); ++r)
     for (std::size_t c = 0; c < experiment.recorded[r].columns.size(); ++c)
@@ -70,27 +91,38 @@ std::vector<std::string> driving_fields(Experiment const& experiment) {
   return fields;
 }
 
+/// Puts such a field and a key in it, "blocks: ", in front of what `action` complains of.
+template <class Action>
+void of_field(std::string const& field, std::string const& key, Action action) {
+  if (field.empty()) return action();
+  try {
+    action();
+  } catch (InputError const& error) {
+    throw InputError(field + key + error.what());
+  }
+}
+
+void refuse_two_drivers(std::vector<DrivenChannel> const& driven, std::vector<std::string> const& fields) {
+  for (auto here = driven.begin(); here != driven.end(); ++here)
+    of_field(fields[std::size_t(here - driven.begin())], "channel: ", [&] {
+      std::string const& name = here->channel.name;
+      if (std::any_of(driven.begin(), here, [&](DrivenChannel const& other) { return other.channel.name == name; }))
+        throw InputError("channel '" + name + "' is driven twice, by inputs or recorded columns");
+    });
+}
+
 std::vector<DrivenChannel> driven_channels(Experiment const& experiment, MachineLimits const& machine) {
   std::vector<DrivenChannel> driven = experiment.driven;
   std::vector<std::string> const fields = driving_fields(experiment);
-  std::size_t next = 0;
-  auto const add = [&](DrivenChannel channel, std::string const& key, double most) {
-    std::string const field = fields[next++] + key + ": ";
-    try {
-      driven.push_back(checked(std::move(channel), machine, most));
-    } catch (InputError const& error) {
-      throw InputError(field + error.what());
-    }
-  };
-  for (InputProgram const& program : experiment.inputs)
-    add(driven_channel(program, experiment.duration), "blocks", 1.0);
-  for (DrivenChannel& channel : read_recordings(experiment.recorded, experiment.directory, experiment.duration))
-    add(std::move(channel), "unit", overshoot);
-  for (auto first = driven.begin(); first != driven.end(); ++first) {
-    bool const twice = std::any_of(
-        first + 1, driven.end(), [&](DrivenChannel const& other) { return other.channel.name == first->channel.name; });
-    if (twice) throw InputError("channel '" + first->channel.name + "' is driven twice, by inputs or recorded columns");
+  for (InputProgram const& program : experiment.inputs) {
+    std::string const& field = fields[driven.size()];
+    of_field(field, "", [&] { driven.push_back(driven_channel(program, experiment.duration)); });
+    of_field(field, "blocks: ", [&] { check(driven.back(), machine, 1.0); });
   }
+  for (DrivenChannel& channel : read_recordings(experiment.recorded, experiment.directory, experiment.duration))
+    of_field(fields[driven.size()],
+             "unit: ", [&] { check(driven.emplace_back(std::move(channel)), machine, overshoot); });
+  refuse_two_drivers(driven, fields);
   return driven;
 }
 
@@ -188,7 +220,9 @@ ExperimentCourse::ExperimentCourse(Experiment const& experiment, MachineLimits c
   add_ambient(experiment);
   add_switches(experiment);
   add_clock(experiment);
-  for (DrivenChannel const& driven : driven_) replace_or_add(driven);
+  auto const fields = driving_fields(experiment);
+  for (std::size_t i = 0; i < driven_.size(); ++i)
+    of_field(fields[i], fields[i].starts_with("inputs") ? "blocks: " : "unit: ", [&] { replace_or_add(driven_[i]); });
   add_floor_temperature();
   sort_times();
   join_jumps();
@@ -290,7 +324,9 @@ void ExperimentCourse::replace_or_add(DrivenChannel const& driven) {
   if (thermal::dimension_of(known.unit) != thermal::dimension_of(driven.channel.unit)) {
     bool const share = driven.channel.unit == "1" && known.unit == "rad/s";
     throw InputError("channel '" + known.name + "': " + driven.channel.description + " is in " + driven.channel.unit +
-                     ", the channel in " + known.unit + (share ? std::string(or_a_factor) : ""));
+                     ", the channel in " + known.unit + ", for example \"" +
+                     thermal::example_of(thermal::dimension_of(known.unit)) + "\"" +
+                     (share ? std::string(or_a_factor) : ""));
   }
   if (carries_others(known.name)) return;
   formulas_[std::size_t(place)] = [signal = driven.signal](double t) { return signal.at(t); };

@@ -175,9 +175,11 @@ std::string CsvFile::place_in_line(std::string_view at) const {
   return path_.string() + ":" + std::to_string(number_) + ":" + std::to_string(column) + ": ";
 }
 
-void CsvFile::fail(std::size_t place, std::string const& why) const {
-  throw InputError(place_in_line(fields_[place]) + "column '" + header_[place] + "': " + why);
+std::string CsvFile::said_of(std::size_t place, std::string const& what) const {
+  return place_in_line(fields_[place]) + "column '" + header_[place] + "': " + what;
 }
+
+void CsvFile::fail(std::size_t place, std::string const& why) const { throw InputError(said_of(place, why)); }
 
 void CsvFile::require_utf8() const {
   std::size_t const foreign = foreign_byte(line_);

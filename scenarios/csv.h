@@ -45,7 +45,9 @@ class CsvFile {
   /// The number there: NaN where it is missing and may be.
   double number(std::size_t place, MissingValue missing);
 
-  /// Complains of a field of the present row.
+  /// What is said of a field of the present row, with its place.
+  [[nodiscard]] std::string said_of(std::size_t place, std::string const& what) const;
+  /// Complains of it.
   [[noreturn]] void fail(std::size_t place, std::string const& why) const;
 
  private:

@@ -60,7 +60,7 @@ struct Experiment {
     f("chiller", &Experiment::chiller, "command to the chiller");
     f("power", &Experiment::power, "of the machine");
     f("servo", &Experiment::servo, "of the drives");
-    f("inputs", &Experiment::inputs, "programmes for any other input channel");
+    f("inputs", &Experiment::inputs, "programmes for any other input channel, one that no table here drives");
     f("recorded", &Experiment::recorded, "inputs from measured files, in place of programmes");
   }
 };

@@ -10,6 +10,7 @@ namespace thermotwin::scenarios {
 ///     f("key", &S::member, dimension, "doc")          double, std::optional<double>
 ///     f("key", &S::member, dimension, "doc", {a, b})  the same with a plausible range; a ≥ 0 forbids negative values
 ///     f.temperature("key", &S::member, "doc")         double, std::optional<double>: a point on the scale [K]
+///     f.temperature("key", &S::member, "doc", {a, b}) the same with a range of its own
 ///     f.name("key", &S::member, "doc")                std::string that must be given
 ///     f.choice("key", &S::member, {"x", "y"}, "doc")  std::string, one of the words
 ///     f("key", &S::member, "doc", {a, b})             int, no less and no more

@@ -19,9 +19,9 @@ thermal::Quantity value_of(ValueBlock const& block, std::string const& place) {
 }  // namespace
 
 DrivenChannel driven_channel(InputProgram const& program, double duration) {
-  if (program.channel.empty()) throw InputError("inputs.channel: the name of an input channel is due");
-  std::string const place = "inputs '" + program.channel + "': blocks";
-  if (program.blocks.empty()) throw InputError(place + " is empty; write at least one");
+  if (program.channel.empty()) throw InputError("channel: the name of an input channel is due");
+  if (program.blocks.empty()) throw InputError("blocks: they are empty; write at least one");
+  std::string const place = "blocks";
   thermal::Dimension const dimension = value_of(program.blocks.front(), place + "[0].").dimension;
   std::vector<Block> blocks;
   bool absolute_temperature = false;

@@ -33,7 +33,8 @@ struct InputProgram {
   }
 };
 
-/// The channel from 0 to `duration` [s]. Throws InputError naming the block.
+/// The channel from 0 to `duration` [s]. Throws InputError that begins with the key within the programme:
+/// "blocks[1].value: ".
 DrivenChannel driven_channel(InputProgram const& program, double duration);
 
 }  // namespace thermotwin::scenarios

@@ -67,6 +67,9 @@ std::string kind_of(std::optional<TimeStamp> const& stamp) {
   return stamp->zone ? "time stamps with a time zone" : "time stamps without a time zone";
 }
 
+constexpr double most_repeats = 0.1;  // of all rows
+std::string const must_increase = ": time must increase";
+
 constexpr std::string_view what_to_write =
     "; write time stamps with their offset, as 2025-11-24T07:00:00+01:00, or seconds";
 
@@ -81,7 +84,10 @@ class TimeColumn {
   double read(std::optional<TimeStamp> const& start) {
     auto const stamp = stamped() ? std::optional(read_stamp()) : std::nullopt;
     double const time = stamp ? seconds_between(*start, *stamp) : number();
-    if (time <= last_time_) fail(" after " + in_quotes(last_) + ": time must increase" + why_back(stamp));
+    std::string const order = " after " + in_quotes(last_);
+    if (time < last_time_) fail(order + must_increase + why_back(stamp));
+    if (time == last_time_ && repeats_++ == 0)
+      first_repeat_ = csv_.said_of(place_, in_quotes(csv_.field(place_)) + order);
     if (stamp && last_stamp_ && may_be_put_forward(*last_stamp_, *stamp)) remark_ = put_forward();
     last_time_ = time;
     last_stamp_ = stamp;
@@ -91,6 +97,14 @@ class TimeColumn {
 
   /// Of the rows that were read.
   [[nodiscard]] std::string const& remark() const { return remark_; }
+  /// Of those that have the time of the one before, or nothing; InputError where they are more than a tenth of all: the
+  /// times are too coarse then.
+  [[nodiscard]] std::string remark_on_repeats(std::size_t rows) const {
+    if (repeats_ == 0) return "";
+    if (double(repeats_) > most_repeats * double(rows)) throw InputError(first_repeat_ + must_increase);
+    std::string const all = repeats_ == 1 ? "" : ", and " + std::to_string(repeats_) + " such rows in all";
+    return first_repeat_ + all + ": of rows with one time the last counts";
+  }
 
  private:
   [[nodiscard]] std::string why_back(std::optional<TimeStamp> const& stamp) const {
@@ -127,6 +141,8 @@ class TimeColumn {
   std::optional<TimeStamp> last_stamp_;
   std::string last_;
   std::string remark_;
+  std::size_t repeats_ = 0;
+  std::string first_repeat_;
 };
 
 }  // namespace
@@ -184,7 +200,9 @@ LoggedTable TableReader::read(LoggedFile const& file, std::filesystem::path cons
   CsvFile csv(path, std::size_t(file.header_line));
   std::vector<std::size_t> places = {csv.place_of(file.time_column)};
   for (auto const& column : columns) places.push_back(csv.place_of(column));
-  LoggedTable table{path, {}, {}, std::vector<std::vector<double>>(columns.size()), {}, {}, 0, {}};
+  LoggedTable table;
+  table.file = path;
+  table.columns.resize(columns.size());
   bool row = csv.next();
   if (row && holds_units(csv, file, places)) {
     table.remark = remark_on_units(csv, places);
@@ -196,11 +214,21 @@ LoggedTable TableReader::read(LoggedFile const& file, std::filesystem::path cons
   set_clock(file, csv, places.front());
   TimeColumn time(csv, places.front());
   for (; row; row = csv.next()) {
-    table.lines.push_back(csv.line());
-    table.times.push_back(time.read(start_));
-    for (std::size_t i = 0; i < columns.size(); ++i) table.columns[i].push_back(value(file, csv, places[i + 1]));
+    double const t = time.read(start_);
+    bool const again = !table.times.empty() && t == table.times.back();
+    if (!again) table.times.push_back(t);
+    again ? table.lines.back() = csv.line() : table.lines.emplace_back(csv.line());
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      auto& column = table.columns[i];
+      double const read = value(file, csv, places[i + 1]);
+      if (!again)
+        column.push_back(read);
+      else if (!std::isnan(read))
+        column.back() = read;
+    }
   }
   table.clock_remark = time.remark();
+  table.repeats_remark = time.remark_on_repeats(table.times.size());
   if (time.stamped() && !table.units.empty()) table.units[0].clear();
   if (!time.stamped()) thermal::from_unit(table.times, file.time_unit.empty() ? "s" : file.time_unit);
   for (double& t : table.times) t += file.clock_offset.value_or(0.0);

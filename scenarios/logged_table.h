@@ -43,16 +43,18 @@ struct LoggedTable {
   std::vector<std::vector<double>> columns;  ///< in the order in which they were asked for, in the file's units
   std::string remark;                        ///< of what was skipped, or empty
   std::string clock_remark;                  ///< of a clock that was probably put forward, or empty
+  std::string repeats_remark;                ///< of rows with the time of the one before, or empty
   std::size_t units_line = 0;                ///< of a row of units, or 0
   std::vector<std::string> units;            ///< in it: of the times, unless they are stamps, then of the columns
 };
 
 /// Reads the tables of one run onto one clock. Those whose times are numbers count from a 0 of their own; those with
 /// time stamps (time_stamp.h) from the first row of the first of them. A row below the names that holds no number in
-/// the columns asked for, and no date, is one of units and skipped.
+/// the columns asked for, and no date, is one of units and skipped. Of rows with the same time, as a log of events has
+/// where two fall into one second, the last counts; a tenth of all at most.
 ///
-/// Throws InputError as CsvFile does, and for a unit that is none of time, a time that is missing or does not increase,
-/// and for clocks of two kinds of which nobody says how they lie: numbers, stamps with and without a time zone.
+/// Throws InputError as CsvFile does, and for a unit that is none of time, a time that is missing or goes back or
+/// stays, and for clocks of two kinds of which nobody says how they lie: numbers, stamps with and without a time zone.
 class TableReader {
  public:
   explicit TableReader(MissingValue missing) : missing_(missing) {}

@@ -21,6 +21,7 @@ struct AxisLimits {
 struct MachineLimits {
   double max_spindle_speed = 0.0;  ///< [rad/s]; 0: the machine has no spindle
   std::vector<AxisLimits> axes;
+  std::vector<std::string> shares{};  ///< channels that parts take as a share, from 0 (off) to 1 (on)
 };
 
 }  // namespace thermotwin::scenarios

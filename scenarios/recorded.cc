@@ -25,25 +25,29 @@ void at(std::string const& place, Action action) {
   }
 }
 
-void check(Recording const& recording) {
-  if (recording.file.empty()) throw InputError("recorded.file: the name of a CSV file is due");
-  std::string const place = "recorded '" + recording.file + "': ";
-  if (recording.columns.empty()) throw InputError(place + "columns is empty; name at least one column and its channel");
+/// `place`: "recorded[0].columns[1].".
+void check(RecordedColumn const& column, std::string const& place) {
+  if (column.column.empty()) throw InputError(place + "column: the name of a column is due");
+  if (column.channel.empty()) throw InputError(place + "channel: the name of an input channel is due");
+  if (column.interpolation != "automatic" && column.interpolation != "linear" && column.interpolation != "step") {
+    throw InputError(place + "interpolation: '" + column.interpolation +
+                     "' must be \"automatic\", \"linear\" or \"step\"");
+  }
+  at(place + "unit: column '" + column.column + "': ", [&] { (void)thermal::dimension_of(column.unit); });
+  at(place + "offset: column '" + column.column + "': ", [&] { (void)offset_of(column); });
+}
+
+/// `place`: "recorded[0].".
+void check(Recording const& recording, std::string const& place) {
+  if (recording.file.empty()) throw InputError(place + "file: the name of a CSV file is due");
+  if (recording.columns.empty())
+    throw InputError(place + "columns: it is empty; name at least one column and its channel");
   if (!(recording.max_gap > 0.0)) {
     throw InputError(place + "max_gap: " + format_quantity(recording.max_gap, dimension::time) + " must be above 0 s");
   }
   at(place, [&] { check_time_unit(recording); });
-  for (RecordedColumn const& column : recording.columns) {
-    if (column.column.empty() || column.channel.empty()) {
-      throw InputError(place + "each of columns needs a column and a channel");
-    }
-    if (column.interpolation != "automatic" && column.interpolation != "linear" && column.interpolation != "step") {
-      throw InputError(place + "interpolation: '" + column.interpolation +
-                       "' must be \"automatic\", \"linear\" or \"step\"");
-    }
-    at(place + "column '" + column.column + "': ", [&] { (void)thermal::dimension_of(column.unit); });
-    at(place + "column '" + column.column + "': offset: ", [&] { (void)offset_of(column); });
-  }
+  for (std::size_t c = 0; c < recording.columns.size(); ++c)
+    check(recording.columns[c], place + "columns[" + std::to_string(c) + "].");
 }
 
 void check_gaps(Recording const& recording, LoggedTable const& table) {
@@ -103,7 +107,7 @@ std::vector<LoggedTable> read_tables(std::vector<Recording> const& recordings, s
   TableReader reader(MissingValue::refuse);
   std::vector<LoggedTable> tables;
   for (Recording const& recording : recordings) {
-    check(recording);
+    check(recording, "recorded[" + std::to_string(tables.size()) + "].");
     auto const names = wanted_columns(recording);
     LoggedTable const& table =
         tables.emplace_back(reader.read(recording, resolved_path(recording.file, directory), names));

@@ -19,6 +19,10 @@ double even(std::mt19937_64& bits, double low, double high) {
   return low + share * (high - low);
 }
 
+void check_share(double share, std::string const& place) {
+  if (!(share >= 0.0 && share <= 1.0)) throw InputError(place + thermal::format_number(share) + " must be from 0 to 1");
+}
+
 void check(RandomSpectrum const& s) {
   std::string const place = "spindle.random.";
   if (!(s.run > 0.0))
@@ -30,9 +34,11 @@ void check(RandomSpectrum const& s) {
     throw InputError(place + "longest: " + format_quantity(s.longest, dimension::time) + " is below shortest, " +
                      format_quantity(s.shortest, dimension::time));
   }
-  if (s.lowest < 0.0 || s.highest > 1.0 || s.lowest > s.highest) {
-    throw InputError(place + "lowest, highest: " + thermal::format_number(s.lowest) + ", " +
-                     thermal::format_number(s.highest) + " must rise within 0 to 1");
+  check_share(s.lowest, place + "lowest: ");
+  check_share(s.highest, place + "highest: ");
+  if (s.highest < s.lowest) {
+    throw InputError(place + "highest: " + thermal::format_number(s.highest) + " is below lowest, " +
+                     thermal::format_number(s.lowest));
   }
   if (s.seed < 0) throw InputError(place + "seed: " + std::to_string(s.seed) + " must be 0 or more");
 }
@@ -43,9 +49,7 @@ double speed_of(SpeedBlock const& block, MachineLimits const& machine, std::stri
   }
   if (block.speed && block.of_maximum) throw InputError(place + "speed: give either speed or of_maximum, not both");
   double const share = block.of_maximum.value_or(0.0);
-  if (share < 0.0 || share > 1.0) {
-    throw InputError(place + "of_maximum: " + thermal::format_number(share) + " must be from 0 to 1");
-  }
+  check_share(share, place + "of_maximum: ");
   double const speed = block.speed.value_or(share * machine.max_spindle_speed);
   if (speed < 0.0)
     throw InputError(place + "speed: " + format_quantity(speed, dimension::angular_speed) + " is negative");

@@ -128,6 +128,7 @@ void Bodies::read_lumps(Tables& tables) {
         Value const& size = *table->find("size");
         throw FileError(size.where, fmt::format("'size' is {}; every edge must be positive", size.text()));
       }
+      refuse_both(*table, "mass", "heat_capacity");
       if (!d.heat_capacity && (!d.mass || d.material.empty()))
         throw InputError(fmt::format("lump '{}' needs a mass and a material, or a heat_capacity", d.name));
       if (!d.material.empty()) lump.material = material(d.material);
@@ -141,6 +142,18 @@ void Bodies::read_lumps(Tables& tables) {
 
 namespace {
 
+/// No section has a longer diameter of equal area than its surface has; a tube's is at least this share of it.
+constexpr double least_section = 0.05;
+
+void check_section(Value const& table, BarDescription const& bar) {
+  double const outer = bar.outer_diameter, section = bar.section_diameter.value_or(outer);
+  if (section >= least_section * outer && section <= outer * (1.0 + slack_of_limit)) return;
+  auto const text = [](double x) { return fmt::format("{:.4g} mm", 1e3 * x); };
+  throw FileError(where_of(table, "section_diameter"),
+                  fmt::format("'section_diameter' is {}; of an outer diameter of {}, allowed is {} to {}",
+                              text(section), text(outer), text(least_section * outer), text(outer)));
+}
+
 thermal::Body with_capacity(thermal::Body body, double factor) {
   for (double& capacity : body.capacities) capacity *= factor;
   return body;
@@ -152,6 +165,7 @@ void Bodies::read_bars(Tables& tables) {
   for (auto const& [d, table] : tables.read<BarDescription>("bar"))
     located(*table, [&, &d = d, table = table] {
       claim_cells(*table, d.name, d.cells);
+      check_section(*table, d);
       thermal::Bar bar{material(d.material), d.origin,         d.axis(), d.length,
                        d.outer_diameter,     d.inner_diameter, {},       d.cells};
       if (d.section_diameter) bar.section_area = M_PI / 4.0 * *d.section_diameter * *d.section_diameter;

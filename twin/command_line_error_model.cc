@@ -38,7 +38,7 @@ void FitCommand::add_to(CLI::App& command) {
   command.add_option("runs", fit.runs, "data sets (.h5), tables (.csv) or measurement files (.toml)")->required();
   command.add_option("--error", fit.error, "displacement to explain, or \"slope z\" of axis z's error")
       ->capture_default_str();
-  command.add_option("--sensors", fit.sensors, "temperatures to explain it by; default: all without a missing reading")
+  command.add_option("--sensors", fit.sensors, "temperatures to explain it by; default: all that lack few readings")
       ->delimiter(',');
   command
       .add_option("--method", fit.method,
@@ -79,6 +79,7 @@ void PredictCommand::operator()() const {
   auto read = runs;
   read.emplace_back(model);
   refuse_to_overwrite(output, {}, read);
+  refuse_to_replace_other_table(output);
   if (!output.empty() && runs.size() > 1)
     throw thermal::InputError(
         fmt::format("--output {} takes the prediction of one run; {} are given", output, runs.size()));

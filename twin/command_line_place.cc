@@ -1,17 +1,21 @@
 #include "twin/command_line_place.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
 #include "output/atomic_file.h"
 #include "output/node_fields.h"
 #include "output/picture.h"
+#include "scenarios/course.h"
+#include "thermal/course_inputs.h"
 #include "thermal/units.h"
 #include "twin/command_line_number.h"
 #include "twin/experiment_file.h"
 #include "twin/file/output_path.h"
 #include "twin/file_kind.h"
+#include "twin/history.h"
 #include "twin/machine.h"
 #include "twin/placement/sensor_placement.h"
 #include "twin/progress.h"
@@ -65,7 +69,7 @@ CLI::App* PlaceCommand::add_to(CLI::App& app, std::atomic<bool> const& stop) {
   return command;
 }
 
-/// At the commas outside of brackets: "T1,column.x_max[20 mm, 30 mm]".
+/// At the commas outside of brackets: "T1,column.x_max[20 mm, 30 mm]". Nothing is proposed by nothing.
 std::vector<std::string> split(std::vector<std::string> const& texts) {
   std::vector<std::string> parts;
   for (auto const& text : texts) {
@@ -78,21 +82,40 @@ std::vector<std::string> split(std::vector<std::string> const& texts) {
       else if (c != ' ' || !parts.back().empty())
         parts.back() += c;
     }
+    if (std::find(parts.begin(), parts.end(), "") != parts.end())
+      throw thermal::InputError(fmt::format("--propose '{}': names with commas between them are due", text));
   }
-  std::erase(parts, "");
   return parts;
 }
 
-std::vector<scenarios::Experiment> read_all(std::vector<std::string> const& names) {
+/// Those that the machine can be put through; a complaint says which it is.
+std::vector<scenarios::Experiment> read_all(std::vector<std::string> const& names, Machine const& machine) {
   std::vector<scenarios::Experiment> experiments;
   for (auto const& name : names) {
     auto const path = experiment_file(name);
-    experiments.push_back(read_experiment(read_toml(path), path));
+    Value const document = read_toml(path);
+    experiments.push_back(read_experiment(document, path));
+    try {
+      check_laser(machine, experiments.back());
+      scenarios::ExperimentCourse const course(experiments.back(), machine.limits);
+      thermal::CourseInputs const inputs(machine.network(), course);
+    } catch (thermal::InputError const& error) {
+      throw thermal::InputError(fmt::format("'{}': {}", name, located_in(document, error).what()));
+    }
   }
   return experiments;
 }
 
+void refuse_repeated(char const* option, std::vector<std::string> const& names) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (experiment_file(names[i]) == experiment_file(names[k]))
+        throw thermal::InputError(fmt::format("{}: '{}' is given twice", option, names[i]));
+}
+
 void PlaceCommand::check_spectra() const {
+  refuse_repeated("--experiments", experiments);
+  refuse_repeated("--hold-out", unseen);
   for (auto const& name : unseen)
     for (auto const& decides : experiments)
       if (experiment_file(name) == experiment_file(decides))
@@ -147,8 +170,8 @@ void PlaceCommand::operator()() {
   options.noise = option_quantity("--noise", noise, thermal::dimension::temperature_difference);
   options.proposed = split(proposed);
   if (trained) options.teacher = Teacher::machine;
-  options.design.experiments = read_all(experiments);
-  options.unseen = read_all(unseen);
+  options.design.experiments = read_all(experiments, built);
+  options.unseen = read_all(unseen, built);
   options.map = !fields.empty() || !picture.empty() || !folder.empty();
   for (auto const& target : {folder, fields})
     if (!target.empty()) output::require_empty(target);

@@ -22,6 +22,7 @@
 #include "twin/run.h"
 #include "twin/setting.h"
 #include "twin/summary.h"
+#include "twin/uncertain_range.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -118,12 +119,15 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   auto const preliminary = read_experiment(experiment_document, experiment_path);
   auto const path = machine.empty() ? machine_of(preliminary, experiment_path) : machine_file(machine);
   machine_document = read_toml(path);
+  Value const as_written = machine_document;
+  refuse_repeated(settings_in(fmt::format("{}", fmt::join(settings, "\n"))));
   for (auto const& text : settings) apply(setting(text), machine_document, experiment_document);
   auto const programme = read_experiment(experiment_document, experiment_path);
   for (auto const& text : settings) refuse_replaced(setting(text), programme);
   check_outputs(path, experiment_path, programme);
   Machine const built = Machine::build(machine_document);
-  auto const in_files = [&](auto action) {  // what it complains of gets its place in one of the two
+  static_cast<void>(ranged_numbers(as_written));  // a setting may leave its range
+  auto const in_files = [&](auto action) {        // what it complains of gets its place in one of the two
     try {
       return action();
     } catch (FileError const&) {
@@ -162,6 +166,8 @@ void RunCommand::operator()(std::atomic<bool> const& stop) const {
   }
   auto const result = in_files([&] { return run(built, programme, options); });
   progress.reset();
+  if (auto const remark = balance_remark(result.summary); !quiet && !remark.empty())
+    tell(fmt::format("warning: {}\n", remark));
   if (options.dataset) remove_stale_checkpoint(*options.dataset);
   if (json)
     fmt::print("{}", summary_json(built, result));

@@ -21,7 +21,8 @@ namespace thermotwin::twin {
 namespace dimension = thermal::dimension;
 inline constexpr double required = std::numeric_limits<double>::quiet_NaN();
 inline constexpr Range positive{0.0, std::numeric_limits<double>::infinity()};
-inline constexpr Range above_zero{0.0, std::numeric_limits<double>::infinity(), true};
+inline constexpr Range above_zero = positive.above_zero();
+inline constexpr Range share_range = Range{0.0, 1.0}.up_to(1.0);  ///< of what is shared out, and cannot be more
 
 constexpr double rpm(double number) { return number * (2.0 * std::numbers::pi) / 60.0; }  ///< [rad/s]
 
@@ -58,7 +59,8 @@ struct AxisDescription {
   static void fields(Fields& f) {
     f.name("name", &AxisDescription::name, "x, y, z or another");
     f("rapid_feed", &AxisDescription::rapid_feed, dimension::speed, "100 % of a feed programme", plausible_rapid_feed);
-    f("lead", &AxisDescription::lead, dimension::length, "travel per revolution of the screw", plausible_lead);
+    f("lead", &AxisDescription::lead, dimension::length, "travel per revolution of the screw",
+      plausible_lead.above_zero());
     f("stroke_from", &AxisDescription::stroke_from, dimension::length, "first end of the nut's stroke on the screw",
       plausible_length);
     f("stroke_to", &AxisDescription::stroke_to, dimension::length, "other end of the nut's stroke", plausible_length);
@@ -147,7 +149,7 @@ struct LineDescription {
 
 inline constexpr char const* capacity_factor_means =
     "of what the drawing gives, for what it does not show: bores, nuts, a clamped tool";
-inline constexpr Range plausible_capacity_factor{0.3, 3.0, true};
+inline constexpr Range plausible_capacity_factor = Range{0.3, 3.0}.above_zero();
 
 /// `[[bar]]`: heat flows along it only: a shaft, a screw, a test bar.
 struct BarDescription : LineDescription, CarriedDescription {
@@ -165,7 +167,8 @@ struct BarDescription : LineDescription, CarriedDescription {
     f("outer_diameter", &BarDescription::outer_diameter, dimension::length, "of the surface", plausible_diameter);
     f("inner_diameter", &BarDescription::inner_diameter, dimension::length, "of a bore", plausible_diameter);
     f("section_diameter", &BarDescription::section_diameter, dimension::length,
-      "solid section of equal area, for threads; default: from outer and inner diameter", plausible_diameter);
+      "solid section of equal area, for threads; default: from outer and inner diameter",
+      plausible_diameter.above_zero());
     f("capacity_factor", &BarDescription::capacity_factor, dimension::dimensionless, capacity_factor_means,
       plausible_capacity_factor);
     f("cells", &BarDescription::cells, "along the bar", Range{1, 1e6});

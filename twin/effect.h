@@ -88,12 +88,16 @@ struct Effect : EffectText {
 /// The entry of this name; InputError with the nearest one if there is none.
 [[nodiscard]] Effect const& effect(std::string_view name);
 
-/// Makes an entry of a struct with `std::string name`, a list of `fields` and `void add_to(Assembly&) const`.
+/// Makes an entry of a struct with `std::string name`, a list of `fields` and `void add_to(Assembly&) const`; a
+/// `void check(Value const& table) const` throws a FileError where its keys contradict one another.
 template <class T>
 Effect make_effect(EffectText text, std::vector<Trial> trials = {}) {
   class PartOf final : public Part {
    public:
-    explicit PartOf(Value const& table) { read_fields(table, part_); }
+    explicit PartOf(Value const& table) {
+      read_fields(table, part_);
+      if constexpr (requires { part_.check(table); }) part_.check(table);
+    }
     [[nodiscard]] std::string const& name() const override { return part_.name; }
     void add_to(Assembly& assembly) const override { part_.add_to(assembly); }
 

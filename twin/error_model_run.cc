@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "output/dataset_file.h"
 #include "thermal/error.h"
@@ -23,20 +24,33 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using thermal::InputError;
 
-output::Channel const& channel_named(std::vector<output::Channel> const& group, std::string const& name,
-                                     std::string const& file, char const* kind) {
-  if (auto const* channel = find_channel(group, name)) return *channel;
-  auto const known = names_of(group);
-  throw InputError(fmt::format("{} has no {} '{}'; {}", file, kind, name, thermal::did_you_mean(name, known)));
+/// What a run has in place of a name that it lacks. One that is asked for beside it is not what was meant.
+std::string instead_of(std::string const& name, std::vector<output::Channel> const& group,
+                       std::vector<std::string> const& asked) {
+  auto const there = names_of(group);
+  auto free = there;
+  std::erase_if(free, [&](auto const& other) { return std::find(asked.begin(), asked.end(), other) != asked.end(); });
+  if (free.empty() && !there.empty()) return fmt::format("it has {}", fmt::join(there, ", "));
+  return thermal::did_you_mean(name, free);
 }
 
-output::Channel const& sensor_named(output::Dataset const& data, std::string const& name, std::string const& file) {
-  return channel_named(data.readings, name, file, "sensor");
+output::Channel const& sensor_named(output::Dataset const& data, std::string const& name,
+                                    std::vector<std::string> const& asked, std::string const& file) {
+  if (auto const* sensor = find_channel(data.readings, name)) return *sensor;
+  if (auto const* other = find_channel(data.displacements, name))
+    throw InputError(fmt::format("{} has no sensor '{}': it is there in {}", file, name, other->unit));
+  throw InputError(fmt::format("{} has no sensor '{}'; {}", file, name, instead_of(name, data.readings, asked)));
 }
 
 output::Channel const& displacement_named(output::Dataset const& data, std::string const& name,
                                           std::string const& file) {
-  return channel_named(data.displacements, name, file, "displacement");
+  if (auto const* displacement = find_channel(data.displacements, name)) return *displacement;
+  if (name.find(',') != std::string::npos)
+    throw InputError(fmt::format("'{}': a model is of one error; name one at a time", name));
+  if (auto const* other = find_channel(data.readings, name))
+    throw InputError(fmt::format("{} has no displacement '{}': it is there in {}", file, name, other->unit));
+  throw InputError(
+      fmt::format("{} has no displacement '{}'; {}", file, name, instead_of(name, data.displacements, {})));
 }
 
 /// Units and titles are those of the record; dataset_of() gives numbers in µm and µrad.
@@ -69,17 +83,72 @@ MeasuredRun without_machine(MeasuredData const& data) {
   return run;
 }
 
+/// Which of these rows lack a value, counted in them.
+std::vector<Index> lacking(output::Channel const& channel, std::vector<Index> const& rows) {
+  std::vector<Index> without;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!std::isfinite(channel.values[rows[i]])) without.push_back(Index(i));
+  return without;
+}
+
+/// Since the first of these rows that has a value; 0 where there is none.
+VectorXd changes_of(output::Channel const& channel, std::vector<Index> const& rows) {
+  VectorXd const values = channel.values(rows);
+  auto const first = std::find_if(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  double const zero = first == values.end() ? 0.0 : *first;
+  return values.unaryExpr([&](double value) { return std::isfinite(value) ? value - zero : 0.0; });
+}
+
 /// Changes of sensors and error since the first of these rows.
 void take_changes(output::Dataset const& data, std::string const& error, std::vector<Index> const& rows,
                   models::Batch& batch) {
-  auto const change = [&](output::Channel const& channel) {
-    return VectorXd(channel.values(rows).array() - channel.values[rows.front()]);
-  };
   batch.temperature_rise.resize(Index(rows.size()), Index(batch.sensors.size()));
   for (std::size_t j = 0; j < batch.sensors.size(); ++j)
-    batch.temperature_rise.col(Index(j)) = change(sensor_named(data, batch.sensors[j], batch.name));
-  batch.error = VectorXd::Zero(Index(rows.size()));
-  if (find_channel(data.displacements, error)) batch.error = change(displacement_named(data, error, batch.name));
+    batch.temperature_rise.col(Index(j)) =
+        changes_of(sensor_named(data, batch.sensors[j], batch.sensors, batch.name), rows);
+  auto const* shown = find_channel(data.displacements, error);
+  batch.error = shown ? changes_of(*shown, rows) : VectorXd(VectorXd::Zero(Index(rows.size())));
+}
+
+/// A run in these rows of its record, in which all sensors have a value.
+ErrorModelRun run_in_rows(RecordedRun const& run, std::vector<std::string> const& sensors, std::string const& error,
+                          std::vector<Index> const& rows) {
+  auto const& data = run.shown;
+  ErrorModelRun result;
+  result.rows = rows;
+  auto& batch = result.batch;
+  batch = {run.file, data.time_s(rows), sensors, sensors, {}, {}};
+  take_changes(data, error, rows, batch);
+  for (auto const& sensor : sensors)
+    result.zero.push_back(std::round(1e3 * find_channel(data.readings, sensor)->values[rows.front()]) / 1e3);
+  if (run.said) {
+    result.said = batch;
+    take_changes(*run.said, error, rows, *result.said);
+  }
+  if (error.starts_with(slope_prefix)) {
+    auto const axis = error.substr(slope_prefix.size());
+    result.axis = axis_record(batch, laser_of(data.positioning, axis, run.file));
+    batch = models::slope_batch(*result.axis);
+    result.unit = "um/m";
+    result.title = fmt::format("of axis {}'s position error over its travel", axis);
+  } else if (auto const* shown = find_channel(data.displacements, error)) {
+    result.unit = shown->unit;
+    result.title = shown->long_name;
+    result.without_error = lacking(*shown, rows);
+    result.shown = result.without_error.size() < rows.size();
+  } else {
+    result.shown = false;
+  }
+  result.fingerprint = fingerprint_of(result);
+  return result;
+}
+
+/// What a fit would see of a run that shows the error in some of its rows.
+std::string fingerprint_of_complete(RecordedRun const& recorded, ErrorModelRun const& run, std::string const& error) {
+  std::vector<Index> complete;
+  for (Index const row : run.rows)
+    if (std::isfinite(find_channel(recorded.shown.displacements, error)->values[row])) complete.push_back(row);
+  return run_in_rows(recorded, run.batch.sensors, error, complete).fingerprint;
 }
 
 /// Sensors that never moved, and what they showed [°C].
@@ -134,36 +203,21 @@ RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<d
 ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& sensors, std::string const& error,
                               bool must_show) {
   auto const& data = run.shown;
-  bool const slope = error.starts_with(slope_prefix);
-  auto const axis = slope ? error.substr(slope_prefix.size()) : std::string();
   std::vector<output::Channel const*> used;
-  for (auto const& sensor : sensors) used.push_back(&sensor_named(data, sensor, run.file));
-  auto const* shown = slope ? nullptr : find_channel(data.displacements, error);
-  if (!slope && (shown || must_show)) used.push_back(&displacement_named(data, error, run.file));
-  ErrorModelRun result;
-  result.rows = complete_rows(used, run.file, run.remarks);
-  auto const& rows = result.rows;
-  auto& batch = result.batch;
-  batch = {run.file, data.time_s(rows), sensors, sensors, {}, {}};
-  take_changes(data, error, rows, batch);
-  for (std::size_t j = 0; j < sensors.size(); ++j)
-    result.zero.push_back(std::round(1e3 * used[j]->values[rows.front()]) / 1e3);
-  if (run.said) {
-    result.said = batch;
-    take_changes(*run.said, error, rows, *result.said);
-  }
-  if (slope) {
-    result.axis = axis_record(batch, laser_of(data.positioning, axis, run.file));
-    batch = models::slope_batch(*result.axis);
-    result.unit = "um/m";
-    result.title = fmt::format("of axis {}'s position error over its travel", axis);
-  } else if (shown) {
-    result.unit = shown->unit;
-    result.title = shown->long_name;
-  }
-  result.shown = slope || shown;
-  result.fingerprint = fingerprint_of(result);
+  for (auto const& sensor : sensors) used.push_back(&sensor_named(data, sensor, sensors, run.file));
+  if (must_show && !error.starts_with(slope_prefix)) used.push_back(&displacement_named(data, error, run.file));
+  auto result = run_in_rows(run, sensors, error, complete_rows(used, run.file, run.remarks));
+  if (!result.shown || result.without_error.empty()) return result;
+  result.fingerprint = fingerprint_of_complete(run, result, error);
+  run.remarks.push_back(fmt::format("{} of {} rows show no {}; the others are judged", result.without_error.size(),
+                                    result.rows.size(), error));
   return result;
+}
+
+Index ErrorModelRun::first_with_error() const {
+  std::size_t first = 0;
+  while (first < without_error.size() && without_error[first] == Index(first)) ++first;
+  return Index(first);
 }
 
 void RecordedRun::admit_observer(std::string const& observed) {

@@ -41,9 +41,10 @@ struct RecordedRun {
 [[nodiscard]] RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<double> sampling,
                                             Machine const* twin = nullptr);
 
-/// A run as error models see it, temperatures and errors counted from the first row that has all of them.
+/// A run as error models see it, temperatures counted from the first row that has all of them.
 struct ErrorModelRun {
-  models::Batch batch;                        ///< as shown; error 0 where the run did not show it
+  models::Batch batch;                        ///< as shown; error 0 where the run did not show it, else counted from
+                                              ///< the first row that has it
   std::optional<models::Batch> said;          ///< by the twin, where there is one
   std::optional<Eigen::VectorXd> observed{};  ///< error that an observer tells, where there is one
   std::optional<models::AxisRecord> axis;     ///< where the error is a slope
@@ -51,15 +52,20 @@ struct ErrorModelRun {
   std::string unit, title;                    ///< of the error
   std::vector<double> zero;                   ///< what the sensors showed first, to 1 mK [°C]
   std::string fingerprint;
-  std::vector<Eigen::Index> rows{};  ///< of the record
+  std::vector<Eigen::Index> rows{};           ///< of the record
+  std::vector<Eigen::Index> without_error{};  ///< rows of the batch in which the run does not show the error
+
+  /// Row of the batch in which an error is 0, where the run shows one: the first that has it.
+  [[nodiscard]] Eigen::Index first_with_error() const;
 
   /// What the twin errs by. There must be one.
   [[nodiscard]] models::Batch less_twin() const;
 };
 
 /// These sensors of a run, and its error: a displacement channel or "slope z". Rows that lack one of them are left out,
-/// and a remark says so. InputError with the nearest name for a sensor that the run does not have, or that is dead; for
-/// the error too where it must be shown.
+/// and a remark says so; those that lack the error only where it must be shown. The fingerprint is of the rows that
+/// have all of them, as a fit sees them. InputError with the nearest name for a sensor that the run does not have, or
+/// that is dead; for the error too where it must be shown.
 [[nodiscard]] ErrorModelRun error_model_run(RecordedRun& run, std::vector<std::string> const& sensors,
                                             std::string const& error, bool must_show);
 

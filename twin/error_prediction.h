@@ -18,12 +18,14 @@ struct ErrorPrediction {
   bool seen_before = false;   ///< the model was fitted to these very data
   std::vector<std::string> remarks;
 
-  /// As the run showed it, likewise.
+  /// As the run showed it, likewise; NaN where it did not.
   [[nodiscard]] Eigen::MatrixXd shown() const;
 };
 
 /// The inputs are found by name. InputError for a run that lacks one, or shows the error in another unit; a run of
-/// another machine than those that the model was fitted to, and inputs that leave their range there, are remarked.
+/// another machine than those that the model was fitted to, inputs that leave their range there, and a first row that
+/// seems to be an outlier are remarked. An error that begins after the run's first row counts from what the model says
+/// to have changed by then.
 [[nodiscard]] ErrorPrediction predict_error(SavedErrorModel const& saved, std::filesystem::path const& run);
 
 /// RMSE, MAE, bias (mean of shown less predicted) and largest of what is left, beside the same of the error itself.
@@ -33,7 +35,11 @@ struct ErrorPrediction {
 [[nodiscard]] std::string predictions_json(SavedErrorModel const& saved,
                                            std::vector<ErrorPrediction> const& predictions);
 
-/// time_s, error, predicted; of a slope with position_mm, and a row per pass and position.
+/// time_s, error, predicted; of a slope with position_mm, and a row per pass and position. A cell is empty where the
+/// run does not show the error, or the model does not claim to predict it.
 [[nodiscard]] std::string prediction_csv(ErrorPrediction const& prediction);
+
+/// InputError where the table would take the place of a file that is no such table; an empty one may go.
+void refuse_to_replace_other_table(std::filesystem::path const& output);
 
 }  // namespace thermotwin::twin

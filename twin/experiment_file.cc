@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "scenarios/programmed_channels.h"
 #include "thermal/nearest_name.h"
 #include "twin/file/document.h"
 #include "twin/file/shipped_file.h"
@@ -48,6 +49,45 @@ Value const* entry_of(Value::List const& list, int index, std::string& path) {
   return found == list.end() ? nullptr : &*found;
 }
 
+/// The paths of what stands in an experiment's tables: "spindle.cycles", "axes.0.blocks".
+std::vector<std::string> written_paths(Value const& document) {
+  std::vector<std::string> paths;
+  auto const add = [&](Value const& table, std::string const& prefix) {
+    for (auto const& key : table.keys()) paths.push_back(prefix + key);
+  };
+  for (auto const& [key, where, value] : std::get<Value::Table>(document.content)) {
+    if (value.is_table()) add(value, key + ".");
+    if (!value.is_list()) continue;
+    auto const& items = std::get<Value::List>(value.content);
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (items[i].is_table()) add(items[i], fmt::format("{}.{}.", key, i));
+  }
+  return paths;
+}
+
+/// Whether a channel that a table drives follows another one, which an input programme drives: "z.feed" from "z.speed".
+bool is_driven_by(std::string const& input, std::string const& channel) {
+  auto const dot = channel.rfind(".feed");
+  return input == channel || (dot != std::string::npos && input == channel.substr(0, dot) + ".speed");
+}
+
+/// A table and an input programme for one channel: which of them is meant, nobody knows.
+void refuse_two_programmes(Value const& document, scenarios::Experiment const& experiment) {
+  if (experiment.inputs.empty()) return;
+  for (auto const& path : written_paths(document)) {
+    auto const channels = scenarios::programmed_channels(experiment, path);
+    std::size_t driven = 0, last = 0;
+    for (auto const& channel : channels)
+      for (std::size_t i = 0; i < experiment.inputs.size(); ++i)
+        if (is_driven_by(experiment.inputs[i].channel, channel)) ++driven, last = i;
+    if (channels.empty() || driven < channels.size()) continue;
+    throw thermal::InputError(
+        fmt::format("inputs[{}].channel: '{}' would stand in place of '{}', which is written, too; leave out one of "
+                    "them",
+                    last, experiment.inputs[last].channel, path));
+  }
+}
+
 }  // namespace
 
 thermal::InputError located_in(Value const& document, thermal::InputError const& error) {
@@ -85,6 +125,7 @@ scenarios::Experiment read_experiment(Value const& document, std::filesystem::pa
   try {
     scenarios::check(experiment);
     scenarios::check_readings(experiment);
+    refuse_two_programmes(document, experiment);
   } catch (FileError const&) {
     throw;
   } catch (thermal::InputError const& error) {

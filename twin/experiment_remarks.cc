@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <tuple>
 
 #include "scenarios/course.h"
 #include "scenarios/recorded.h"
@@ -15,18 +16,24 @@ namespace {
 
 constexpr double rounding_of_sum = 1e-9;  ///< of durations
 
+/// Those that its parts and displacements ask for.
+std::vector<std::string> channels_asked_for(Machine const& machine) {
+  auto const& network = machine.network();
+  std::vector<std::string> names(network.channel_names().begin(),
+                                 network.channel_names().begin() + network.external_channels());
+  for (auto const& displacement : machine.displacements)
+    for (auto const& term : displacement.input_terms) names.push_back(term.channel);
+  return names;
+}
+
 /// The channels that every experiment has, and those that the machine asks for.
-std::vector<std::string> channels_read(scenarios::Experiment experiment, Machine const& machine) {
+std::vector<std::string> channels_known(scenarios::Experiment experiment, Machine const& machine) {
   experiment.recorded.clear();
   experiment.inputs.clear();
   experiment.driven.clear();
   scenarios::ExperimentCourse const own(experiment, machine.limits);
-  auto const& network = machine.network();
-  std::vector<std::string> names(network.channel_names().begin(),
-                                 network.channel_names().begin() + network.external_channels());
+  auto names = channels_asked_for(machine);
   for (auto const& channel : own.channels()) names.push_back(channel.name);
-  for (auto const& displacement : machine.displacements)
-    for (auto const& term : displacement.input_terms) names.push_back(term.channel);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
@@ -36,7 +43,10 @@ std::vector<std::string> channels_read(scenarios::Experiment experiment, Machine
 class OddityFinder {
  public:
   OddityFinder(scenarios::Experiment const& experiment, Machine const& machine)
-      : experiment_(experiment), machine_(machine), read_(channels_read(experiment, machine)) {}
+      : experiment_(experiment),
+        machine_(machine),
+        known_(channels_known(experiment, machine)),
+        asked_for_(channels_asked_for(machine)) {}
 
   std::vector<std::string> operator()() {
     look_at_sampling();
@@ -44,6 +54,9 @@ class OddityFinder {
     look_at_inputs();
     look_at_spindle();
     look_at_axes();
+    look_at_laser();
+    look_at_doors();
+    look_at_settings();
     look_at_switch("coolant", experiment_.coolant.blocks, experiment_.coolant.on);
     look_at_switch("chiller", experiment_.chiller.blocks, experiment_.chiller.on);
     look_at_switch("power", experiment_.power.blocks, experiment_.power.on);
@@ -68,7 +81,8 @@ class OddityFinder {
     auto const driven = scenarios::driven_channels(recorded, tables);
     std::size_t next = 0;
     for (std::size_t r = 0; r < recorded.size(); ++r) {
-      if (!tables[r].clock_remark.empty()) found_.push_back(tables[r].clock_remark);
+      for (auto const& remark : {tables[r].clock_remark, tables[r].repeats_remark})
+        if (!remark.empty()) found_.push_back(remark);
       look_at_end_of_record(r, tables[r].times);
       for (std::size_t c = 0; c < recorded[r].columns.size(); ++c) {
         std::string const column = fmt::format("recorded[{}].columns[{}].", r, c);
@@ -99,6 +113,7 @@ class OddityFinder {
   void look_at_spindle() {
     if (!experiment_.spindle) return;
     auto const& spindle = *experiment_.spindle;
+    look_for_reader("spindle", "spindle.");
     look_at_blocks("spindle.blocks", spindle.blocks, spindle.cycles);
     look_at_changes("spindle", scenarios::spindle_speed(spindle, machine_.limits, experiment_.duration));
   }
@@ -107,6 +122,7 @@ class OddityFinder {
   void look_at_axes() {
     for (std::size_t a = 0; a < experiment_.axes.size(); ++a) {
       auto programme = experiment_.axes[a];
+      look_for_reader(fmt::format("axes[{}].axis", a), programme.axis + ".");
       look_at_blocks(fmt::format("axes[{}].blocks", a), programme.blocks, programme.cycles);
       auto const axis = std::find_if(machine_.limits.axes.begin(), machine_.limits.axes.end(),
                                      [&](auto const& one) { return one.name == programme.axis; });
@@ -115,6 +131,55 @@ class OddityFinder {
                       scenarios::axis_motion(programme, *axis, experiment_.duration).feed,
                       ", or one block with a `duty`,");
     }
+  }
+
+  /// Of all the channels that begin so.
+  void look_for_reader(std::string const& path, std::string const& channel) {
+    bool const read = std::any_of(asked_for_.begin(), asked_for_.end(),
+                                  [&](std::string const& name) { return name.starts_with(channel); });
+    if (!read)
+      found_.push_back(fmt::format("{}: nothing on '{}' reads '{}'; it changes nothing", path, machine_.name,
+                                   channel.ends_with('.') ? channel + "…" : channel));
+  }
+
+  /// What is switched to and fro is let be: so one looks for what the machine's file lacks.
+  void look_at_settings() {
+    auto const& [coolant, chiller, power, servo] =
+        std::tie(experiment_.coolant, experiment_.chiller, experiment_.power, experiment_.servo);
+    if (coolant.blocks.empty() && coolant.on) look_for_reader("coolant.on", "coolant.on");
+    if (coolant.blocks.empty() && coolant.temperature != scenarios::Coolant().temperature)
+      look_for_reader("coolant.temperature", "coolant.temperature");
+    if (chiller.blocks.empty() && !chiller.on) look_for_reader("chiller.on", "chiller.on");
+    if (chiller.blocks.empty() && chiller.offset != 0.0) look_for_reader("chiller.offset", "chiller.offset");
+    if (power.blocks.empty() && !power.on) look_for_reader("power.on", "machine.on");
+    if (servo.blocks.empty() && !servo.on) look_for_reader("servo.on", "servo.on");
+  }
+
+  /// Targets count from the start of the stroke.
+  void look_at_laser() {
+    if (!experiment_.laser) return;
+    auto const& laser = *experiment_.laser;
+    auto const length = [](double x) { return thermal::format_quantity(x, thermal::dimension::length); };
+    for (auto const& axis : machine_.limits.axes) {
+      if (axis.name != laser.axis) continue;
+      double const stroke = axis.stroke_to - axis.stroke_from;
+      auto const look = [&](std::string const& key, double target) {
+        if (target >= -rounding_of_sum && target <= stroke + rounding_of_sum) return;
+        found_.push_back(fmt::format("laser.{}: the target {} is outside the stroke of axis '{}', 0 mm to {}", key,
+                                     length(target), axis.name, length(stroke)));
+      };
+      auto const targets = scenarios::targets(laser);
+      look("from", targets.front());
+      if (targets.size() > 1) look("to", targets.back());
+    }
+  }
+
+  void look_at_doors() {
+    auto const& doors = experiment_.ambient.door_openings;
+    for (std::size_t d = 0; d < doors.size(); ++d)
+      if (doors[d].time >= experiment_.duration)
+        found_.push_back(fmt::format("ambient.door_openings[{}].time: it opens at {}, and the run ends at {}", d,
+                                     text(doors[d].time), text(experiment_.duration)));
   }
 
   void look_at_switch(std::string const& name, std::vector<scenarios::SwitchBlock> const& blocks, bool afterwards) {
@@ -139,9 +204,9 @@ class OddityFinder {
   }
 
   void look_at_channel(std::string const& path, std::string const& channel) {
-    if (std::binary_search(read_.begin(), read_.end(), channel)) return;
+    if (std::binary_search(known_.begin(), known_.end(), channel)) return;
     found_.push_back(fmt::format("{}: nothing on '{}' reads '{}'; {}", path, machine_.name, channel,
-                                 thermal::did_you_mean(channel, read_)));
+                                 thermal::did_you_mean(channel, known_)));
   }
 
   template <class Block>
@@ -155,7 +220,8 @@ class OddityFinder {
 
   scenarios::Experiment const& experiment_;
   Machine const& machine_;
-  std::vector<std::string> read_;  ///< in order
+  std::vector<std::string> known_;  ///< in order
+  std::vector<std::string> asked_for_;
   std::vector<std::string> found_;
 };
 

@@ -103,6 +103,22 @@ void doubt_masses(Value const& document, std::vector<std::string>& found) {
   }
 }
 
+/// A nut and its axis tell the same screw's lead: the axis' turns it, the nut's takes part in its friction.
+void doubt_leads(Value const& document, std::vector<std::string>& found) {
+  Tables const tables(document);
+  for (auto const& axis : tables.of("axis"))
+    for (auto const& nut : tables.of("ball_nut")) {
+      auto const driven_by = texts_of(nut, "axis");
+      if (name_in(axis) != (driven_by.empty() ? "z" : driven_by[0])) continue;
+      double const of_axis = number_in(axis, "lead", dimension::length).value();
+      double const of_nut = number_in(nut, "lead", dimension::length).value();
+      if (std::abs(of_nut - of_axis) > 1e-6 * of_axis)
+        found.push_back(fmt::format("{}: 'lead' is {}; axis '{}', whose screw it runs on, has a lead of {}",
+                                    nut.find("lead")->where.text(), nut.find("lead")->text(), name_in(axis),
+                                    axis.find("lead")->text()));
+    }
+}
+
 /// Sensitivities may divide what is counted; a file may not.
 void check_counts(Value const& machine) {
   for (auto const& [kind, where, value] : std::get<Value::Table>(machine.content))
@@ -305,6 +321,7 @@ void FileChecker::read_machine(std::filesystem::path const& file, Value const& d
   find_misspelt_inputs(document, machine, check.warnings);
   doubt_turning_sensors(document, check.warnings);
   doubt_masses(document, check.warnings);
+  doubt_leads(document, check.warnings);
   check.text = fmt::format("the machine {}: {}, {}, {}, {}", machine.name,
                            counted(std::size_t(machine.network().nodes()), "node"),
                            counted(machine.network().parts().size(), "part"), counted(machine.sensors.size(), "sensor"),

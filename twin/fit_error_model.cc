@@ -1,6 +1,7 @@
 #include "twin/fit_error_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <limits>
@@ -25,18 +26,33 @@ bool observes(TwinObserver const& observer, std::string const& sensor) {
                      [&](auto const& input) { return input.sensor && input.name == sensor; });
 }
 
+constexpr double largest_missing_share_of_fit = 0.1;  ///< as in studies
+
+/// Rows of which something could be learnt: with the error, and at least one sensor.
+Eigen::ArrayX<bool> rows_to_learn_from(output::Dataset const& shown, std::string const& error) {
+  Eigen::ArrayX<bool> any = Eigen::ArrayX<bool>::Constant(shown.time_s.size(), false);
+  for (auto const& channel : shown.readings) any = any || channel.values.array().isFinite();
+  if (auto const* channel = find_channel(shown.displacements, error)) any = any && channel->values.array().isFinite();
+  return any;
+}
+
 /// Why a run's sensor is not for a model of all sensors; empty: it is.
-std::string unusable(output::Dataset const& shown, std::string const& sensor, TwinObserver const* observer) {
+std::string unusable(output::Dataset const& shown, std::string const& sensor, std::string const& error,
+                     TwinObserver const* observer) {
   auto const it =
       std::find_if(shown.readings.begin(), shown.readings.end(), [&](auto const& c) { return c.name == sensor; });
   if (it == shown.readings.end()) return "it is not there";
   if (observer && !observes(*observer, sensor)) return "the twin does not have it on a body";
-  auto const missing = (!it->values.array().isFinite()).count();
-  if (missing == it->values.size()) return "it is dead";
-  return missing > 0 ? fmt::format("{} of {} readings are missing", missing, it->values.size()) : std::string();
+  Eigen::ArrayX<bool> const missing = !it->values.array().isFinite(), asked = rows_to_learn_from(shown, error);
+  if (missing.all()) return "it is dead";
+  auto const lacking = (missing && asked).count();
+  if (double(lacking) <= largest_missing_share_of_fit * double(asked.count())) return {};
+  return fmt::format("{} of {} readings are missing, more than {:g} %", lacking, asked.count(),
+                     100.0 * largest_missing_share_of_fit);
 }
 
-std::vector<std::string> usable_sensors(std::vector<RecordedRun>& runs, TwinObserver const* observer) {
+std::vector<std::string> usable_sensors(std::vector<RecordedRun>& runs, std::string const& error,
+                                        TwinObserver const* observer) {
   std::vector<std::string> sensors;  // of any run
   for (auto const& run : runs)
     for (auto const& channel : run.shown.readings)
@@ -48,7 +64,7 @@ std::vector<std::string> usable_sensors(std::vector<RecordedRun>& runs, TwinObse
                     runs.front().file));
   for (auto& run : runs)
     std::erase_if(sensors, [&](std::string const& sensor) {
-      auto const why = unusable(run.shown, sensor, observer);
+      auto const why = unusable(run.shown, sensor, error, observer);
       if (!why.empty()) run.remarks.push_back(fmt::format("{} is left out: {}", sensor, why));
       return !why.empty();
     });
@@ -56,7 +72,7 @@ std::vector<std::string> usable_sensors(std::vector<RecordedRun>& runs, TwinObse
   std::vector<std::string> why;
   for (auto const& run : runs)
     for (auto const& remark : run.remarks) why.push_back(run.file + ": " + remark);
-  throw thermal::InputError(fmt::format("no sensor has all its readings in every run: {}", fmt::join(why, "; ")));
+  throw thermal::InputError(fmt::format("no sensor has its readings in every run: {}", fmt::join(why, "; ")));
 }
 
 void check_units(std::vector<ErrorModelRun> const& runs, std::string const& error) {
@@ -154,6 +170,50 @@ void fit_parts(SavedErrorModel& saved, std::vector<NamedModel> const& models, st
   if (!records.empty()) saved.zero_position = models::zero_position(records);
 }
 
+/// By how much the prediction changes with each input that shows 1 K more all along [unit/K].
+Eigen::VectorXd changes_per_kelvin(SavedErrorModel const& saved) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(Eigen::Index(saved.inputs().size()));
+  for (auto const& part : saved.parts)
+    if (auto const* linear = std::get_if<models::LinearForm>(&part.model.form); linear && part.reads())
+      if (!part.observer) sum += linear->coefficients.rowwise().sum();
+  return sum / double(saved.parts.size());
+}
+
+double rms_of_error(std::vector<ErrorModelRun> const& runs) {
+  double sum = 0.0, rows = 0.0;
+  for (auto const& run : runs) {
+    sum += run.batch.error.squaredNorm();
+    rows += double(run.batch.error.size());
+  }
+  return std::sqrt(sum / rows);
+}
+
+constexpr double usual_sensor_error = 0.1;  ///< [K]
+constexpr double times_the_rmse = 10.0, share_of_the_error = 0.1;
+
+/// What an error of the sensors does to the prediction, where that is more than ten times what the model errs by and a
+/// tenth of the error: coefficients that large cancel each other. Empty: it is not.
+std::string sensor_error_remark(SavedErrorModel const& saved, double error) {
+  Eigen::VectorXd const changes = usual_sensor_error * changes_per_kelvin(saved);
+  if (changes.norm() <= std::max(times_the_rmse * saved.rmse(), share_of_the_error * error)) return {};
+  Eigen::Index most = 0;
+  double const largest = changes.cwiseAbs().maxCoeff(&most);
+  return fmt::format(
+      "an error of {:g} K moves the prediction by {:.3g} {} in {} alone, by {:.3g} {} in each sensor at random; the "
+      "RMSE is {:.3g} {}: sensors that show nearly the same? Name fewer, or take a method with a penalty (ridge)",
+      usual_sensor_error, largest, saved.unit, saved.inputs()[std::size_t(most)], changes.norm(), saved.unit,
+      saved.rmse(), saved.unit);
+}
+
+/// What models say of data that they refuse, with the runs that these are; some say which by themselves.
+std::string refusal_of(std::vector<RecordedRun> const& runs, std::optional<double> sampling, std::string const& why) {
+  if (why.starts_with("batch '")) return why;
+  std::vector<std::string> files;
+  for (auto const& run : runs) files.push_back(run.file);
+  return fmt::format("{}{}: {}", fmt::join(files, ", "), sampling ? fmt::format(", means over {:g} s", *sampling) : "",
+                     why);
+}
+
 }  // namespace
 
 SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::string>& remarks) {
@@ -170,7 +230,8 @@ SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::strin
   for (auto const& file : fit.runs) recorded.push_back(read_recorded_run(file, fit.sampling, twin ? &*twin : nullptr));
   if (observing)
     for (auto& run : recorded) run.admit_observer(twin->name);
-  auto const sensors = fit.sensors.empty() ? usable_sensors(recorded, observing ? &*observing : nullptr) : fit.sensors;
+  auto const sensors =
+      fit.sensors.empty() ? usable_sensors(recorded, fit.error, observing ? &*observing : nullptr) : fit.sensors;
   std::vector<ErrorModelRun> runs;
   for (auto& run : recorded) runs.push_back(error_model_run(run, sensors, fit.error, true));
   check_units(runs, fit.error);
@@ -188,10 +249,11 @@ SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::strin
     fit_parts(saved, models, runs, observer, fit.seed);
     for (std::size_t r = 0; r < runs.size(); ++r) saved.runs.push_back(fitted_run(saved, runs[r], recorded[r].machine));
   } catch (std::invalid_argument const& error) {
-    throw thermal::InputError(error.what());
+    throw thermal::InputError(refusal_of(recorded, fit.sampling, error.what()));
   }
   for (auto const& run : recorded)
     for (auto const& remark : run.remarks) remarks.push_back(run.file + ": " + remark);
+  if (auto const remark = sensor_error_remark(saved, rms_of_error(runs)); !remark.empty()) remarks.push_back(remark);
   return saved;
 }
 

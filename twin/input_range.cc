@@ -3,18 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <vector>
 
 namespace thermotwin::twin {
 namespace {
 
-constexpr double tolerated_share = 0.1;  ///< of its width, beyond a range
+constexpr double tolerated_share = 0.1;      ///< of its width, beyond a range
+constexpr double coarsest_resolution = 0.5;  ///< [K] of sensors on machines: a DS18B20 of nine bits
+constexpr double round_off = 1e-9;           ///< [K] between the same readings
 
 double to_millikelvin(double change) { return std::round(1e3 * change) / 1e3; }
 
 }  // namespace
 
-bool InputRange::left_by(double change) const {
-  double const tolerated = tolerated_share * (highest - lowest);
+bool InputRange::left_by(double change, double step) const {
+  double const tolerated =
+      std::max(tolerated_share * (highest - lowest), (1.0 + tolerated_share) * step);  // readings are rounded
   return change < lowest - tolerated || change > highest + tolerated;
 }
 
@@ -27,6 +31,15 @@ std::vector<InputRange> input_ranges(std::vector<models::Batch> const& batches) 
       ranges[j].highest = std::max(ranges[j].highest, to_millikelvin(changes.maxCoeff()));
     }
   return ranges;
+}
+
+double reading_step(Eigen::VectorXd const& readings) {
+  std::vector<double> sorted(readings.begin(), readings.end());
+  std::sort(sorted.begin(), sorted.end());
+  double step = INFINITY;
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (double const apart = sorted[i] - sorted[i - 1]; apart > round_off) step = std::min(step, apart);
+  return step <= coarsest_resolution + round_off ? step : 0.0;
 }
 
 std::string range_left_text(std::string const& input, double change, InputRange const& range) {

@@ -283,6 +283,7 @@ void MachineBuilder::read_parts() {
       refuse_common_places(table, "on");
       if (entry->name == "film") check_fluid(table);
       part->add_to(assembly_);
+      axes_.check_nut(table, assembly_);
       check_terms();
     });
   }
@@ -544,6 +545,7 @@ Machine MachineBuilder::operator()() {
   read_reading_terms();
   assembly_.add_air_terms();
   build_network();
+  machine_.limits.shares = machine_.network_->shares();
   axes_.check_inputs(*machine_.network_);
   refuse_names_of_inputs();
   hang_bodies();

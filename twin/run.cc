@@ -305,6 +305,16 @@ void check_temperature(thermal::Network const& network, int node, double tempera
       hottest_temperature - thermal::zero_celsius));
 }
 
+std::string balance_remark(thermal::IntegrationSummary const& summary) {
+  double const imbalance = summary.energy_imbalance();
+  if (imbalance <= largest_imbalance || imbalance * summary.moved() <= least_gap) return "";
+  return fmt::format(
+      "the heat balance closes to {:.1e} only, where {:.0e} is due: the numbers of this run are not to be trusted; is "
+      "a "
+      "length, a mass or a conductance wrong by powers of ten?",
+      imbalance, largest_imbalance);
+}
+
 std::vector<double> initial_temperatures(Machine const& machine, scenarios::Experiment const& experiment,
                                          thermal::Course const& course) {
   std::vector<double> values(course.channels().size());

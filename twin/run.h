@@ -65,6 +65,13 @@ struct RunResult {
   std::vector<Extrapolated> extrapolated;  ///< if it was asked for
 };
 
+/// How far a run's heat balance may be open: a thousand times what it is with the numbers of any shipped machine; and
+/// what rounding leaves open where hardly any heat moves, 1e-7 J, a hundred times over [J].
+inline constexpr double largest_imbalance = 1e-9, least_gap = 1e-5;
+
+/// What is odd about a run's heat balance; empty: nothing.
+[[nodiscard]] std::string balance_remark(thermal::IntegrationSummary const& summary);
+
 /// Runs an experiment on a machine: temperatures, displacements, instruments, fields. InputError of check_temperature
 /// for any node at any time that is shown.
 [[nodiscard]] RunResult run(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options);

@@ -106,6 +106,12 @@ void apply(Setting const& setting, Value& machine, Value& experiment) {
   }
 }
 
+void refuse_repeated(std::vector<Setting> const& settings) {
+  for (auto here = settings.begin(); here != settings.end(); ++here)
+    if (std::any_of(settings.begin(), here, [&](Setting const& other) { return other.path == here->path; }))
+      throw thermal::InputError(fmt::format("parameter '{}' is set twice; leave out one of the two", here->path));
+}
+
 void refuse_replaced(Setting const& setting, scenarios::Experiment const& experiment) {
   if (!setting.of_experiment()) return;
   auto const channels = scenarios::programmed_channels(experiment, setting.path.substr(experiment_prefix.size()));

@@ -30,6 +30,9 @@ struct Setting {
 /// have need not be there yet. InputError with the nearest name.
 void apply(Setting const& setting, Value& machine, Value& experiment);
 
+/// InputError for a path that is given twice.
+void refuse_repeated(std::vector<Setting> const& settings);
+
 /// InputError for a setting of a programme that the experiment's recordings or input programmes replace, so that it
 /// would change nothing.
 void refuse_replaced(Setting const& setting, scenarios::Experiment const& experiment);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 #include <utility>
 
 #include "scenarios/course.h"
@@ -36,6 +37,19 @@ void require_on_screw(Value const& given, std::string const& key, double x, scen
   scenarios::require_on_screw(x, axis, fmt::format("'{}': ", key));
 } catch (InputError const& error) {
   throw FileError(given.where, error.what());
+}
+
+/// Each position is a channel of its own.
+void refuse_same_channels(Value const& table, BallScrewDescription const& description) {
+  Screw screw;
+  screw.description = description;
+  std::set<std::string> channels;
+  for (std::size_t i = 0; i < description.positions.size(); ++i) {
+    auto const channel = screw.channel_at(description.positions[i]);
+    if (!channels.insert(channel).second)
+      throw FileError(where_of_item(table, "positions", i),
+                      fmt::format("'positions' has two for which the channel is '{}'; one is due", channel));
+  }
 }
 
 }  // namespace
@@ -118,6 +132,20 @@ void StatedAxes::check_screw(Value const& table, BallScrewDescription const& scr
     require_on_screw(given.is_list() ? std::get<Value::List>(given.content)[i] : given, "positions", screw.positions[i],
                      own);
   }
+  refuse_same_channels(table, screw);
+}
+
+void StatedAxes::check_nut(Value const& table, Assembly const& assembly) const {
+  auto const length = number_in(table, "nut_length", thermal::dimension::length);
+  if (!length) return;
+  auto const screw = body_of(texts_of(table, "screw").at(0));
+  auto const& body = assembly.body(screw);
+  if (body.shape != thermal::Body::Shape::axial) return;
+  double const longest = length_of(body);
+  if (*length > longest)
+    throw FileError(where_of(table, "nut_length"),
+                    fmt::format("'nut_length' is {}; its screw '{}' is {} long", table.find("nut_length")->text(),
+                                screw, thermal::format_quantity(longest, thermal::dimension::length)));
 }
 
 std::vector<scenarios::AxisLimits> StatedAxes::limits_on_screws(std::vector<Screw> const& screws,

@@ -28,8 +28,10 @@ class StatedAxes {
   /// The same of inputs: "X.speed" where the axis is 'x', and those of the axis that a part has where none is given.
   /// Any other may be an experiment's own.
   void check_inputs(thermal::Network const& network) const;
-  /// A ball screw turns where the nuts of its axis run, and its positions are on it.
+  /// A ball screw turns where the nuts of its axis run, and its positions are on it, each another.
   void check_screw(Value const& table, BallScrewDescription const& screw, Assembly const& assembly) const;
+  /// A nut of a length is not longer than its screw.
+  void check_nut(Value const& table, Assembly const& assembly) const;
   /// As limits(), with screws as long as the shortest bar of an axis' nuts and ball screws; the strokes are on them.
   [[nodiscard]] std::vector<scenarios::AxisLimits> limits_on_screws(std::vector<Screw> const& screws,
                                                                     Assembly const& assembly) const;

@@ -84,6 +84,15 @@ INSTANTIATE_TEST_SUITE_P(
                 "unknown unit 'mn'; did you mean 'mm'?"},
         Mistake{"Negative", "mass = \"70 kg\"", "mass = \"-70 kg\"", "", "must not be negative"},
         Mistake{"Zero", "base = \"450 mm\"", "base = \"0 mm\"", "", "'base' is \"0 mm\"; it must be positive"},
+        Mistake{"NoDiameter", "pitch_diameter = \"90 mm\"", "pitch_diameter = \"0 mm\"", "",
+                "'pitch_diameter' is \"0 mm\"; it must be positive (plausible: 5 mm to 1 m)"},
+        Mistake{"ShareAboveOne", "oil = 22\n", "oil = 22\ninner_share = 1.5\n", "inner_share = 1.5",
+                "'inner_share' is 1.5; it must be at most 1 (plausible: 0 to 1)"},
+        Mistake{"MoreThanAllHeat", "loss = \"45 W\"", "loss = \"45 W\"\npulley_share = 0.8", "pulley_share",
+                "'pulley_share' 0.8 and 'motor_share' 0.325 are 1.125 of the heat; allowed is 1 in all"},
+        Mistake{"ContradictoryKeys", "conductance = \"18 W/K\"",
+                "conductance = \"18 W/K\"\ncoefficient = \"801 W/(m2 K)\"", "coefficient = \"801 W/(m2 K)\"",
+                "give either 'conductance' or 'coefficient', not both"},
         Mistake{"NoSpeed", "maximum_speed = \"6000 rpm\"", "maximum_speed = \"0 rpm\"", "",
                 "'maximum_speed' is \"0 rpm\"; it must be positive; a machine without a spindle has no [spindle]"},
         Mistake{"NoName", "name = \"v450\"", "name = \"\"  # none", "", "'' cannot be the name of a machine"},
@@ -120,6 +129,15 @@ INSTANTIATE_TEST_SUITE_P(
                 "500 mm is outside 'shaft', which is 420 mm long"},
         Mistake{"LoopNotClosed", "closure = \"-10 mm\"", "closure = \"0 mm\"", "[[displacement]]\nname = \"E_Z\"",
                 "does not close"},
+        Mistake{"EmptyRange", "[spindle]",
+                "[[uncertain]]\nname = \"joint.head.conductance\"\nfrom = \"12 W/K\"\nto = \"5 W/K\"\n[spindle]",
+                "from = \"12 W/K\"", "the range from '12 W/K' to '5 W/K' is empty"},
+        Mistake{"RangeOfNothing", "[spindle]",
+                "[[uncertain]]\nname = \"joint.haed.conductance\"\nfrom = \"5 W/K\"\nto = \"12 W/K\"\n[spindle]",
+                "name = \"joint.haed", "'head'"},
+        Mistake{"OutsideItsRange", "[spindle]",
+                "[[uncertain]]\nname = \"joint.head.conductance\"\nfrom = \"8 W/K\"\nto = \"12 W/K\"\n[spindle]",
+                "from = \"8 W/K\"", "outside its range from '8 W/K' to '12 W/K'"},
         Mistake{"Syntax", "name = \"v450\"", "name = \"v450", "", "is a quote missing at the end of the line?"}),
     [](auto const& info) { return info.param.name; });
 
@@ -195,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{"CoolRoom", "duration = \"10 min\"\n[spindle]\n",
                 "duration = \"10 min\"\nambient.mean = \"22 K\"\n[spindle]\n", "ambient.mean",
-                "'22 K' is -251.15 degC; allowed is -60 degC to 150 degC"},
+                "'22 K' is -251.15 degC; allowed is -50 degC to 80 degC"},
         Mistake{"FrozenRoom", "duration = \"10 min\"\n[spindle]\n",
                 "duration = \"10 min\"\nambient.mean = \"-55 degC\"\n[spindle]\n", "ambient.mean",
                 "-55 degC; allowed is -50 degC to 80 degC"},
@@ -209,6 +227,29 @@ INSTANTIATE_TEST_SUITE_P(
                 "blocks = [{duration = \"1 h\"", "allowed is -60 degC to 150 degC"},
         Mistake{"ColdRecord", "unit = \"degC\"", "unit = \"K\"", "",
                 "allowed is -50 degC to 80 degC; is its unit right?"},
+        Mistake{"SwitchThatIsMoreThanOn", "[[recorded]]",
+                "[[inputs]]\nchannel = \"machine.on\"\nblocks = [{duration = \"1 h\", value = \"5\"}]\n[[recorded]]",
+                "blocks = [{duration = \"1 h\"", "programme reaches 5; allowed is 0 (off) to 1 (on)"},
+        Mistake{"TwoDriversOfOneChannel", "[[recorded]]",
+                "[[inputs]]\nchannel = \"ambient.temperature\"\n"
+                "blocks = [{duration = \"1 h\", value = \"22 degC\"}]\n[[recorded]]",
+                "column = \"air_C\"", "channel 'ambient.temperature' is driven twice"},
+        Mistake{"LengthForASpeed", "[spindle]\nblocks = [{duration = \"10 min\", speed = \"2000 rpm\"}]\n",
+                "[[inputs]]\nchannel = \"spindle.speed\"\nblocks = [{duration = \"1 h\", value = \"5 m\"}]\n",
+                "blocks = [{duration = \"1 h\"", "programme is in m, the channel in rad/s, for example \"6000 rpm\""},
+        Mistake{"ProgrammeOfTwoKinds", "[[recorded]]",
+                "[[inputs]]\nchannel = \"pump.on\"\nblocks = [{duration = \"1 h\", value = \"1 rmp\"}]\n[[recorded]]",
+                "1 rmp", "inputs[0].blocks[0].value: '1 rmp': unknown unit"},
+        Mistake{"TwoProgrammes", "[[recorded]]",
+                "[[inputs]]\nchannel = \"spindle.speed\"\n"
+                "blocks = [{duration = \"1 h\", value = \"1000 rpm\"}]\n[[recorded]]",
+                "channel = \"spindle.speed\"", "'spindle.speed' would stand in place of 'spindle.blocks'"},
+        Mistake{"FallingShares", "blocks = [{duration = \"10 min\", speed = \"2000 rpm\"}]",
+                "random = {run = \"10 min\", lowest = 0.8, highest = 0.2}", "", "highest: 0.2 is below lowest, 0.8"},
+        Mistake{"OffsetOnTheScale", "unit = \"degC\"}", "unit = \"degC\", offset = \"10 rpm\"}", "",
+                "recorded[0].columns[0].offset: column 'air_C': "},
+        Mistake{"NoColumns", "columns = [{column = \"air_C\", channel = \"ambient.temperature\", unit = \"degC\"}]",
+                "columns = []", "", "recorded[0].columns: it is empty"},
         Mistake{"EmptySpectrum", "blocks = [{duration = \"10 min\", speed = \"2000 rpm\"}]", "blocks = []", "[spindle]",
                 "the spectrum is empty"},
         Mistake{"TooFast", "2000 rpm", "20000 rpm", "", "20000 rpm"},
@@ -257,6 +298,10 @@ TEST(BadInput, NamesThatDoNotExist) {
         Row{"run golden_b_2000 -m v450 --set bearing.frnt.grease_factor=0.8", "did you mean 'front'?"},
         Row{"run golden_b_2000 -m v450 --set bearing.front.grease_fctor=0.8", "did you mean 'grease_factor'?"},
         Row{"run golden_b_2000 -m v450 --set bearing.front.grease_factor", "path=value"},
+        Row{"run golden_b_2000 --set experiment.seed=2 --set experiment.seed=3",
+            "parameter 'experiment.seed' is set twice"},
+        Row{"volumetric mill200 --set volumetric.drawn.seed=2 --set volumetric.drawn.seed=3",
+            "parameter 'volumetric.drawn.seed' is set twice"},
         Row{"run golden_b_2000 -m v450 --set experiment.duratoin=1h",
             "parameter experiment.duratoin: unknown key 'duratoin'; did you mean 'duration'?"},
         Row{"run golden_b_2000 -m v450 --set ambient.mean=22degC", "did you mean 'experiment.ambient.mean'?"},
@@ -264,7 +309,8 @@ TEST(BadInput, NamesThatDoNotExist) {
         Row{"run golden_b_2000 --tolernce=1e-5", "run: unknown option '--tolernce'; did you mean '--tolerance'?"},
         Row{"run golden_b_2000 v450", "run: 'v450' is an argument too many"},
         Row{"diagnose v450 a.h5 --without radiation,hot_neighbor", "did you mean 'hot_neighbour'?"},
-        Row{"effects bering", "did you mean 'bearing'?"}, Row{"describe machin", "machine"},
+        Row{"effects bering", "did you mean 'bearing'?"},
+        Row{"describe machin", "machine"},
         Row{"describe studdy", "did you mean 'study'?"},
         Row{"describe film", "describe: there is no 'film'; it is an effect: thermotwin effects film"},
         Row{"describe ball_screw", "'ball_screw'; it is a table of a machine: thermotwin describe machine"},
@@ -443,6 +489,18 @@ TEST(BadInput, FilesThatAreReadAreNeverWritten) {
     EXPECT_TRUE(read_text(directory.path() / "monday") == "a day of measurements") << arguments;
     for (auto const& [name, text] : files) EXPECT_TRUE(read_text(directory.path() / name) == text) << arguments;
   }
+}
+
+TEST(BadInput, TablesThatAreNoPredictionsAreNotReplaced) {
+  tests::TemporaryDirectory const directory;
+  std::string const measured = "time_s,T1_degC\n0,20\n";
+  write_text(directory / "victim.csv", measured);
+  write_text(directory / "model.toml", "an error model");
+  auto const answer = program("predict " + (directory / "model.toml").string() + " monday.h5 -o " +
+                              (directory / "victim.csv").string());
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("victim.csv: is no table of predictions"), std::string::npos) << answer.text;
+  EXPECT_EQ(read_text(directory / "victim.csv"), measured);
 }
 
 TEST(BadInput, FoldersThatHoldSomethingAreNotWrittenInto) {

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stdexcept>
 
 #include "models/contiguous_folds.h"
 #include "models/gaussian_kernel.h"
 #include "models/metrics.h"
+#include "models/support_vector.h"
 #include "tests/models/simulated_batch.h"
 
 namespace thermotwin::models {
@@ -24,6 +27,14 @@ TEST(LeastSquaresSupportVector, HasTheGoldenSolution) {
   EXPECT_LT((form.weights - Eigen::Vector3d(-1.0056, 2.0112, -1.0056)).cwiseAbs().maxCoeff(), 5e-5);
   EXPECT_LT((model.predict(golden()) - Eigen::Vector3d(0.0179, 0.9642, 0.0179)).cwiseAbs().maxCoeff(), 5e-5);
   EXPECT_NEAR(form.weights.sum(), 0.0, 1e-14);
+}
+
+/// Before there is a matrix of all their pairs.
+TEST(LeastSquaresSupportVector, RefusesMoreSamplesThanAKernelHasRoomFor) {
+  std::vector const batches = {random_walks(1, 10'001, 2)};
+  for (auto* const fit : {&fit_least_squares_support_vector, &fit_support_vector})
+    EXPECT_THAT([&] { (void)fit(batches, {}); },
+                testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("10001 samples are too many")));
 }
 
 TEST(LeastSquaresSupportVector, SolvesTheWholeSystem) {

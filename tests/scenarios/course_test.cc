@@ -354,10 +354,12 @@ TEST_F(RecordedCourse, CarriesWhatFollowsFromTheFeed) {
 TEST_F(RecordedCourse, RefusesAnotherDimension) {
   Experiment const e = recorded("time_s,n\n0,0\n60,600\n", {{"n", "spindle.speed", "degC", "step"}}, 60.0);
   EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }),
-            "channel 'spindle.speed': recorded: n is in K, the channel in rad/s");
+            "recorded[0].columns[0].unit: channel 'spindle.speed': recorded: n is in K, the channel in rad/s, for "
+            "example \"6000 rpm\"");
   Experiment const share = recorded("time_s,n\n0,0\n60,40\n", {{"n", "spindle.speed", "%", "step"}}, 60.0);
   EXPECT_EQ(tests::refusal([&] { ExperimentCourse(share, machine()); }),
-            "channel 'spindle.speed': recorded: n is in 1, the channel in rad/s; or give a factor: unit = \"rpm\", "
+            "recorded[0].columns[0].unit: channel 'spindle.speed': recorded: n is in 1, the channel in rad/s, for "
+            "example \"6000 rpm\"; or give a factor: unit = \"rpm\", "
             "factor = 50 reads % of 5000 rpm");
 }
 
@@ -380,6 +382,41 @@ TEST_F(RecordedCourse, RefusesAirThatNoMachineStandsIn) {
             "is its unit right?");
   e.inputs = {{"ambient.temperature", {{60.0, "22 degC"}}}};
   EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }), "accepted");
+}
+
+/// 5 would make 500 W of a pump of 100 W, -1 would make it cool.
+TEST_F(RecordedCourse, RefusesSwitchesThatAreMoreThanOn) {
+  auto limits = machine();
+  limits.shares = {"pump.on"};
+  Experiment e = experiment(60.0);
+  auto const programme = [&](std::string const& channel, std::string const& value) {
+    e.inputs = {{channel, {{60.0, value}}}};
+    return tests::refusal([&] { ExperimentCourse(e, limits); });
+  };
+  EXPECT_EQ(programme("machine.on", "5"),
+            "inputs[0].blocks: channel 'machine.on': programme reaches 5; allowed is 0 (off) to 1 (on); is its unit "
+            "right?");
+  for (std::string const channel : {"spindle.running", "z.running", "ambient.door", "coolant.on", "chiller.on",
+                                    "machine.on", "servo.on", "pump.on"})
+    for (auto const& [value, is_right] : {std::pair{"0", true},
+                                          {"0.4", true},
+                                          {"100 %", true},
+                                          {"1.1", false},
+                                          {"5", false},
+                                          {"101 %", false},
+                                          {"-1", false}})
+      EXPECT_EQ(programme(channel, value) == "accepted", is_right) << channel << " " << value;
+  EXPECT_EQ(programme("tool.changes", "12"), "accepted");
+  EXPECT_EQ(programme("spindle.revolutions", "1e6"), "accepted");
+  auto const record = [&](std::string const& value) {
+    auto const recorded_one = recorded("time_s,on\n0,0\n60," + value + "\n", {{"on", "pump.on", "1", "linear"}}, 60.0);
+    return tests::refusal([&] { ExperimentCourse(recorded_one, limits); });
+  };
+  EXPECT_EQ(record("1.1"), "accepted");
+  EXPECT_EQ(record("-0.1"), "accepted");
+  EXPECT_EQ(record("100"),
+            "recorded[0].columns[0].unit: channel 'pump.on': recorded: on reaches 100; allowed is 0 (off) to 1 (on); "
+            "is its unit right?");
 }
 
 TEST_F(RecordedCourse, RefusesMotionThatTheMachineCannotMake) {
@@ -418,7 +455,7 @@ TEST_F(RecordedCourse, RefusesTwoDriversOfOneChannel) {
   Experiment e = recorded("time_s,n\n0,0\n60,600\n", {{"n", "heater1.duty", "%", "step"}}, 60.0);
   e.inputs = {{"heater1.duty", {{60.0, "50 %"}}}};
   EXPECT_EQ(tests::refusal([&] { ExperimentCourse(e, machine()); }),
-            "channel 'heater1.duty' is driven twice, by inputs or recorded columns");
+            "recorded[0].columns[0].channel: channel 'heater1.duty' is driven twice, by inputs or recorded columns");
 }
 
 TEST(ExperimentCourse, NamesAxesThatAreMissing) {

@@ -27,12 +27,11 @@ TEST(InputProgram, RefusesWhatCannotBe) {
     return tests::refusal([&] { driven_channel(program, 60.0); });
   };
   EXPECT_EQ(refused({"a", {{60.0, "1 K"}, {60.0, "1 W"}}}),
-            "inputs 'a': blocks[1].value: '1 W' is a power, the first block's value a temperature difference");
-  EXPECT_EQ(refused({"a", {{60.0, "1 rmp"}}}),
-            "inputs 'a': blocks[0].value: '1 rmp': unknown unit 'rmp'; did you mean 'rpm'?");
-  EXPECT_EQ(refused({"a", {{0.0, "1 K"}}}), "inputs 'a': blocks[0].duration: 0 min must be above 0 s");
-  EXPECT_EQ(refused({"a", {}}), "inputs 'a': blocks is empty; write at least one");
-  EXPECT_EQ(refused({}), "inputs.channel: the name of an input channel is due");
+            "blocks[1].value: '1 W' is a power, the first block's value a temperature difference");
+  EXPECT_EQ(refused({"a", {{60.0, "1 rmp"}}}), "blocks[0].value: '1 rmp': unknown unit 'rmp'; did you mean 'rpm'?");
+  EXPECT_EQ(refused({"a", {{0.0, "1 K"}}}), "blocks[0].duration: 0 min must be above 0 s");
+  EXPECT_EQ(refused({"a", {}}), "blocks: they are empty; write at least one");
+  EXPECT_EQ(refused({}), "channel: the name of an input channel is due");
 }
 
 }  // namespace

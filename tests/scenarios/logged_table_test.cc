@@ -13,6 +13,7 @@ namespace thermotwin::scenarios {
 namespace {
 
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 
 class Logged : public testing::Test {
@@ -122,6 +123,21 @@ TEST_F(Logged, SaysWhereTheClockWasProbablyPut) {
                                 "forward to summer time there, and all that follows is an hour late" +
                                 instead));
   EXPECT_EQ(read(file("data.csv", "t,a\n2025-03-29 01:59,1\n2025-03-29 03:00,2\n")).clock_remark, "");
+}
+
+/// A log of events to the second has two in one now and then: the last counts, where it says anything.
+TEST_F(Logged, TakesTheLastOfRowsWithOneTime) {
+  std::string text = "t,a,b\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(10 * i) + ",1,2\n";
+  auto const table = read(file("data.csv", text + "190,3,\n200,4,5\n"), {"a", "b"});
+  ASSERT_EQ(table.times.size(), 21U);
+  EXPECT_EQ(table.lines[19], 22U);
+  EXPECT_EQ(table.columns[0][19], 3.0);
+  EXPECT_EQ(table.columns[1][19], 2.0);
+  EXPECT_THAT(table.repeats_remark,
+              EndsWith("data.csv:22:1: column 't': '190' after '190': of rows with one time the last counts"));
+  EXPECT_EQ(refused(text + "190,3,4\n190,4,5\n190,5,6\n"),
+            "data.csv:22:1: column 't': '190' after '190': time must increase");
 }
 
 TEST_F(Logged, TakesNoUnitForTimeStamps) {

@@ -98,7 +98,7 @@ TEST_F(RecordedInput, HasAFactorAndAnOffset) {
   part.columns[0].offset = "10 rpm";
   EXPECT_DOUBLE_EQ(read(part, 20.0)[0].signal.at(10.0), thermal::from_unit(1260.0, "rpm"));
   part.columns[0].offset = "10 K";
-  EXPECT_TRUE(refused(part).starts_with("recorded 'data.csv': column 'a': offset: '10 K' is a temperature"))
+  EXPECT_TRUE(refused(part).starts_with("recorded[0].columns[0].offset: column 'a': '10 K' is a temperature"))
       << refused(part);
   Recording room = recording("time_s,a\n0,20.5\n20,22.5\n", "degC");
   room.columns[0].offset = "-0.5 K";
@@ -175,19 +175,22 @@ TEST_F(RecordedInput, RefusesWhatTheFileDoesNotHave) {
 TEST_F(RecordedInput, RefusesUnitsAndWordsThatAreNone) {
   std::string const text = "time_s,a\n0,0\n20,1\n";
   EXPECT_EQ(refused(recording(text, "rpmm")),
-            "recorded 'data.csv': column 'a': 'rpmm': unknown unit 'rpmm'; did you mean 'rpm'?");
+            "recorded[0].columns[0].unit: column 'a': 'rpmm': unknown unit 'rpmm'; did you mean 'rpm'?");
   Recording r = recording(text);
   r.time_unit = "K";
-  EXPECT_EQ(refused(r), "recorded 'data.csv': time_unit: 'K' is no unit of time; known: 's', 'h', 'min', 'day'");
+  EXPECT_EQ(refused(r), "recorded[0].time_unit: 'K' is no unit of time; known: 's', 'h', 'min', 'day'");
   r = recording(text);
   r.columns[0].interpolation = "cubic";
-  EXPECT_EQ(refused(r), "recorded 'data.csv': interpolation: 'cubic' must be \"automatic\", \"linear\" or \"step\"");
+  EXPECT_EQ(refused(r), "recorded[0].columns[0].interpolation: 'cubic' must be \"automatic\", \"linear\" or \"step\"");
   r = recording(text);
   r.max_gap = 0.0;
-  EXPECT_EQ(refused(r), "recorded 'data.csv': max_gap: 0 min must be above 0 s");
+  EXPECT_EQ(refused(r), "recorded[0].max_gap: 0 min must be above 0 s");
   r.columns.clear();
-  EXPECT_EQ(refused(r), "recorded 'data.csv': columns is empty; name at least one column and its channel");
-  EXPECT_EQ(refused({}), "recorded.file: the name of a CSV file is due");
+  EXPECT_EQ(refused(r), "recorded[0].columns: it is empty; name at least one column and its channel");
+  EXPECT_EQ(refused({}), "recorded[0].file: the name of a CSV file is due");
+  r = recording(text);
+  r.columns[0].channel.clear();
+  EXPECT_EQ(refused(r), "recorded[0].columns[0].channel: the name of an input channel is due");
 }
 
 class Environment : public testing::Test {

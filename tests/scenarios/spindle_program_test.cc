@@ -125,7 +125,13 @@ TEST(RandomSpectrum, RefusesRangesThatAreNone) {
   EXPECT_EQ(refused_random(spectrum), "spindle.random.shortest: 0 min must be 1 s or more");
   spectrum = {};
   spectrum.highest = 1.2;
-  EXPECT_EQ(refused_random(spectrum), "spindle.random.lowest, highest: 0, 1.2 must rise within 0 to 1");
+  EXPECT_EQ(refused_random(spectrum), "spindle.random.highest: 1.2 must be from 0 to 1");
+  spectrum = {};
+  spectrum.lowest = -0.1;
+  EXPECT_EQ(refused_random(spectrum), "spindle.random.lowest: -0.1 must be from 0 to 1");
+  spectrum.lowest = 0.8;
+  spectrum.highest = 0.2;
+  EXPECT_EQ(refused_random(spectrum), "spindle.random.highest: 0.2 is below lowest, 0.8");
   spectrum = {};
   spectrum.run = 0.0;
   EXPECT_EQ(refused_random(spectrum), "spindle.random.run: 0 min must be above 0 s");

@@ -289,7 +289,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EverySnippet, testing::ValuesIn(snippets()),
 /// What a change of 1 % makes of the temperatures [K] after a short run, or of the displacement [m].
 double answer(Value const& document, Snippet const& snippet, std::string const& key) {
   auto const parameter = find_number(document, snippet.path(key));
-  double const other = parameter.absolute_temperature ? parameter.value + 1.0 : 1.01 * parameter.value;
+  double const other = parameter.absolute_temperature ? parameter.value + 1.0 : 0.99 * parameter.value;
   Machine const machine = Machine::build(document);
   Machine const changed = Machine::build(with_number(document, parameter, other));
   if (moves_only(effect(snippet.effect))) {

@@ -400,6 +400,44 @@ TEST(FileCheck, TellsAMistakeOfAMachineOnce) {
   EXPECT_EQ(check_files({folder / "experiment.toml"})[0].mistake, checks[1].mistake);
 }
 
+/// Each at its own line of the file.
+TEST(FileCheck, RefusesWhatNoRunCanDo) {
+  TemporaryDirectory const folder;
+  auto const lines = [](std::string const& text) { return std::count(text.begin(), text.end(), '\n'); };
+  auto const refuses = [&](std::string const& before, std::string const& wrong, std::string const& message) {
+    put(folder / "mine.toml", machine_with(before + wrong + "\n"));
+    EXPECT_THAT(check_files({folder / "mine.toml"})[0].mistake,
+                AllOf(HasSubstr(fmt::format("mine.toml:{}:", 1 + lines(machine_with(before)))), HasSubstr(message)));
+  };
+  refuses("[[lump]]\nname = \"box\"\nmaterial = \"C45\"\nheat_capacity = \"1 kJ/K\"\n", "mass = \"4 kg\"",
+          "give either 'heat_capacity' or 'mass', not both");
+  std::string const bar = "[[bar]]\nname = \"rod\"\nmaterial = \"C45\"\nlength = \"1 m\"\nouter_diameter = \"40 mm\"\n";
+  for (std::string const section : {"1 um", "1 mm", "41 mm", "4 m"})
+    refuses(bar, "section_diameter = \"" + section + "\"", "of an outer diameter of 40 mm, allowed is 2 mm to 40 mm");
+  refuses(bar, "capacity_factor = 0", "'capacity_factor' is 0; it must be positive (plausible: 0.3 to 3)");
+  refuses(bar, "section_diameter = \"0 mm\"", "'section_diameter' is \"0 mm\"; it must be positive");
+  refuses("[[axis]]\nname = \"w\"\nrapid_feed = \"10 m/min\"\nstroke_to = \"100 mm\"\n", "lead = \"0 mm\"",
+          "'lead' is \"0 mm\"; it must be positive");
+  refuses("[[joint]]\nname = \"twice\"\nfrom = \"bed\"\nto = \"motor\"\nconductance = \"8 W/K\"\n",
+          "coefficient = \"800 W/(m2 K)\"", "give either 'conductance' or 'coefficient', not both");
+  refuses("[[film]]\nname = \"shine\"\non = \"bed\"\narea = \"1 m2\"\n", "emissivity = 2.0",
+          "'emissivity' is 2; it must be at most 1 (plausible: 0.05 to 1)");
+}
+
+TEST(FileCheck, DoubtsANutWithAnotherLeadThanItsAxis) {
+  TemporaryDirectory const folder;
+  auto const warnings = [&](std::string const& lead) {
+    auto text = contents(machine_file("mill200"));
+    std::string const nut = "lead = \"5 mm\"";
+    text.replace(text.rfind(nut), nut.size(), "lead = \"" + lead + "\"");
+    put(folder / "mine.toml", text);
+    return check_files({folder / "mine.toml"})[0].warnings;
+  };
+  EXPECT_THAT(warnings("5 mm"), SizeIs(0));
+  EXPECT_THAT(warnings("10 mm"), ElementsAre(MatchesRegex(".*mine.toml:[0-9]+:[0-9]+: 'lead' is \"10 mm\"; axis 'x', "
+                                                          "whose screw it runs on, has a lead of \"5 mm\"")));
+}
+
 /// What a run would refuse only when its readings are taken.
 TEST(FileCheck, RefusesWhatAnInstrumentCannotDo) {
   TemporaryDirectory const folder;
@@ -628,6 +666,86 @@ TEST(FileCheck, WarnsOfInputsThatNothingReads) {
                                                         "'oil.flow'; known: ")));
   EXPECT_THAT(check_files({folder / "oil.toml", folder / "mine.toml"})[0].warnings, SizeIs(0));
   for (auto const& check : checks) EXPECT_EQ(check.mistake, "");
+}
+
+/// Not of switches that go to and fro: so one looks for what the machine's file lacks.
+TEST(FileCheck, WarnsOfTablesThatNothingReads) {
+  TemporaryDirectory const folder;
+  put(folder / "press.toml",
+      "name = \"press\"\n[spindle]\nmaximum_speed = \"6000 rpm\"\n[[axis]]\nname = \"x\"\nrapid_feed = \"20 m/min\"\n"
+      "lead = \"10 mm\"\nstroke_to = \"500 mm\"\n[[lump]]\nname = \"motor\"\nheat_capacity = \"9 kJ/K\"\n"
+      "[[film]]\nname = \"motor\"\non = \"motor\"\narea = \"0.3 m2\"\n");
+  auto const warnings = [&](std::string const& table) {
+    put(folder / "day.toml", "machine = \"press.toml\"\nduration = \"1 h\"\n" + table);
+    auto const check = check_files({folder / "day.toml"})[0];
+    EXPECT_EQ(check.mistake, "") << table;
+    return check.warnings;
+  };
+  struct Row {
+    std::string table, warning;
+  };
+  for (auto const& [table, warning] :
+       {Row{"[coolant]\non = true\n", "day.toml:4:6: coolant.on: nothing on 'press' reads 'coolant.on'; it changes"},
+        Row{"[coolant]\ntemperature = \"18 degC\"\n", "coolant.temperature: nothing on 'press' reads"},
+        Row{"[chiller]\noffset = \"2 K\"\n", "chiller.offset: nothing on 'press' reads 'chiller.offset'"},
+        Row{"[chiller]\non = false\n", "chiller.on: nothing on 'press' reads"},
+        Row{"[power]\non = false\n", "power.on: nothing on 'press' reads 'machine.on'"},
+        Row{"[servo]\non = false\n", "day.toml:4:6: servo.on: nothing on 'press' reads 'servo.on'"},
+        Row{"[spindle]\nblocks = [{duration = \"1 h\", speed = \"900 rpm\"}]\n",
+            "spindle: nothing on 'press' reads 'spindle.…'"},
+        Row{"[[axes]]\naxis = \"x\"\nblocks = [{duration = \"1 h\", feed = \"8 m/min\"}]\n",
+            "day.toml:4:8: axes[0].axis: nothing on 'press' reads 'x.…'"}})
+    EXPECT_THAT(warnings(table), ElementsAre(HasSubstr(warning)));
+  EXPECT_THAT(warnings("[coolant]\non = false\n[chiller]\non = true\n[servo]\non = true\n"), SizeIs(0));
+  EXPECT_THAT(warnings("[coolant]\ntemperature = \"18 degC\"\nblocks = [{duration = \"30 min\", on = true}]\n"),
+              SizeIs(0));
+}
+
+/// The stroke of the axis goes from 120 to 720 mm of a screw of 840 mm.
+TEST(FileCheck, WarnsOfWhatIsBeyondStrokeAndRun) {
+  TemporaryDirectory const folder;
+  auto const warnings = [&](std::string const& more) {
+    put(folder / "experiment.toml", "machine = \"vmc850\"\nduration = \"1 h\"\n" + more);
+    return check_files({folder / "experiment.toml"})[0].warnings;
+  };
+  EXPECT_THAT(warnings("laser.to = \"600 mm\"\n"), SizeIs(0));
+  EXPECT_THAT(warnings("laser.to = \"700 mm\"\n"),
+              ElementsAre(HasSubstr("experiment.toml:3:12: laser.to: the target 700 mm is outside the stroke of axis "
+                                    "'z', 0 mm to 600 mm")));
+  EXPECT_THAT(warnings("laser.from = \"-50 mm\"\n"),
+              ElementsAre(HasSubstr("experiment.toml:3:14: laser.from: the target -50 mm is outside")));
+  EXPECT_THAT(warnings("[ambient]\ndoor_openings = [{time = \"50 min\"}, {time = \"2 h\"}]\n"),
+              ElementsAre(HasSubstr("ambient.door_openings[1].time: it opens at 2 h, and the run ends at 1 h")));
+}
+
+TEST(FileCheck, RefusesTwoProgrammesOfOneChannel) {
+  TemporaryDirectory const folder;
+  auto const mistake = [&](std::string const& machine, std::string const& table, std::string const& channel,
+                           std::string const& value) {
+    put(folder / "experiment.toml", "machine = \"" + machine + "\"\nduration = \"1 h\"\n" + table +
+                                        "[[inputs]]\nchannel = \"" + channel +
+                                        "\"\nblocks = [{duration = \"1 h\", value = \"" + value + "\"}]\n");
+    return check_files({folder / "experiment.toml"})[0].mistake;
+  };
+  std::string const spindle = "[spindle]\nblocks = [{duration = \"1 h\", speed = \"100 rpm\"}]\n",
+                    axis = "[[axes]]\nblocks = [{duration = \"1 h\", feed = \"8 m/min\"}]\n";
+  EXPECT_THAT(mistake("v450", spindle, "spindle.speed", "1000 rpm"),
+              HasSubstr("experiment.toml:6:11: inputs[0].channel: 'spindle.speed' would stand in place of "
+                        "'spindle.blocks', which is written, too; leave out one of them"));
+  EXPECT_THAT(mistake("v450", "power.on = false\n", "machine.on", "1"), HasSubstr("in place of 'power.on'"));
+  EXPECT_THAT(mistake("v450", "coolant.on = true\n", "coolant.on", "0"), HasSubstr("in place of 'coolant.on'"));
+  EXPECT_THAT(mistake("v450", "ambient.mean = \"25 degC\"\n", "ambient.temperature", "20 degC"),
+              HasSubstr("in place of 'ambient.mean'"));
+  EXPECT_THAT(mistake("vmc850", axis, "z.feed", "2 m/min"), HasSubstr("in place of 'axes.0.blocks'"));
+  EXPECT_THAT(mistake("vmc850", axis, "z.speed", "200 rpm"), HasSubstr("in place of 'axes.0.blocks'"));
+  EXPECT_EQ(mistake("vmc850", axis, "z.duty", "50 %"), "");
+  EXPECT_EQ(mistake("v450", "", "spindle.speed", "1000 rpm"), "");
+  EXPECT_EQ(mistake("v450", "ambient.door_openings = [{time = \"5 min\"}]\n", "ambient.temperature", "20 degC"), "");
+  put(folder / "speed.csv", "time_s,n\n0,900\n3600,900\n");
+  put(folder / "experiment.toml", experiment + spindle +
+                                      "[[recorded]]\nfile = \"speed.csv\"\nmax_gap = \"2 h\"\ncolumns = [{column = "
+                                      "\"n\", channel = \"spindle.speed\", unit = \"rpm\"}]\n");
+  EXPECT_EQ(check_files({folder / "experiment.toml"})[0].mistake, "");  // as documented: in place of programmes
 }
 
 TEST(FileCheck, WarnsOfSpectraLongerThanTheRun) {

@@ -215,7 +215,8 @@ TEST_F(FitErrorModel, LeavesOutRowsWithoutAReadingOfWhatWasNamed) {
   EXPECT_THAT(refusal([&] {
                 fitted({{file}, "E_Z", {"T1", "T2"}, "distributed_lag"});
               }),
-              HasSubstr("'run.csv': row 11 comes 360 s after the one before, others 60 s; lags need even steps"));
+              HasSubstr("'run.csv': row 11 comes 360 s after the one before, others 60 s; lags need even steps "
+                        "(it is the one at 900 s; rows that are left out do not count)"));
   auto const averaged = fitted({{file}, "E_Z", {"T1", "T2"}, "distributed_lag", 1, {}, 600.0});
   EXPECT_EQ(averaged.parts[0].model.sample_period, 600.0);
   EXPECT_EQ(read_back(averaged).sampling, 600.0);
@@ -223,6 +224,135 @@ TEST_F(FitErrorModel, LeavesOutRowsWithoutAReadingOfWhatWasNamed) {
                 fitted({{file}, "E_Z", {"T1"}, "linear", 1, {}, 30.0});
               }),
               HasSubstr("a sampling of 30 s is finer than the 60 s between its rows"));
+}
+
+/// A tenth of its readings, as in studies.
+TEST_F(FitErrorModel, TakesASensorThatLacksFewReadings) {
+  auto data = warming(1.5);
+  readings(data, "T1").segment(10, rows / 10).setConstant(std::nan(""));
+  EXPECT_THAT(fitted({{put_run(data, "few.csv")}, "E_Z"}).inputs(), ElementsAre("T1", "T2", "T3"));
+  EXPECT_THAT(remarks_, Contains("few.csv: 12 of 120 rows are left out: no value of T1 in 12"));
+  readings(data, "T1")[9] = std::nan("");
+  EXPECT_THAT(fitted({{put_run(data, "more.csv")}, "E_Z"}).inputs(), ElementsAre("T2", "T3"));
+  EXPECT_THAT(remarks_, Contains("more.csv: T1 is left out: 13 of 120 readings are missing, more than 10 %"));
+}
+
+/// Where the error is missing, nothing can be learnt, with or without a reading.
+TEST_F(FitErrorModel, CountsReadingsWhereThereIsAnError) {
+  auto data = warming(1.5);
+  readings(data, "T1").tail(20).setConstant(std::nan(""));
+  readings(data, "E_Z").tail(20).setConstant(std::nan(""));
+  EXPECT_THAT(fitted({{put_run(data, "run.csv")}, "E_Z"}).inputs(), ElementsAre("T1", "T2", "T3"));
+}
+
+/// T4 is T1 but for a millionth of a kelvin: what is left of the error is put down to that.
+TEST_F(FitErrorModel, SaysWhatErrorsOfTheSensorsDo) {
+  auto data = warming(1.5);
+  VectorXd const number = VectorXd::LinSpaced(rows, 1.0, double(rows));
+  readings(data, "E_Z").array() += 0.1 * number.array().square().sin();
+  data.readings.push_back(
+      {"T4", "degC", "", readings(data, "T1").array() + 1e-6 * (3.0 * number.array().square()).cos()});
+  auto const file = put_run(data, "run.h5");
+  auto const remark = testing::AllOf(HasSubstr("an error of 0.1 K moves the prediction by "),
+                                     HasSubstr("a method with a penalty (ridge)"));
+  (void)fitted({{file}, "E_Z", {"T1", "T2", "T4"}});
+  EXPECT_THAT(remarks_, Contains(remark));
+  (void)fitted({{file}, "E_Z", {"T1", "T2", "T4"}, "ridge"});
+  EXPECT_THAT(remarks_, Not(Contains(remark)));
+  (void)fitted({{file}, "E_Z", {"T1", "T2"}});
+  EXPECT_THAT(remarks_, Not(Contains(remark)));
+}
+
+/// Temperatures every minute, the probe every ten: all rows are predicted, those with the probe's are judged, and the
+/// first two, which are the lags' history, are not claimed.
+TEST_F(FitErrorModel, PredictsRowsWithoutTheError) {
+  auto const saved = fitted({{put_run(warming(1.5), "monday.csv")}, "E_Z", {"T1", "T2"}, "distributed_lag"});
+  auto data = warming(0.7);
+  auto const whole = predict_error(saved, put_run(data, "whole.csv"));
+  for (Index i = 0; i < rows; ++i)
+    if (i % 10 != 0) readings(data, "E_Z")[i] = std::nan("");
+  auto const sparse = predict_error(saved, put_run(data, "sparse.csv"));
+  EXPECT_EQ(sparse.predicted, whole.predicted);
+  EXPECT_THAT(sparse.remarks, Contains("sparse.csv: 108 of 120 rows show no E_Z; the others are judged"));
+  EXPECT_THAT(prediction_text(sparse), HasSubstr("\nless prediction       11  "));
+  auto const json = nlohmann::json::parse(predictions_json(saved, {sparse})).at("runs").at(0);
+  EXPECT_EQ(json.at("rows"), rows - 2);
+  EXPECT_EQ(json.at("judged"), 11);
+  EXPECT_THAT(prediction_csv(sparse), testing::StartsWith("time_s,error_um,predicted_um\n0,0,\n60,,\n120,,"));
+  EXPECT_THAT(prediction_csv(sparse), Not(HasSubstr("\n120,,\n")));
+}
+
+TEST_F(FitErrorModel, PredictsARunWhoseErrorNeverMoves) {
+  auto const saved = fitted({{put_run(warming(1.5), "monday.csv")}, "E_Z", {"T1", "T2"}});
+  auto data = warming(0.7);
+  auto const whole = predict_error(saved, put_run(data, "whole.csv"));
+  readings(data, "E_Z").setConstant(3.0);
+  auto const constant = predict_error(saved, put_run(data, "constant.csv"));
+  EXPECT_EQ(constant.predicted, whole.predicted);
+  EXPECT_THAT(constant.remarks, ElementsAre("constant.csv: 'E_Z' is dead: it never moves"));
+  EXPECT_THAT(prediction_text(constant), HasSubstr("120 rows predicted; the run does not show the error"));
+}
+
+/// The temperatures count from the first row all the same.
+TEST_F(FitErrorModel, JudgesAnErrorThatBeginsLate) {
+  auto const saved = fitted({{put_run(warming(1.5), "monday.csv")}, "E_Z", {"T1", "T2"}});
+  auto data = warming(0.7);
+  auto const whole = predict_error(saved, put_run(data, "whole.csv"));
+  readings(data, "E_Z").head(20).setConstant(std::nan(""));
+  auto const late = predict_error(saved, put_run(data, "late.csv"));
+  EXPECT_EQ(late.predicted, whole.predicted);
+  EXPECT_LT((late.shown() - whole.shown()).bottomRows(rows - 20).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_FALSE(late.shown().topRows(20).array().isFinite().any());
+  EXPECT_THAT(late.remarks, Contains(HasSubstr("late.csv: the error begins in row 21; it counts from the ")));
+}
+
+TEST_F(FitErrorModel, KnowsARunAgainThatLacksTheErrorInPart) {
+  auto data = warming(1.5);
+  readings(data, "E_Z").head(3).setConstant(std::nan(""));
+  auto const file = put_run(data, "monday.csv");
+  EXPECT_TRUE(predict_error(fitted({{file}, "E_Z", {"T1", "T2"}}), file).seen_before);
+}
+
+TEST_F(FitErrorModel, SaysThatTheFirstRowMayBeAnOutlier) {
+  auto const saved = fitted({{put_run(warming(1.5), "monday.csv")}, "E_Z", {"T1", "T2"}});
+  auto data = warming(0.7);
+  EXPECT_THAT(predict_error(saved, put_run(data, "whole.csv")).remarks, IsEmpty());
+  readings(data, "E_Z")[0] += 4.0;
+  EXPECT_THAT(
+      predict_error(saved, put_run(data, "off.csv")).remarks,
+      ElementsAre("off.csv: all rows are off by about -4.00 um, from the next one on: row 1, from which changes "
+                  "count, may be an outlier"));
+}
+
+TEST_F(FitErrorModel, ReplacesTablesOfPredictionsOnly) {
+  auto const run = put_run(warming(1.5), "monday.h5"), table = folder_ / "table.csv";
+  EXPECT_NO_THROW(refuse_to_replace_other_table(table));
+  put(table, "");
+  EXPECT_NO_THROW(refuse_to_replace_other_table(table));
+  for (auto const* error : {"E_Z", "slope z"}) {
+    put(table, prediction_csv(predict_error(fitted({{run}, error, {"T1"}}), run)));
+    EXPECT_NO_THROW(refuse_to_replace_other_table(table)) << error;
+  }
+  for (auto const* other : {"time_s,T1_degC\n0,20\n", "time_s,error_um\n0,0\n", "notes\n"}) {
+    put(table, other);
+    EXPECT_THAT(refusal([&] { refuse_to_replace_other_table(table); }),
+                HasSubstr("table.csv: is no table of predictions"))
+        << other;
+  }
+}
+
+/// A sensor of 1/16 K that shows one step up in the fit, and one down later.
+TEST_F(FitErrorModel, TakesAStepOfTheReadingsForNoExtrapolation) {
+  auto monday = warming(1.5), tuesday = monday;
+  for (Index i = 0; i < rows; ++i) {
+    readings(monday, "T3")[i] = i * i % 7 == 2 ? 20.0625 : 20.0;
+    readings(tuesday, "T3")[i] = i * i % 7 == 2 ? 19.9375 : 20.0;
+  }
+  auto const saved = fitted({{put_run(monday, "monday.h5")}, "E_Z", {"T1", "T2", "T3"}});
+  EXPECT_THAT(predict_error(saved, put_run(tuesday, "tuesday.h5")).remarks, Not(Contains(HasSubstr("extrapolation"))));
+  for (double& reading : readings(tuesday, "T3")) reading = 20.0 + 3.0 * (reading - 20.0);
+  readings(tuesday, "T3")[5] = 20.0625;
+  EXPECT_THAT(predict_error(saved, put_run(tuesday, "wednesday.h5")).remarks, Contains(HasSubstr("extrapolation")));
 }
 
 /// The error is 3 ΔT1 − 2 ΔT2 of the changes since the first row: with another zero no coefficients would make it.
@@ -285,8 +415,45 @@ TEST_F(FitErrorModel, NamesTheNearest) {
                 fitted({{file}, "E_Z", {"T1", "T4"}});
               }),
               HasSubstr("run.csv has no sensor 'T4'; did you mean"));
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z", {"T1", "T2", "T3", "T4"}});
+              }),
+              HasSubstr("run.csv has no sensor 'T4'; it has T1, T2, T3"));
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z,B_Y", {"T1"}});
+              }),
+              HasSubstr("'E_Z,B_Y': a model is of one error; name one at a time"));
   EXPECT_THAT(refusal([&] { fitted({{file}, "E_Z", {"T1"}, "rigde"}); }), HasSubstr("ridge"));
   EXPECT_THAT(refusal([&] { fitted({{folder_ / "run.txt"}, "E_Z", {"T1"}}); }), HasSubstr("is no measured run"));
+}
+
+TEST_F(FitErrorModel, NamesTheRunThatCannotBeFitted) {
+  auto data = warming(1.5);
+  readings(data, "T3") = readings(data, "T1");
+  auto const file = put_run(data, "run.csv");
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z", {"T1", "T3"}});
+              }),
+              testing::StartsWith("run.csv: regressor 'T3' is a combination of the ones before it"));
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z", {"T1"}, "linear", 1, {}, 3.6e5});
+              }),
+              testing::StartsWith("run.csv, means over 360000 s: sensor 'T1' does not move"));
+}
+
+TEST_F(FitErrorModel, SaysThatAnErrorIsThereInAnotherUnit) {
+  auto data = warming(1.5);
+  data.readings.push_back({"E_Z", "degC", "", readings(data, "E_Z")});
+  std::erase_if(data.displacements, [](auto const& channel) { return channel.name == "E_Z"; });
+  auto const file = put_run(data, "run.csv");
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z", {"T1"}});
+              }),
+              HasSubstr("run.csv has no displacement 'E_Z': it is there in degC"));
+  EXPECT_THAT(refusal([&] {
+                fitted({{file}, "E_Z", {"B_Y"}});
+              }),
+              HasSubstr("run.csv has no sensor 'B_Y': it is there in urad"));
 }
 
 /// The twin tells most of the error, the model what it errs by.

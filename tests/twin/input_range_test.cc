@@ -23,5 +23,20 @@ TEST(InputRange, IsLeftByMoreThanATenthOfItsWidth) {
             "T3 changed by 10.26 K; the model was fitted on changes of -1.00 K to 9.00 K");
 }
 
+TEST(InputRange, IsLeftByMoreThanAStepOfTheReadings) {
+  InputRange const range{0.0, 0.063};
+  EXPECT_TRUE(range.left_by(-0.0625));
+  EXPECT_FALSE(range.left_by(-0.0625, 0.0625));
+  EXPECT_FALSE(range.left_by(0.125, 0.0625));
+  EXPECT_TRUE(range.left_by(-0.125, 0.0625));
+  EXPECT_TRUE(range.left_by(0.1875, 0.0625));
+}
+
+TEST(InputRange, FindsTheStepOfReadings) {
+  EXPECT_EQ(reading_step(Eigen::Vector4d(0.0, 0.25, 0.0625, 0.25)), 0.0625);
+  EXPECT_EQ(reading_step(Eigen::Vector4d(0.0, 4.0, 0.0, 2.0)), 0.0) << "no sensor is as coarse";
+  EXPECT_EQ(reading_step(Eigen::Vector4d::Zero()), 0.0);
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

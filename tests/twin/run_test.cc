@@ -107,5 +107,20 @@ TEST(Run, EndsWhereNothingIsSolid) {
   }
 }
 
+/// 29 % of 8 kJ is told; 1e-8 of 3 J, which is rounding, is not.
+TEST(Run, TellsOfAHeatBalanceThatDoesNotClose) {
+  thermal::IntegrationSummary summary;
+  auto const remark = [&](double supplied, double share) {
+    summary.energy.supplied = supplied;
+    summary.stored = (1.0 - share) * supplied;
+    return balance_remark(summary);
+  };
+  EXPECT_THAT(remark(8000.0, 0.29), testing::StartsWith("the heat balance closes to 2.9e-01 only, where 1e-09 is due"));
+  EXPECT_THAT(remark(8000.0, 1e-8), testing::StartsWith("the heat balance closes to 1.0e-08 only"));
+  EXPECT_EQ(remark(8e6, 1e-10), "");
+  EXPECT_EQ(remark(3.0, 1e-8), "");
+  EXPECT_EQ(remark(0.0, 0.0), "");
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

@@ -75,6 +75,13 @@ TEST(Setting, OfAProgrammeThatIsReplacedIsRefused) {
     EXPECT_EQ(answer(text), "accepted") << text;
 }
 
+TEST(Setting, IsGivenOnce) {
+  auto const answer = [](std::string const& lines) { return refusal([&] { refuse_repeated(settings_in(lines)); }); };
+  EXPECT_EQ(answer("experiment.seed=1\nbearing.front.count=2\nexperiment.seed=1"),
+            "parameter 'experiment.seed' is set twice; leave out one of the two");
+  EXPECT_EQ(answer("experiment.seed=1\nbearing.front.count=2"), "accepted");
+}
+
 TEST(Setting, KnowsTheDimensionOfItsKey) {
   Value machine = read_toml(machine_file("v450")), experiment = plain_experiment();
   apply(setting("bearing.front.grease_factor=abc"), machine, experiment);

@@ -38,6 +38,9 @@ double AxisShift::move_to(double target, double elapsed) {
 
 double AxisShift::offset() const { return std::clamp(to_step(ramp_), -largest_, largest_); }
 
-double AxisShift::to_step(double shift) const { return limits_.resolution * std::round(shift / limits_.resolution); }
+/// A sum with 0 is never -0.
+double AxisShift::to_step(double shift) const {
+  return limits_.resolution * std::round(shift / limits_.resolution) + 0.0;
+}
 
 }  // namespace thermotwin::twin

@@ -15,7 +15,8 @@ struct ShiftLimits {
 ///   r ← r + clamp(g − r, ± slew · elapsed),   offset = resolution · round(r / resolution),   |offset| ≤ largest
 ///
 /// So at rest |offset − target| is below the dead band, or half a step where that is more. Whatever the targets,
-/// |offset| ≤ largest and |Δoffset| ≤ slew · elapsed + resolution. A target that is not finite is not followed.
+/// |offset| ≤ largest and |Δoffset| ≤ slew · elapsed + resolution. A target that is not finite is not followed. An offset
+/// of 0 has no sign.
 class AxisShift {
  public:
   /// InputError unless all limits are positive (the dead band may be 0) and `largest` is at least one step.

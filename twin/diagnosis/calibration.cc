@@ -14,6 +14,7 @@
 #include "twin/diagnosis/expected_noise.h"
 #include "twin/diagnosis/run_files.h"
 #include "twin/diagnosis/start.h"
+#include "twin/diagnosis/zero_search.h"
 #include "twin/file/output_path.h"
 #include "twin/file/text_file.h"
 #include "twin/file_kind.h"
@@ -27,8 +28,10 @@ constexpr double more_than_noise = 2.0;  // misfit
 std::string unit_of(Unknown const& unknown, Estimation const& estimation, Machine const& machine) {
   if (unknown.kind == Unknown::Kind::lag || unknown.kind == Unknown::Kind::clock) return "s";
   if (unknown.kind == Unknown::Kind::input || unknown.kind == Unknown::Kind::warmth) return "1";
-  if (unknown.kind != Unknown::Kind::offset || unknown.run < 0) return "K";
+  if (unknown.run < 0) return "K";
   auto const& channels = estimation.data()[std::size_t(unknown.run)].run->channels;
+  if (unknown.kind == Unknown::Kind::zero) return unit_of(channels[estimation.zeros()[unknown.index].channel], machine);
+  if (unknown.kind != Unknown::Kind::offset) return "K";
   auto const of_zero = std::find_if(channels.begin(), channels.end(), [&](auto const& channel) {
     return channel.name == estimation.channels()[unknown.index];
   });
@@ -167,12 +170,14 @@ std::vector<std::string> Calibration::shortcomings() const {
 Calibration calibrate(Value const& machine, std::vector<BinnedRun> const& runs, FitWatch watch) {
   auto friction = friction_while_moving(machine, runs, DiagnosisOptions().threshold, watch);
   Value const& document = friction ? friction->document : machine;
-  Estimation const estimation = expected_estimation(document, runs).with_form_of_file().watched(std::move(watch));
-  if (estimation.numbers().empty())
+  Estimation const as_stated = expected_estimation(document, runs).with_form_of_file().watched(std::move(watch));
+  if (as_stated.numbers().empty())
     throw thermal::InputError(
         "the machine has no number that calibration could change: no conductance, film, friction, loss, mass or step "
         "of a structural loop");
-  Fit const fit = best_fit(estimation);
+  Fitted best{as_stated, best_fit(as_stated)};
+  while (auto freed = with_changed_zeros(best.estimation, best.fit, DiagnosisOptions().threshold)) best = *freed;
+  auto const& [estimation, fit] = best;
   Calibration calibration;
   calibration.converged = fit.converged;
   Machine const before = Machine::build(machine);

@@ -10,6 +10,7 @@
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/excitation.h"
 #include "twin/diagnosis/expected_noise.h"
+#include "twin/diagnosis/gap.h"
 #include "twin/diagnosis/jumping_sensor.h"
 #include "twin/diagnosis/seen_form.h"
 #include "twin/diagnosis/start.h"
@@ -54,11 +55,14 @@ class Diagnostician {
   }
   [[nodiscard]] std::vector<Hypothesis> excited_hypotheses() const;
   [[nodiscard]] FreeHeat unknown_heat() const;
+  [[nodiscard]] Estimation on_held_out(Value const& document) const;
   [[nodiscard]] double vote() const;
+  [[nodiscard]] std::vector<Disagreement> disagreements_held_out() const;
   struct Written;
   void write_down();
   bool write_down_and_reject();
   void find_where();
+  void find_zeros();
   using HeatAt = std::map<std::pair<std::string, std::string>, double>;  ///< body and regime, watts
   void tell_where(HeatAt const& heat);
   void propose();
@@ -95,6 +99,7 @@ Diagnosis Diagnostician::operator()() {
   while (write_down_and_reject()) search_();
   auto const& amended = search_.estimation();
   if (!held_out_.empty() && !d.effects.empty()) d.vote = vote();
+  if (!held_out_.empty()) d.disagreement_held_out = disagreements_held_out();
   d.visible = search_.visible();
   d.could_hide = search_.detection_limits();
   d.noise_heard = search_.noise_heard();
@@ -117,6 +122,7 @@ Diagnosis Diagnostician::operator()() {
   d.disagreement = disagreements(search_.plain().with(amended.noise()), d.calibrated.x, machine_);
   if (!d.effects.empty()) d.disagreement_left = disagreements(amended, d.amended.x, machine_);
   find_where();
+  find_zeros();
   if (d.verdict == Diagnosis::Verdict::nothing) d.suspicion = search_.suspicion();
   propose();
   return std::move(diagnosis_);
@@ -178,9 +184,9 @@ void Diagnostician::write_down() {
   }
 }
 
-/// Of runs that had no say so far: what is linear is at its best for either machine, all else as it was fitted. A
-/// channel that the fitted runs lack has the noise that is expected of it.
-double Diagnostician::vote() const {
+/// The runs that had no say so far, asked of a machine as it was fitted. A channel that the fitted runs lack has the
+/// noise that is expected of it.
+Estimation Diagnostician::on_held_out(Value const& document) const {
   auto const& amended = search_.estimation();
   auto channels = amended.channels();
   auto noise = amended.noise();
@@ -189,13 +195,22 @@ double Diagnostician::vote() const {
     channels.push_back(channel);
     noise.push_back(expected_noise(machine_, channel, held_out_));
   }
-  auto const cost = [&](Value const& document) {
-    return Estimation(document, held_out_, channels, noise).cost_of_document();
-  };
+  return {document, held_out_, channels, noise};
+}
+
+/// What is linear is at its best for either machine.
+double Diagnostician::vote() const {
   double costs[2];
-  in_parallel(2,
-              [&](std::size_t i) { costs[i] = cost(i == 0 ? diagnosis_.calibrated_document : diagnosis_.document); });
+  in_parallel(2, [&](std::size_t i) {
+    costs[i] = on_held_out(i == 0 ? diagnosis_.calibrated_document : diagnosis_.document).cost_of_document();
+  });
   return costs[0] - costs[1];
+}
+
+/// Of the machine that is written.
+std::vector<Disagreement> Diagnostician::disagreements_held_out() const {
+  Estimation const asked = on_held_out(diagnosis_.document);
+  return disagreements(asked, asked.fit(asked.prior_mean(), 0).x, machine_);
 }
 
 double Diagnostician::strongest_on_heat() const {
@@ -230,6 +245,20 @@ FreeHeat Diagnostician::unknown_heat() const {
   bool const bare = only_sensors(diagnosis_);
   Estimation const plain = search_.plain().with(bare ? search_.expected_noise() : search_.estimation().noise());
   return scan_for_free_heat(plain, plain.fit(plain.prior_mean(), 0), fine)[0];
+}
+
+void Diagnostician::find_zeros() {
+  auto const& amended = search_.estimation();
+  auto const& d = diagnosis_;
+  for (std::size_t u = 0; u < d.unknowns.size(); ++u) {
+    if (d.unknowns[u].kind != Unknown::Kind::zero) continue;
+    auto const& zero = amended.zeros()[d.unknowns[u].index];
+    auto const& run = runs_[zero.run];
+    auto const& channel = run.run->channels[zero.channel];
+    auto const i = Eigen::Index(u);
+    diagnosis_.zeros.push_back({run.run->name, channel.name, unit_of(channel, machine_), zero.from,
+                                !zero.is_in_all_of(run), d.amended.x[i], std::sqrt(d.amended.covariance(i, i))});
+  }
 }
 
 /// Bodies and regimes that receive the heat that is missing.

@@ -14,6 +14,14 @@
 
 namespace thermotwin::twin {
 
+/// A zero that changed (changed_zero.h), for people.
+struct FoundZero {
+  std::string run, channel, unit;
+  double from = 0.0;  ///< [s]
+  bool midway = false;
+  double change = 0.0, standard_error = 0.0;  ///< [SI]
+};
+
 /// What measured runs say about a machine file (physics.md 8).
 struct Diagnosis {
   enum class Verdict {
@@ -26,8 +34,9 @@ struct Diagnosis {
   Verdict verdict = Verdict::nothing;
   /// Of the calibrated machine, before any effect was added, beside the noise that the amended one leaves.
   std::vector<Disagreement> disagreement;
-  std::vector<Disagreement> disagreement_left;  ///< of the amended one; empty where nothing was added
-  std::vector<Explanation> explanations;        ///< of `none_known`: what stands in for it, and does not suffice
+  std::vector<Disagreement> disagreement_left;      ///< of the amended one; empty where nothing was added
+  std::vector<Disagreement> disagreement_held_out;  ///< of the machine that is written, with the runs held out
+  std::vector<Explanation> explanations;            ///< of `none_known`: what stands in for it, and does not suffice
   /// Bodies that the missing heat enters, and whether it does so while the machine moves or while it stands.
   std::vector<std::pair<std::string, std::string>> where;
   std::optional<FreeHeat> unknown_heat;  ///< of `none_known`, where it is heat
@@ -36,6 +45,7 @@ struct Diagnosis {
   /// Experiments that would tell the first either/or apart, or what is suspected; best first.
   std::vector<Remedy> proposals;
   std::optional<FaultySensor> faulty_sensor;
+  std::vector<FoundZero> zeros;        ///< of instruments, that changed between runs or in one
   std::vector<FreeHeat> scan;          ///< before any effect was added, best first
   std::vector<FreeHeat> left;          ///< with the effects, best first
   bool heat_beside = false;            ///< the best of them is evident, and yet too little to contradict the effects

@@ -64,6 +64,15 @@ Json json_of(FreeHeat const& heat) {
   return json;
 }
 
+Json json_of(FoundZero const& zero) {
+  return {{"run", zero.run},
+          {"channel", zero.channel},
+          {"from_s", zero.from},
+          {"change", in_unit(zero.unit, zero.change)},
+          {"standard_error", in_unit(zero.unit, zero.standard_error)},
+          {"unit", zero.unit}};
+}
+
 Json json_of(std::vector<ChannelGap> const& gaps) {
   Json list = Json::array();
   for (auto const& gap : gaps) {
@@ -118,6 +127,8 @@ std::string report_json(DiagnosisReport const& report) {
                                    : diagnosis.explanations[0].alternatives[0].hypothesis.body}};
   if (auto const& sensor = diagnosis.faulty_sensor)
     json["faulty_sensor"] = {{"name", sensor->name}, {"what", sensor->what}};
+  json["zeros"] = Json::array();
+  for (auto const& zero : diagnosis.zeros) json["zeros"].push_back(json_of(zero));
   if (diagnosis.vote) json["held_out_vote"] = *diagnosis.vote;
   json["tried"] = diagnosis.hypotheses.size();
   json["visible"] = diagnosis.visible;
@@ -129,7 +140,9 @@ std::string report_json(DiagnosisReport const& report) {
   auto const gap = whole(report.held_out.empty() ? report.fitted : report.held_out);
   json["gap"] = {{"before", gap.before}, {"after", gap.after}};
   json["gaps"] = {{"fitted", json_of(report.fitted)}, {"held_out", json_of(report.held_out)}};
-  json["disagreement"] = {{"before", json_of(diagnosis.disagreement)}, {"after", json_of(diagnosis.disagreement_left)}};
+  json["disagreement"] = {{"before", json_of(diagnosis.disagreement)},
+                          {"after", json_of(diagnosis.disagreement_left)},
+                          {"held_out", json_of(diagnosis.disagreement_held_out)}};
   json["unaccounted_heat"] = Json::array();
   for (std::size_t i = 0; i < std::min<std::size_t>(3, diagnosis.scan.size()); ++i)
     json["unaccounted_heat"].push_back(json_of(diagnosis.scan[i]));

@@ -13,7 +13,7 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr std::size_t most_places = 6, most_keys = 3, most_hidden = 6;
+constexpr std::size_t most_places = 6, most_keys = 3, most_hidden = 6, most_held_out = 4;
 constexpr double worth_telling = 1.0;  // of what could hide [um, 0.1 K]
 constexpr double loud = 4.0;
 constexpr double large_share_of_growth = 0.2;
@@ -50,9 +50,9 @@ std::size_t widest(Rows const& rows, std::size_t least, Name const& name) {
 /// A number of a table, or "-" where a dead channel has none.
 std::string in_column(double number) { return std::isnan(number) ? "-" : fmt::format("{:.3f}", number); }
 
-/// Where and when: of each channel that disagrees significantly, the speed at which it does so most; where there is
-/// none, the hours.
-std::string words_of(std::vector<Disagreement> const& cells, bool something_is_missing) {
+/// Of each channel that disagrees significantly, the speed at which it does so most; where there is none, the hours.
+/// The worst first.
+std::vector<Disagreement const*> worst_of_channels(std::vector<Disagreement> const& cells) {
   std::map<std::string, Disagreement const*> worst;
   for (bool const hours : {false, true}) {
     std::map<std::string, Disagreement const*> here;
@@ -63,14 +63,20 @@ std::string words_of(std::vector<Disagreement> const& cells, bool something_is_m
     }
     worst.merge(here);
   }
-  if (worst.empty())
+  std::vector<Disagreement const*> order;
+  for (auto const& [channel, cell] : worst) order.push_back(cell);
+  std::stable_sort(order.begin(), order.end(), [](auto const* a, auto const* b) { return a->power > b->power; });
+  return order;
+}
+
+/// Where and when.
+std::string words_of(std::vector<Disagreement> const& cells, bool something_is_missing) {
+  auto order = worst_of_channels(cells);
+  if (order.empty())
     return something_is_missing
                ? "No channel at any speed alone contradicts the calibrated twin: what was found is evident only in all "
                  "channels and times together.\n\n"
                : "The calibrated twin disagrees significantly with no channel at any time.\n\n";
-  std::vector<Disagreement const*> order;
-  for (auto const& [channel, cell] : worst) order.push_back(cell);
-  std::stable_sort(order.begin(), order.end(), [](auto const* a, auto const* b) { return a->power > b->power; });
   order.resize(std::min(order.size(), most_places));
   auto const channel_width = widest(order, 12, [](auto const* cell) { return cell->channel; });
   auto const run_width = widest(order, 10, [](auto const* cell) { return cell->run; });
@@ -195,6 +201,20 @@ std::string words_of_vote(Diagnosis const& diagnosis) {
       diagnosis.is_refuted() ? "more than the others for it" : "though less than the others for it", -*diagnosis.vote);
 }
 
+/// Where they contradict the machine that was found, or found to lack nothing.
+std::string words_of_held_out(Diagnosis const& diagnosis) {
+  std::vector<std::string> places;
+  for (auto const* cell : worst_of_channels(diagnosis.disagreement_held_out))
+    if (cell->power >= loud && places.size() < most_held_out)
+      places.push_back(fmt::format("{} in {}, {}, by {:.3g} {} RMS (power {:.0f})", cell->channel, cell->run,
+                                   cell->part, in_unit(cell->unit, cell->rms), cell->unit, cell->power));
+  if (places.empty()) return "";
+  return fmt::format(
+      "The runs held out contradict the machine {}: {}. Something is other there than in the runs that "
+      "were fitted.\n\n",
+      diagnosis.effects.empty() ? "as calibrated" : "as amended", fmt::join(places, "; "));
+}
+
 /// "Were it the air at the machine, warmer than its record by −1.2 to 0.8 K".
 std::string words_of_air(FreeHeat const& air) {
   double least = INFINITY, most = -INFINITY;
@@ -281,6 +301,17 @@ std::string words_of_offsets(Diagnosis const& diagnosis) {
       far_from_file, fmt::join(far, ", "));
 }
 
+/// "T8 stands +0.56 ± 0.04 K otherwise in B.csv than in the other runs".
+std::string words_of(FoundZero const& zero) {
+  auto const when = zero.midway ? fmt::format("from {:.2f} h of {} on than before", zero.from / 3600.0, zero.run)
+                                : fmt::format("in {} than in the other runs", zero.run);
+  return fmt::format(
+      "{} stands {:+.2f} ± {:.2f} {} otherwise {}, which was taken for the instrument's doing: was {}?\n\n",
+      zero.channel, in_unit(zero.unit, zero.change), in_unit(zero.unit, two_sided_95 * zero.standard_error), zero.unit,
+      when,
+      zero.unit == "K" ? "the sensor exchanged, moved or calibrated anew" : "the probe knocked, or set to zero anew");
+}
+
 /// "E_Y by bed (+45 %)": shares of free growth that a displacement follows beyond its loop, evident and large.
 std::string words_of_loop(Diagnosis const& diagnosis) {
   std::vector<std::string> steps;
@@ -327,9 +358,12 @@ Remedy const* proposal_of(Diagnosis const& diagnosis) {
 }
 
 std::vector<std::string> cautions(Diagnosis const& diagnosis) {
-  std::vector<std::string> result;
+  std::vector<std::string> texts, result;
+  for (auto const& zero : diagnosis.zeros) texts.push_back(words_of(zero));
   for (auto const& words : {words_of_numbers(diagnosis), words_of_offsets(diagnosis), words_of_loop(diagnosis),
-                            words_of_heat_beside(diagnosis), words_of_vote(diagnosis)})
+                            words_of_heat_beside(diagnosis), words_of_vote(diagnosis), words_of_held_out(diagnosis)})
+    texts.push_back(words);
+  for (auto const& words : texts)
     if (!words.empty()) result.push_back(words.substr(0, words.find_last_not_of('\n') + 1));
   return result;
 }
@@ -362,10 +396,12 @@ std::string report_text(DiagnosisReport const& report) {
   text += words_of_silence(diagnosis);
   if (auto const loudest = loud_channels(diagnosis); !loudest.empty())
     text += fmt::format("More error than expected was taken for noise at {}.\n\n", loudest);
+  for (auto const& zero : diagnosis.zeros) text += words_of(zero);
   text += words_of_numbers(diagnosis) + words_of_offsets(diagnosis) + words_of_loop(diagnosis);
   text += words_of_proposal(diagnosis);
   if (auto const& sensor = diagnosis.faulty_sensor) text += fmt::format("{} {}.\n\n", sensor->name, sensor->what);
-  text += words_of_heat_beside(diagnosis) + words_of_vote(diagnosis) + words_of_heat(diagnosis);
+  text += words_of_heat_beside(diagnosis) + words_of_vote(diagnosis) + words_of_held_out(diagnosis);
+  text += words_of_heat(diagnosis);
   auto const& shown = report.held_out.empty() ? report.fitted : report.held_out;
   std::string const data = report.held_out.empty() ? "the fitted" : "unseen";
   text += words_of_gain(diagnosis, shown, data);

@@ -16,9 +16,6 @@
 namespace thermotwin::twin {
 namespace {
 
-// A fit that all later ones start from converges: half a valley down, the ninth digit of a number would decide what is
-// named.
-constexpr int to_the_end = 50;
 constexpr int most_effects = 8;
 constexpr double open_loop = 0.2;          // share of free growth
 constexpr double closed_law = 0.25;        // of the prior that laws have where they are open
@@ -98,7 +95,9 @@ EffectSearch::EffectSearch(Value const& document, std::vector<BinnedRun> const& 
   if (closed) estimation_ = estimation_->with_laws(closed_law);
   expected_ = estimation_->noise();
   bool const drawn = options.start && start == 0;
-  fit_ = estimation_->fit(drawn ? drawn_start(*estimation_, *options.start) : starts(*estimation_)[start], to_the_end);
+  fit_ = estimation_->fit(drawn ? drawn_start(*estimation_, *options.start) : starts(*estimation_)[start],
+                          Estimation::to_the_end);
+  while (free_zeros()) continue;
   open_loops();
   if (closed) open_laws();
   listen_to_noise();
@@ -112,7 +111,6 @@ void EffectSearch::operator()() {
 }
 
 void EffectSearch::search() {
-  if (signatures_.size() == 0) linearise();
   for (int round = 1; round <= most_effects && add_effect(round); ++round) continue;
   if (estimation_->effects().size() < 2) return;  // what was found alone was held against all others then
   if (drop_superfluous()) linearise();
@@ -146,7 +144,7 @@ void EffectSearch::reject(std::size_t effect) {
   effects.erase(effects.begin() + std::ptrdiff_t(effect));
   explanations_.erase(explanations_.begin() + std::ptrdiff_t(effect));
   estimation_ = with_effects(effects);
-  fit_ = estimation_->fit(start, to_the_end);
+  fit_ = estimation_->fit(start, Estimation::to_the_end);
   signatures_.resize(0, 0);
   listen_to_noise();
 }
@@ -175,26 +173,47 @@ double EffectSearch::asked_of_name() const {
   return std::max(strictness_of_name() * options_.threshold, share_of_strongest());
 }
 
+/// Lets zeros change where that is evident, and more so than any one effect: that is the instruments' doing. Whether
+/// any did.
+bool EffectSearch::free_zeros() {
+  auto const before = estimation_->zeros().size();
+  auto freed = with_changed_zeros(*estimation_, fit_, strictness(*estimation_, fit_) * options_.threshold);
+  if (!freed || !open(std::move(*freed), 0.0, [](Hypothesis const&) { return true; })) return false;
+  if (!plain_) return true;
+  std::vector<ChangedZero> const changed(estimation_->zeros().begin() + std::ptrdiff_t(before),
+                                         estimation_->zeros().end());
+  Eigen::VectorXd const start = plain_->with_zeros(calibrated_.x, changed.size());
+  plain_ = plain_->with_zeros(changed);
+  calibrated_ = plain_->fit(start, Estimation::to_the_end);
+  return true;
+}
+
 /// Lets displacements leave their structural loops where that is evident, and more so than any one effect on a
 /// displacement: the structure is another then than the file says.
 void EffectSearch::open_loops() {
-  open(estimation_->with_loops(open_loop), 0.0, [](Hypothesis const& h) { return h.is_about("deformation"); });
+  open(fitted(estimation_->with_loops(open_loop)), 0.0, [](Hypothesis const& h) { return h.is_about("deformation"); });
 }
 
 /// Lets greases and rolling balls follow other laws than those of the file where data agree with that better, unless
 /// one effect on heat is evident beyond it: few greases are quite what the file says.
 void EffectSearch::open_laws() {
-  open(estimation_->with_laws(1.0), options_.threshold, [](Hypothesis const& h) { return !h.is_read_directly(); });
+  open(fitted(estimation_->with_laws(1.0)), options_.threshold,
+       [](Hypothesis const& h) { return !h.is_read_directly(); });
 }
 
-/// Asks that question instead where it has more evidence, and none of the rivals leads it by more.
-void EffectSearch::open(Estimation const& other, double lead, std::function<bool(Hypothesis const&)> const& rivals) {
-  Fit fit = other.fit(fit_.x, to_the_end);
-  double const gain = fit_.evidence - fit.evidence;
-  if (gain < 0.0 || any_exceeds(gain + lead, rivals)) return;
-  estimation_ = other;
-  fit_ = std::move(fit);
+/// From the estimates so far.
+Fitted EffectSearch::fitted(Estimation const& other) const {
+  return {other, other.fit(fit_.x, Estimation::to_the_end)};
+}
+
+/// Asks that question instead where it has more evidence, and none of the rivals leads it by more. Whether it does.
+bool EffectSearch::open(Fitted other, double lead, std::function<bool(Hypothesis const&)> const& rivals) {
+  double const gain = fit_.evidence - other.fit.evidence;
+  if (gain < 0.0 || any_exceeds(gain + lead, rivals)) return false;
+  estimation_ = std::move(other.estimation);
+  fit_ = std::move(other.fit);
   signatures_.resize(0, 0);
+  return true;
 }
 
 /// Whether one of these effects has more evidence than that, about the present fit [2 ln].
@@ -212,7 +231,7 @@ bool EffectSearch::any_exceeds(double evidence, std::function<bool(Hypothesis co
 /// The noise that the present fit leaves, and the fit with it.
 void EffectSearch::listen_to_noise() {
   estimation_ = estimation_->with(observed_noise(*estimation_, fit_.x, expected_));
-  fit_ = estimation_->fit(fit_.x, to_the_end);
+  fit_ = estimation_->fit(fit_.x, Estimation::to_the_end);
 }
 
 std::vector<std::pair<std::string, double>> EffectSearch::noise_heard() const {
@@ -378,6 +397,8 @@ std::vector<std::size_t> EffectSearch::most_promising(Candidates const& candidat
 
 /// The strongest effect, if it is strong enough; then, about the fit that has it, all that could stand in its place.
 bool EffectSearch::add_effect(int round) {
+  while (!estimation_->effects().empty() && free_zeros()) continue;
+  if (signatures_.size() == 0) linearise();
   say(fmt::format("{} shapes of effects at their sites, round {}", hypotheses_.size(), round));
   double const threshold = std::max(options_.threshold, share_of_strongest());
   auto const all_others = candidates();
@@ -399,7 +420,7 @@ bool EffectSearch::add_effect(int round) {
   Fit former_fit;
   for (int attempt = 0; attempt < 2; ++attempt) {
     estimation_ = before.with(std::vector<Hypothesis>{best.hypothesis});
-    fit_ = estimation_->fit(best.x, to_the_end);
+    fit_ = estimation_->fit(best.x, Estimation::to_the_end);
     bool const ordinary = is_ordinary(best.hypothesis, fit_, fit_.x.size() - 1);
     best.strength = ordinary ? -INFINITY : base.evidence - fit_.evidence;
     if (attempt == 1 && best.strength < former.strength) {  // it only seemed better

@@ -12,6 +12,7 @@
 #include "twin/diagnosis/estimation.h"
 #include "twin/diagnosis/finding.h"
 #include "twin/diagnosis/score.h"
+#include "twin/diagnosis/zero_search.h"
 
 namespace thermotwin::twin {
 
@@ -104,9 +105,11 @@ class EffectSearch {
                                                       std::vector<Score> const& scores) const;
   void linearise();
   [[nodiscard]] Explanation explanation_of(std::vector<Refit> const& refits) const;
+  bool free_zeros();
   void open_loops();
   void open_laws();
-  void open(Estimation const& other, double lead, std::function<bool(Hypothesis const&)> const& rivals);
+  [[nodiscard]] Fitted fitted(Estimation const& other) const;
+  bool open(Fitted other, double lead, std::function<bool(Hypothesis const&)> const& rivals);
   [[nodiscard]] bool any_exceeds(double evidence, std::function<bool(Hypothesis const&)> const& rivals);
   void listen_to_noise();
   [[nodiscard]] std::vector<double> strengths_beside_others() const;

@@ -181,7 +181,7 @@ Estimation Estimation::with_laws(double share) const {
 
 Estimation Estimation::about(Eigen::VectorXd const& x) const {
   Estimation other = *this;
-  auto linear = std::make_shared<LinearUnknowns const>(document_at(x), *data_, channels_);
+  auto linear = std::make_shared<LinearUnknowns const>(document_at(x), *data_, channels_, zeros());
   if (linear->all().size() != linear_->all().size()) return other;
   other.linear_ = std::move(linear);
   other.hear(noise_);
@@ -202,6 +202,23 @@ Estimation Estimation::with_form_of_file(std::vector<std::size_t> const& but) co
   for (std::size_t u = 0; u < unknowns_.size(); ++u)
     if (is_beyond_a_file(unknowns_[u].kind) && std::find(but.begin(), but.end(), u) == but.end()) hidden.push_back(u);
   return knowing(hidden);
+}
+
+Estimation Estimation::with_zeros(std::vector<ChangedZero> const& zeros) const {
+  Estimation other = *this;
+  auto const place = std::ptrdiff_t(unknowns_.size() - effects_.size());
+  other.linear_ = std::make_shared<LinearUnknowns const>(linear_->with(zeros, *data_));
+  auto const& all = other.linear_->all();
+  other.unknowns_.insert(other.unknowns_.begin() + place, all.end() - std::ptrdiff_t(zeros.size()), all.end());
+  other.hear(noise_);
+  return other;
+}
+
+Eigen::VectorXd Estimation::with_zeros(Eigen::VectorXd const& x, std::size_t zeros) const {
+  auto const effects = Eigen::Index(effects_.size());
+  Eigen::VectorXd longer(x.size() + Eigen::Index(zeros));
+  longer << x.head(x.size() - effects), Eigen::VectorXd::Zero(Eigen::Index(zeros)), x.tail(effects);
+  return longer;
 }
 
 Estimation Estimation::watched(FitWatch watch) const {

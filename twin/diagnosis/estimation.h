@@ -55,6 +55,11 @@ class Estimation {
   /// The same question to a machine of the form that its file has, but for these unknowns of it (is_beyond_a_file).
   [[nodiscard]] Estimation with_form_of_file(std::vector<std::size_t> const& but = {}) const;
 
+  /// The same question where zeros have changed, too (changed_zero.h).
+  [[nodiscard]] Estimation with_zeros(std::vector<ChangedZero> const& zeros) const;
+  /// Estimates of this question as those of one with so many zeros more, which are as they were.
+  [[nodiscard]] Eigen::VectorXd with_zeros(Eigen::VectorXd const& x, std::size_t zeros) const;
+
   /// The same question, each of whose fits is watched.
   [[nodiscard]] Estimation watched(FitWatch watch) const;
 
@@ -64,10 +69,14 @@ class Estimation {
   [[nodiscard]] std::vector<UncertainNumber> const& numbers() const { return numbers_; }
   [[nodiscard]] std::vector<SensorPlace> const& places() const { return linear_->places(); }
   [[nodiscard]] std::vector<LoopGap> const& gaps() const { return linear_->gaps(); }
+  [[nodiscard]] std::vector<ChangedZero> const& zeros() const { return linear_->zeros(); }
   [[nodiscard]] std::vector<std::string> const& channels() const { return channels_; }
   [[nodiscard]] std::vector<BinnedRun> const& data() const { return *data_; }
   [[nodiscard]] std::vector<ChannelNoise> const& noise() const { return noise_; }
 
+  /// Steps of a fit that all later ones start from, which converges: half a valley down, the ninth digit of a number
+  /// would decide what is named.
+  static constexpr int to_the_end = 50;
   /// From there on; what is linear needs no start.
   [[nodiscard]] Fit fit(Eigen::VectorXd const& start, int iterations = 10) const;
   /// The same; nothing where the machine cannot be run there.
@@ -86,6 +95,10 @@ class Estimation {
   void whiten(Eigen::Ref<Eigen::MatrixXd> signals) const;
   /// Whitens signals of one run.
   void whiten(std::size_t run, Eigen::Ref<Eigen::MatrixXd> signals) const;
+  /// Whitens signals of one channel of that.
+  void whiten(std::size_t run, std::size_t channel, Eigen::Ref<Eigen::MatrixXd> signals) const {
+    whitenings_[run][channel].apply(signals);
+  }
   /// Σ ln |2π S| of the innovations of all channels: what the evidence of a fit lacks beside one with other noise.
   [[nodiscard]] double noise_scale() const;
   /// Rows of all runs and channels.

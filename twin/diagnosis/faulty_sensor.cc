@@ -17,6 +17,7 @@ constexpr double unbroken = 1.9;    // usual intervals between neighbouring samp
 struct Change {
   double from, time;  ///< of the samples [s]
   double before, by;
+  double in_usual = 0.0;  ///< how much of it a body would have done in the usual interval, at the same rate
 };
 
 /// Those between neighbouring samples of a channel, whatever rows of others are between; across a gap anything may
@@ -31,8 +32,9 @@ std::vector<Change> changes_of(Eigen::VectorXd const& time, Eigen::VectorXd cons
   double const usual = usual_interval(times);
   std::vector<Change> changes;
   for (std::size_t i = 1; i < samples.size(); ++i)
-    if (times[i] - times[i - 1] < unbroken * usual)
-      changes.push_back({times[i - 1], times[i], samples[i - 1], samples[i] - samples[i - 1]});
+    if (double const interval = times[i] - times[i - 1]; interval < unbroken * usual)
+      changes.push_back({times[i - 1], times[i], samples[i - 1], samples[i] - samples[i - 1],
+                         std::abs(samples[i] - samples[i - 1]) * usual / interval});
   return changes;
 }
 
@@ -64,14 +66,14 @@ bool stays(std::vector<Change> const& changes, std::size_t jump) {
 /// would go on, or twice and the reading stays there.
 std::vector<std::size_t> jumps(std::vector<Change> const& changes) {
   if (changes.size() < 3) return {};
-  std::vector<double> sizes;
-  for (auto const& change : changes) sizes.push_back(std::abs(change.by));
+  std::vector<double> sizes;  // none is larger for its samples being nearer
+  for (auto const& change : changes) sizes.push_back(std::min(std::abs(change.by), change.in_usual));
   auto sorted = sizes;
   auto const high = sorted.begin() + std::ptrdiff_t(9 * sorted.size() / 10);
   std::nth_element(sorted.begin(), high, sorted.end());
   std::vector<std::size_t> found;
   for (std::size_t i = 1; i + 1 < sizes.size(); ++i) {
-    bool const alone = std::max(sizes[i - 1], sizes[i + 1]) < 0.4 * sizes[i];
+    bool const alone = std::max(changes[i - 1].in_usual, changes[i + 1].in_usual) < 0.4 * sizes[i];
     bool const evident = (sizes[i] > 10.0 / 3.0 * *high && alone) || (sizes[i] > 2.0 * *high && stays(changes, i));
     if (sizes[i] > least_jump && evident) found.push_back(i);
   }

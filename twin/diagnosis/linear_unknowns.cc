@@ -103,7 +103,7 @@ Eigen::VectorXd response_to(SensorPlace const& place, LinearisedRun const& twin,
 }  // namespace
 
 LinearUnknowns::LinearUnknowns(Value const& document, std::vector<BinnedRun> const& data,
-                               std::vector<std::string> const& channels)
+                               std::vector<std::string> const& channels, std::vector<ChangedZero> const& zeros)
     : machine_(Machine::build(document)),
       interiors_(document),
       places_(sensor_places(document, machine_)),
@@ -121,6 +121,32 @@ LinearUnknowns::LinearUnknowns(Value const& document, std::vector<BinnedRun> con
   in_parallel(data.size(), [&](std::size_t r) {
     columns_.middleRows(first[r], data[r].values.size()) = columns_of(data[r], int(r), channels);
   });
+  add(zeros, data);
+}
+
+LinearUnknowns LinearUnknowns::with(std::vector<ChangedZero> const& zeros, std::vector<BinnedRun> const& data) const {
+  LinearUnknowns other = *this;
+  other.add(zeros, data);
+  return other;
+}
+
+void LinearUnknowns::add(std::vector<ChangedZero> const& zeros, std::vector<BinnedRun> const& data) {
+  if (zeros.empty()) return;
+  auto const before = columns_.cols();
+  columns_.conservativeResize(Eigen::NoChange, before + Eigen::Index(zeros.size()));
+  columns_.rightCols(Eigen::Index(zeros.size())).setZero();
+  for (auto const& zero : zeros) {
+    auto const place = Eigen::Index(unknowns_.size());
+    unknowns_.push_back({.kind = Unknown::Kind::zero,
+                         .name = zero.name(data),
+                         .deviation = zero.deviation,
+                         .index = zeros_.size(),
+                         .run = int(zero.run)});
+    Eigen::Index row = Eigen::Index(zero.channel) * data[zero.run].time.size();
+    for (std::size_t r = 0; r < zero.run; ++r) row += data[r].values.size();
+    columns_.col(place).segment(row, data[zero.run].time.size()) = zero.share(data[zero.run]);
+    zeros_.push_back(zero);
+  }
 }
 
 void LinearUnknowns::add_of_channels(std::vector<BinnedRun> const& data, std::vector<std::string> const& channels) {

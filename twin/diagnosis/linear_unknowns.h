@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "twin/diagnosis/binned_run.h"
+#include "twin/diagnosis/changed_zero.h"
 #include "twin/diagnosis/loop_gaps.h"
 #include "twin/diagnosis/lump_interiors.h"
 #include "twin/diagnosis/sensor_places.h"
@@ -18,18 +19,24 @@ namespace thermotwin::twin {
 /// in gaps, of which a share is estimated: in proportion to its heat, of which only what is stored is seen.
 class LinearUnknowns {
  public:
-  LinearUnknowns(Value const& document, std::vector<BinnedRun> const& data, std::vector<std::string> const& channels);
+  LinearUnknowns(Value const& document, std::vector<BinnedRun> const& data, std::vector<std::string> const& channels,
+                 std::vector<ChangedZero> const& zeros = {});
+
+  /// The same, and more zeros that changed, after all others.
+  [[nodiscard]] LinearUnknowns with(std::vector<ChangedZero> const& zeros, std::vector<BinnedRun> const& data) const;
 
   [[nodiscard]] std::vector<Unknown> const& all() const { return unknowns_; }
   /// What the channels show more of each: (run; channel · rows + row) × unknown.
   [[nodiscard]] Eigen::MatrixXd const& columns() const { return columns_; }
   [[nodiscard]] std::vector<SensorPlace> const& places() const { return places_; }
   [[nodiscard]] std::vector<LoopGap> const& gaps() const { return gaps_; }
+  [[nodiscard]] std::vector<ChangedZero> const& zeros() const { return zeros_; }
 
  private:
   void add_of_channels(std::vector<BinnedRun> const& data, std::vector<std::string> const& channels);
   void add_of_run(BinnedRun const& data, int run);
   void add_of_machine();
+  void add(std::vector<ChangedZero> const& zeros, std::vector<BinnedRun> const& data);
   [[nodiscard]] Eigen::MatrixXd columns_of(BinnedRun const& data, int run,
                                            std::vector<std::string> const& channels) const;
 
@@ -37,6 +44,7 @@ class LinearUnknowns {
   LumpInteriors interiors_;
   std::vector<SensorPlace> places_;
   std::vector<LoopGap> gaps_;
+  std::vector<ChangedZero> zeros_;
   std::vector<Unknown> unknowns_;
   Eigen::MatrixXd columns_;
 };

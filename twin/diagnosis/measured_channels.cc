@@ -22,6 +22,13 @@ constexpr double coldest = 213.15, hottest = 523.15;  // K, that a sensor of a m
 constexpr double power_on = 358.15;                   // K, of a DS18B20
 constexpr int fewest_rows_of_standstill = 20;
 constexpr double least_share_of_standstill = 0.1;
+constexpr double least_chance_of_standstill = 1e-5;
+
+constexpr double least_spike_kelvin = 2.0, least_spike_length = 20e-6;  // [K, m]
+constexpr double spike_over_usual = 20.0;                               // of the median change from row to row
+constexpr double returns_within = 0.2;                                  // of a spike
+constexpr double most_spikes = 0.05;                                    // of all rows
+constexpr std::size_t fewest_changes = 10;
 
 double median_of_finite(Eigen::VectorXd const& values) {
   std::vector<double> finite;
@@ -101,6 +108,40 @@ void leave_out_failures(MeasuredChannel& channel, output::Channel const& shown, 
   leave_out(values, is_about_power_on);
 }
 
+/// Rows that stand alone: far from the reading before and the one after, which are near each other. No body and no
+/// tool goes there and back between samples.
+std::vector<Eigen::Index> spikes_of(Eigen::VectorXd const& values, double least) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index r = 0; r < values.size(); ++r)
+    if (std::isfinite(values[r])) rows.push_back(r);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(std::abs(values[rows[i]] - values[rows[i - 1]]));
+  if (steps.size() < fewest_changes) return {};
+  double const usual = models::upper_median(steps), far = std::max(least, spike_over_usual * usual);
+  std::vector<Eigen::Index> spikes;
+  for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
+    double const before = values[rows[i - 1]], here = values[rows[i]], after = values[rows[i + 1]];
+    bool const one_way = (here - before) * (here - after) > 0.0;
+    double const off = std::min(std::abs(here - before), std::abs(here - after));
+    if (one_way && off > far && std::abs(after - before) < returns_within * off) spikes.push_back(rows[i]);
+  }
+  return double(spikes.size()) < most_spikes * double(rows.size()) ? spikes : std::vector<Eigen::Index>{};
+}
+
+/// Missing, and told.
+void leave_out_spikes(MeasuredChannel& channel, output::Channel const& shown, Eigen::VectorXd const& time,
+                      std::vector<std::string>& remarks) {
+  auto const spikes = spikes_of(channel.values, channel.displacement ? least_spike_length : least_spike_kelvin);
+  if (spikes.empty()) return;
+  auto const first = spikes.front();
+  remarks.push_back(
+      fmt::format("'{}' reads {:.4g} {} in one row at {:.2f} h{}, far from the rows before and after: "
+                  "left out",
+                  channel.name, shown.values[first], shown.unit, time[first] / 3600.0,
+                  spikes.size() == 1 ? "" : fmt::format(", and so in {} more", spikes.size() - 1)));
+  for (auto const row : spikes) channel.values[row] = missing;
+}
+
 MeasuredChannel in_si(output::Channel const& channel, Expected const& expected, MeasuredData const& data,
                       std::vector<std::string>& remarks) {
   if (thermal::dimension_of(channel.unit) != expected.dimension)
@@ -109,8 +150,9 @@ MeasuredChannel in_si(output::Channel const& channel, Expected const& expected, 
   MeasuredChannel result{channel.name, expected.displacement, channel.values};
   if (auto const clock = data.clocks.find(channel.name); clock != data.clocks.end()) result.clock = clock->second;
   thermal::from_unit({result.values.data(), std::size_t(result.values.size())}, channel.unit);
+  if (!expected.displacement) leave_out_failures(result, channel, data.time, remarks);
+  leave_out_spikes(result, channel, data.time, remarks);
   if (expected.displacement) return result;
-  leave_out_failures(result, channel, data.time, remarks);
   if (is_impossible(median_of_finite(result.values)))
     throw InputError(fmt::format("sensor '{}' reads {:.1f} {} most of the time; is its unit right?", channel.name,
                                  median_of_finite(channel.values), channel.unit));
@@ -136,18 +178,21 @@ std::vector<Eigen::Index> rows_read(Eigen::VectorXd const& values) {
   return rows;
 }
 
-/// Row from which on a channel repeats one value, though before it did so seldom; the number of rows if it never does.
+/// Row from which on a channel repeats one value, longer than chance has it repeat values before: coarse readings of a
+/// body that is nearly steady do so as well. The number of rows if it never does.
 Eigen::Index stops_moving(Eigen::VectorXd const& all) {
   auto const read = rows_read(all);
   Eigen::VectorXd const values = all(read);
   Eigen::Index const rows = values.size();
   Eigen::Index from = rows - 1;
   while (from > 0 && values[from - 1] == values[rows - 1]) --from;
-  Eigen::Index repeats = 0;
-  for (Eigen::Index r = 1; r < from; ++r) repeats += values[r] == values[r - 1] ? 1 : 0;
-  bool const long_enough =
-      rows - from >= fewest_rows_of_standstill && double(rows - from) >= least_share_of_standstill * double(rows);
-  return long_enough && 2 * repeats < from ? read[std::size_t(from)] : all.size();
+  double const still = double(rows - from);
+  if (still < fewest_rows_of_standstill || still < least_share_of_standstill * double(rows)) return all.size();
+  Eigen::Index const before = std::min<Eigen::Index>(from, fewest_rows_of_standstill);
+  double repeats = 0.0;
+  for (Eigen::Index r = from - before + 1; r < from; ++r) repeats += values[r] == values[r - 1] ? 1.0 : 0.0;
+  double const usual = (repeats + 1.0) / (double(before) + 1.0);
+  return std::pow(usual, still) < least_chance_of_standstill ? read[std::size_t(from)] : all.size();
 }
 
 void bury_dead(std::vector<MeasuredChannel>& channels, Eigen::VectorXd const& time, std::vector<std::string>& remarks) {

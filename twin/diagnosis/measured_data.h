@@ -76,9 +76,10 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine);
 
 /// The machine's channels that the data have, in SI and in the machine's order. A value that no sensor shows (below
 /// −60 °C, above 250 °C) is missing; where it is always the same one, as a DS18B20's −127 °C, remarks tell. So is the
-/// 85 °C of one that was just switched on, where no other value is near it. A sensor
-/// that never moves while others do is dead: all its values are missing; one that stops moving for the last tenth of
-/// the run or more is dead from there on. Remarks tell of these, of gaps, and of channels that only one side has.
+/// 85 °C of one that was just switched on, where no other value is near it, and a value of one row that is far from
+/// those before and after, which are near each other. A sensor that never moves while others do is dead: all its values
+/// are missing; one that stops moving for the last tenth of the run or more, and longer than it stood before, is dead
+/// from there on. Remarks tell of these, of gaps, and of channels that only one side has.
 ///
 /// InputError when no channel is the machine's, when all are dead, when a unit contradicts the channel.
 [[nodiscard]] std::vector<MeasuredChannel> channels_of(MeasuredData const& data, Machine const& machine,

@@ -53,7 +53,7 @@ LoadedTable load(MeasuredTable const& table, std::filesystem::path const& direct
   }
   auto logged = reader.read(table, scenarios::resolved_path(table.file, directory), columns);
   scenarios::check_units(logged, table, columns, units);
-  for (auto const& remark : {logged.remark, logged.clock_remark})
+  for (auto const& remark : {logged.remark, logged.clock_remark, logged.repeats_remark})
     if (!remark.empty()) remarks.push_back(remark);
   remark_twins(table, remarks);
   auto const first_reading = logged.columns.begin() + std::ptrdiff_t(table.inputs.size());

@@ -46,7 +46,8 @@ constexpr double crawling = 0.1;         // of the machine's largest speed
 constexpr double hottest_room = 323.15;  // K
 constexpr double speed_step = 0.1;       // of the run's largest speed
 constexpr double room_response = hour, soonest = 15.0 * minute;
-constexpr double room_step = 0.7;  // K, on average over changes of speed
+constexpr double room_step = 0.7;    // K, on average over changes of speed
+constexpr double steady_room = 0.5;  // K RMS of a sensor in it
 constexpr double fewest_steps = 4.0, standard_errors = 4.0;
 constexpr double shortest_run = 5.0 * minute, short_run = 2.0 * hour, longest_run = 60.0 * day;
 constexpr double longest_interval = 30.0 * minute;
@@ -83,6 +84,7 @@ class Examination {
   void examine_clock();
   void examine_motion();
   void examine_room();
+  void examine_steady_room();
   void examine_room_with_speed(VectorXd const& air, VectorXd const& speed);
   void examine_time_unit();
 
@@ -237,6 +239,20 @@ void Examination::examine_room() {
   if (air.mean() > hottest_room)
     doubt(room, fmt::format("the room is at {:.1f} degC on average; is its unit right?", air.mean() - zero_celsius));
   if (speed.size() > 0) examine_room_with_speed(air, speed);
+  if (spread(air) == 0.0) examine_steady_room();
+}
+
+/// Given as one value, where sensors in the air say that it was not one.
+void Examination::examine_steady_room() {
+  for (auto const& sensor : machine_.sensors) {
+    if (!sensor.weights.empty()) continue;
+    for (Index c = 0; c < seen_.cols(); ++c)
+      if (name(c) == sensor.description.name && movement(c) > steady_room)
+        doubt(room,
+              fmt::format("the room is given as steady, and {}, which hangs in the air, goes through {:.1f} K RMS; "
+                          "is there no record of the room?",
+                          name(c), movement(c)));
+  }
 }
 
 /// By how much the air rises in the hour after the spindle became faster, and falls after it became slower.
@@ -310,8 +326,8 @@ void compare_offsets(Machine const& machine, BinnedRun const& first, BinnedRun c
   for (auto const& [sensor, rise] : risen)
     if (std::abs(rise - room_rise) > other_offset)
       doubts.push_back({run.run->name, sensor,
-                        fmt::format("{} stands {:+.1f} K otherwise against the other sensors than at the start of {}, "
-                                    "and its offset is taken to be one; was it exchanged, or calibrated anew?",
+                        fmt::format("{} stands {:+.1f} K otherwise against the other sensors than at the start of {}; "
+                                    "was it exchanged, or calibrated anew?",
                                     sensor, rise - room_rise, first.run->name)});
 }
 

@@ -157,14 +157,13 @@ Eigen::MatrixXd signatures(Estimation const& estimation, Fit const& fit, std::ve
   return columns;
 }
 
-Remainder::Remainder(Fit const& fit, Eigen::MatrixXd const& signatures)
-    : fit_(&fit), signatures_(&signatures), information_(fit.information) {
-  shared_ = fit.jacobian.transposed_times(signatures);
+Remainder::Remainder(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen::Index first_row)
+    : fit_(&fit), signatures_(&signatures), first_row_(first_row), information_(fit.information) {
+  shared_ = fit.jacobian.transposed_times(signatures, first_row);
   taken_ = information_.solve(shared_);
 }
 
-std::vector<Score> Remainder::scores(std::vector<Hypothesis> const& hypotheses) const {
-  auto const rows = signatures_->rows();
+std::vector<Score> Remainder::scores() const {
   Eigen::VectorXd const explained = information_.solve(fit_->jacobian.gradient(fit_->residual));
   std::vector<Score> scores;
   for (Eigen::Index k = 0; k < signatures_->cols(); ++k) {
@@ -172,15 +171,22 @@ std::vector<Score> Remainder::scores(std::vector<Hypothesis> const& hypotheses) 
     Score score;
     double const whole = signature.squaredNorm();
     score.information = whole - shared_.col(k).dot(taken_.col(k));
-    double const b = signature.dot(fit_->residual.head(rows)) - shared_.col(k).dot(explained);
+    double const b =
+        signature.dot(fit_->residual.segment(first_row_, signature.size())) - shared_.col(k).dot(explained);
     if (score.information > 1e-9 * whole && whole > 0.0) {
       score.amplitude = b / score.information;
-      bool const allowed = score.amplitude > 0.0 || hypotheses[std::size_t(k)].trial->either_sign;
-      score.statistic = allowed ? b * score.amplitude : 0.0;
+      score.statistic = b * score.amplitude;
     }
     scores.push_back(score);
   }
   return scores;
+}
+
+std::vector<Score> Remainder::scores(std::vector<Hypothesis> const& hypotheses) const {
+  auto all = scores();
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].amplitude <= 0.0 && !hypotheses[k].trial->either_sign) all[k].statistic = 0.0;
+  return all;
 }
 
 Eigen::VectorXd Remainder::cosines(Eigen::Index of) const {

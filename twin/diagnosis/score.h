@@ -27,9 +27,11 @@ struct Score {
 /// What is left of signatures when a fit's unknowns have imitated what they can of them.
 class Remainder {
  public:
-  /// `signatures` whitened as the fit is; both must outlive this.
-  Remainder(Fit const& fit, Eigen::MatrixXd const& signatures);
+  /// `signatures` whitened as the fit is, in its rows from there on, whole blocks of them; both must outlive this.
+  Remainder(Fit const& fit, Eigen::MatrixXd const& signatures, Eigen::Index first_row = 0);
 
+  /// Of either sign, one for each signature.
+  [[nodiscard]] std::vector<Score> scores() const;
   [[nodiscard]] std::vector<Score> scores(std::vector<Hypothesis> const& hypotheses) const;
   /// Cosine between what is left of one signature and of each other (physics.md 8.9).
   [[nodiscard]] Eigen::VectorXd cosines(Eigen::Index of) const;
@@ -37,6 +39,7 @@ class Remainder {
  private:
   Fit const* fit_;
   Eigen::MatrixXd const* signatures_;
+  Eigen::Index first_row_;
   Eigen::LLT<Eigen::MatrixXd> information_;  ///< JᵀJ
   Eigen::MatrixXd shared_, taken_;           ///< Jᵀs, (JᵀJ)⁻¹ Jᵀs
 };

@@ -27,13 +27,14 @@ struct Unknown {
     place,     ///< of a sensor, in units of sensor_places.h
     loop,      ///< share of a solid's growth that a displacement follows beyond its loop (loop_gaps.h)
     interior,  ///< of what a lump hides, in units of a slab's (lump_interiors.h)
+    zero,      ///< of a channel in one run or in the rest of it, from what it was (changed_zero.h) [K, m]
   };
   Kind kind = Kind::number;
   std::string name;
   double mean = 0.0, deviation = 1.0;
   double lower = -INFINITY, upper = INFINITY;
   std::size_t index =
-      0;         ///< of the number, effect, channel, field, alternative, change, clock, place, loop or interior
+      0;         ///< of the number, effect, channel, field, alternative, change, clock, place, loop, interior or zero
   int run = -1;  ///< −1: all
 
   /// Of an estimate from the prior's mean, in the prior's deviations.

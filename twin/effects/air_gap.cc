@@ -43,9 +43,9 @@ struct AirGap {
     f.name("name", &AirGap::name, "unique among these");
     f.name("from", &AirGap::from, "one wall; of a horizontal gap the bottom");
     f.name("to", &AirGap::to, "other wall; of a horizontal gap the top");
-    f("width", &AirGap::width, dimension::length, "between the walls", Range{1e-3, 0.3});
+    f("width", &AirGap::width, dimension::length, "between the walls", Range{1e-3, 0.3}.above_zero());
     f("height", &AirGap::height, dimension::length, "of a vertical gap; without it the gap is horizontal",
-      Range{0.02, 3.0});
+      Range{0.02, 3.0}.above_zero());
     f("area", &AirGap::area, dimension::area, "of one wall, where the places have none", Range{1e-3, 5.0});
   }
 

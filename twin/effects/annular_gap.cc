@@ -71,8 +71,8 @@ struct AnnularGap {
     f.name("stator", &AnnularGap::stator, "surface that stands");
     f.choice("correlation", &AnnularGap::correlation, {"taylor", "becker_kaye", "jungnickel"},
              "taylor: conduction, vortices from Ta = 41, turbulence from 100; jungnickel: only while it turns");
-    f("diameter", &AnnularGap::diameter, dimension::length, "mean of rotor and stator", Range{0.01, 1.0});
-    f("gap", &AnnularGap::gap, dimension::length, "between the walls", Range{0.1e-3, 5e-3});
+    f("diameter", &AnnularGap::diameter, dimension::length, "mean of rotor and stator", Range{0.01, 1.0}.above_zero());
+    f("gap", &AnnularGap::gap, dimension::length, "between the walls", Range{0.1e-3, 5e-3}.above_zero());
     f("area", &AnnularGap::area, dimension::area, "of one wall, where the places have none", Range{1e-4, 2.0});
     f("speed", &AnnularGap::speed, "input channel with the speed");
   }

@@ -59,13 +59,13 @@ struct BallConductance {
     f.choice("model", &P::model, {"schaefer", "contact", "static"},
              "measured on rotating bearings; contacts and oil film; dry Hertzian contacts at rest");
     f("speed", &P::speed, "input channel with the speed");
-    f("count", &P::count, dimension::dimensionless, "bearings in the set", Range{1, 6});
+    f("count", &P::count, dimension::dimensionless, "bearings in the set", Range{1, 6}.above_zero());
     f("factor", &P::factor, dimension::dimensionless, "to be fitted: the models differ by 7", Range{0.3, 3.0});
-    f("balls", &P::balls, dimension::dimensionless, "in one bearing", Range{3, 400});
-    f("ball_diameter", &P::ball_diameter, dimension::length, "D_b", Range{0.001, 0.1});
-    f("pitch_diameter", &P::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0});
+    f("balls", &P::balls, dimension::dimensionless, "in one bearing", Range{3, 400}.above_zero());
+    f("ball_diameter", &P::ball_diameter, dimension::length, "D_b", Range{0.001, 0.1}.above_zero());
+    f("pitch_diameter", &P::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0}.above_zero());
     f("contact_angle", &P::contact_angle, dimension::angle, "contact, static: unloaded, for example \"15 deg\"",
-      Range{0.17, 1.06});
+      Range{0.17, 1.06}.above_zero());
     f("axial_load", &P::axial_load, dimension::force, "contact, static: of one bearing", Range{50, 2e4});
     f("oil", &P::oil, "contact: ISO viscosity grade of the base oil", Range{10, 100});
     f("oil_conductivity", &P::oil_conductivity, dimension::conductivity, "contact: of oil or grease", Range{0.1, 0.2});

@@ -56,17 +56,20 @@ struct BallNut {
     f.name("nut", &BallNut::nut, "body of the nut");
     f.name("screw", &BallNut::screw, "bar along which it runs");
     f("axis", &BallNut::axis, "whose feed moves it");
-    f("nut_length", &BallNut::nut_length, dimension::length, "over which the balls run", plausible_length);
-    f("nominal_diameter", &BallNut::nominal_diameter, dimension::length, "of the screw", plausible_diameter);
-    f("lead", &BallNut::lead, dimension::length, "travel per revolution", plausible_lead);
+    f("nut_length", &BallNut::nut_length, dimension::length, "over which the balls run", plausible_length.above_zero());
+    f("nominal_diameter", &BallNut::nominal_diameter, dimension::length, "of the screw",
+      plausible_diameter.above_zero());
+    f("lead", &BallNut::lead, dimension::length, "travel per revolution", plausible_lead.above_zero());
     f("preload", &BallNut::preload, dimension::force, "of the nut", Range{0.0, 2e4});
     f("axial_load", &BallNut::axial_load, dimension::force, "mean of its magnitude", Range{0.0, 5e4});
-    f("efficiency", &BallNut::efficiency, dimension::dimensionless, "of the screw under load", Range{0.88, 0.95});
-    f("viscous_share", &BallNut::viscous_share, dimension::dimensionless, "of the preload torque", Range{0.4, 0.8});
+    f("efficiency", &BallNut::efficiency, dimension::dimensionless, "of the screw under load",
+      Range{0.88, 0.95}.above_zero().up_to(1.0));
+    f("viscous_share", &BallNut::viscous_share, dimension::dimensionless, "of the preload torque",
+      Range{0.4, 0.8}.up_to(1.0));
     f("oil", &BallNut::oil, "ISO viscosity grade of the base oil", Range{10, 100});
     f("reference_speed", &BallNut::reference_speed, dimension::angular_speed, "for which the torque is stated",
-      plausible_speed);
-    f("nut_share", &BallNut::nut_share, dimension::dimensionless, "of the heat, into the nut", Range{0.0, 1.0});
+      plausible_speed.above_zero());
+    f("nut_share", &BallNut::nut_share, dimension::dimensionless, "of the heat, into the nut", share_range);
     f("conductance_rest", &BallNut::conductance_rest, dimension::conductance, "nut to screw at standstill",
       Range{0.5, 3.0});
     f("conductance_speed", &BallNut::conductance_speed, dimension::conductance,

@@ -67,7 +67,7 @@ struct Bearing {
     f.name("name", &Bearing::name, "unique among the bearings");
     f.name("inner", &Bearing::inner, "place of the inner rings, on the shaft");
     f.name("outer", &Bearing::outer, "place of the outer rings");
-    f("count", &Bearing::count, dimension::dimensionless, "bearings in the set", Range{1, 6});
+    f("count", &Bearing::count, dimension::dimensionless, "bearings in the set", Range{1, 6}.above_zero());
     f("grease_factor", &Bearing::grease_factor, dimension::dimensionless,
       "f0 of each: run-in spindle grease 0.4 to 1.0, grease 2, oil bath 3.3", Range{0.2, 8.0});
     f("oil", &Bearing::oil, "ISO viscosity grade of the base oil", Range{10, 100});
@@ -77,14 +77,13 @@ struct Bearing {
       "B, where it is not that grade's; the viscosity at 40 degC stays; 0: no feedback", Range{0.0, 1000.0});
     f("viscous_exponent", &Bearing::viscous_exponent, dimension::dimensionless,
       "p of the viscous torque, ∝ (νω)^p, where it is not 2/3; the same at 40 degC and full speed", Range{0.1, 2.0});
-    f("pitch_diameter", &Bearing::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0});
+    f("pitch_diameter", &Bearing::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0}.above_zero());
     f("load_factor", &Bearing::load_factor, dimension::dimensionless, "z of f1 = z (P0/C0)^y", Range{1e-4, 2e-3});
     f("load_exponent", &Bearing::load_exponent, dimension::dimensionless, "y of it", Range{0.3, 0.6});
     f("load_ratio", &Bearing::load_ratio, dimension::dimensionless, "P0/C0", Range{1e-4, 0.2});
     f("torque_load", &Bearing::torque_load, dimension::force, "P1 = max(0.9 Fa cot(alpha) - 0.1 Fr, Fr) of each",
       Range{0.0, 1e5});
-    f("inner_share", &Bearing::inner_share, dimension::dimensionless, "of the heat, into the inner rings",
-      Range{0.0, 1.0});
+    f("inner_share", &Bearing::inner_share, dimension::dimensionless, "of the heat, into the inner rings", share_range);
     f("conductance", &Bearing::conductance, dimension::conductance,
       "from inner to outer rings of the whole set, through balls and grease; 0 beside a ball_conductance",
       Range{0.0, 50.0});

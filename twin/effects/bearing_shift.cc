@@ -26,8 +26,8 @@ struct BearingShift {
     f.name("inner", &BearingShift::inner, "place of the inner ring, on the shaft");
     f.name("outer", &BearingShift::outer, "place of the outer ring");
     f("balls", &BearingShift::balls, "in one bearing", Range{3, 100});
-    f("ball_diameter", &BearingShift::ball_diameter, dimension::length, "D_b", plausible_diameter);
-    f("pitch_diameter", &BearingShift::pitch_diameter, dimension::length, "d_m", plausible_diameter);
+    f("ball_diameter", &BearingShift::ball_diameter, dimension::length, "D_b", plausible_diameter.above_zero());
+    f("pitch_diameter", &BearingShift::pitch_diameter, dimension::length, "d_m", plausible_diameter.above_zero());
     f("contact_angle", &BearingShift::contact_angle, dimension::angle, "unloaded, for example \"15 deg\"",
       Range{0.1, 0.8});
     f("preload", &BearingShift::preload, dimension::force, "of one bearing, along the axis, by springs",

@@ -1,6 +1,7 @@
 #include "thermal/drive_loss.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -32,9 +33,13 @@ struct Belt {
     f.name("motor", &Belt::motor, "place on the motor's side");
     f("loss", &Belt::loss, dimension::power, "without load at the spindle's maximum speed", Range{5, 80});
     f("exponent", &Belt::exponent, dimension::dimensionless, "of the speed", Range{1.0, 1.5});
-    f("pulley_share", &Belt::pulley_share, dimension::dimensionless, "to the spindle", Range{0.0, 1.0});
+    f("pulley_share", &Belt::pulley_share, dimension::dimensionless, "to the spindle", share_range);
     f("motor_share", &Belt::motor_share, dimension::dimensionless, "to the motor; the rest goes to the air",
-      Range{0.0, 1.0});
+      share_range);
+  }
+
+  void check(Value const& table) const {
+    refuse_more_than_whole(table, {{"pulley_share", pulley_share}, {"motor_share", motor_share}});
   }
 
   void add_to(Assembly& assembly) const {

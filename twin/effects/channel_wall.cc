@@ -16,7 +16,7 @@ struct ChannelWall {
     f("heat_capacity", &ChannelWall::heat_capacity, dimension::heat_capacity, "C_w of the whole wall",
       Range{100.0, 1e6});
     f("time_constant", &ChannelWall::time_constant, dimension::time,
-      "τ = C_w/(h A): 5 mm of steel 10 s in turbulent water, 300 s in laminar oil", Range{1.0, 1800.0});
+      "τ = C_w/(h A): 5 mm of steel 10 s in turbulent water, 300 s in laminar oil", Range{1.0, 1800.0}.above_zero());
   }
 
   void add_to(Assembly& assembly) const {

@@ -42,8 +42,9 @@ struct Chiller : GivenTemperature {
     f("power", &Chiller::power, dimension::power, "heat that it can take", Range{200, 20000});
     f("hysteresis", &Chiller::hysteresis, dimension::temperature_difference, "relay: from on to off", Range{0.2, 2.0});
     f("minimum_off_time", &Chiller::minimum_off_time, dimension::time, "relay: of the compressor", Range{0.0, 180.0});
-    f("gain", &Chiller::gain, dimension::conductance, "inverter: proportional", Range{50, 20000});
-    f("integral_time", &Chiller::integral_time, dimension::time, "inverter: of the integral", Range{10, 3600});
+    f("gain", &Chiller::gain, dimension::conductance, "inverter: proportional", Range{50, 20000}.above_zero());
+    f("integral_time", &Chiller::integral_time, dimension::time, "inverter: of the integral",
+      Range{10, 3600}.above_zero());
     f("while_on", &Chiller::while_on, "input channel that enables it");
   }
 

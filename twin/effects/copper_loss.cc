@@ -46,10 +46,10 @@ struct CopperLoss {
       Range{0.0, 100.0});
     f("torque", &P::torque, dimension::torque, "of the load, effective mean", Range{0.0, 500.0});
     f("torque_constant", &P::torque_constant, dimension::torque_constant, "per effective phase current",
-      Range{0.05, 10.0});
+      Range{0.05, 10.0}.above_zero());
     f("harmonics", &P::harmonics, dimension::dimensionless, "share that the converter's harmonics add",
       Range{0.0, 0.2});
-    f("slot_share", &P::slot_share, dimension::dimensionless, "of the loss, in the slots", Range{0.0, 1.0});
+    f("slot_share", &P::slot_share, dimension::dimensionless, "of the loss, in the slots", share_range);
     f("while_on", &P::while_on, "input channel that enables the motor");
     f("while_loaded", &P::while_loaded, "input channel between 0 and 1 that scales the load");
   }

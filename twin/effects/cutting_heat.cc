@@ -3,6 +3,7 @@
 #include "thermal/laws.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -24,11 +25,22 @@ struct CuttingHeat {
       Range{0.3e9, 6e9});
     f("removal_rate", &P::removal_rate, dimension::volume_flow, "of material, with the specific force",
       Range{1e-8, 2e-5});
-    f("tool_share", &P::tool_share, dimension::dimensionless, "of the power, into the tool", Range{0.03, 0.1});
-    f("workpiece_share", &P::workpiece_share, dimension::dimensionless, "into the workpiece", Range{0.1, 0.25});
+    f("tool_share", &P::tool_share, dimension::dimensionless, "of the power, into the tool",
+      Range{0.03, 0.1}.up_to(1.0));
+    f("workpiece_share", &P::workpiece_share, dimension::dimensionless, "into the workpiece",
+      Range{0.1, 0.25}.up_to(1.0));
     f("chips_share", &P::chips_share, dimension::dimensionless,
-      "that chips leave where they lie; the rest goes with them", Range{0.05, 0.3});
+      "that chips leave where they lie; the rest goes with them", Range{0.05, 0.3}.up_to(1.0));
     f("while_cutting", &P::while_cutting, "input channel between 0 and 1 that scales it");
+  }
+
+  void check(Value const& table) const {
+    for (auto const* key : {"specific_force", "removal_rate"}) refuse_both(table, key, "power");
+    std::vector<std::pair<std::string, double>> taken;
+    if (!tool.empty()) taken.emplace_back("tool_share", tool_share);
+    if (!workpiece.empty()) taken.emplace_back("workpiece_share", workpiece_share);
+    if (!chips_on.empty()) taken.emplace_back("chips_share", chips_share);
+    refuse_more_than_whole(table, taken);
   }
 
   void add_to(Assembly& assembly) const {

@@ -33,7 +33,8 @@ struct Evaporation {
     f("coefficient", &Evaporation::coefficient, dimension::film_coefficient, "of the film without evaporation",
       Range{2, 30});
     f("lewis", &Evaporation::lewis, dimension::dimensionless, "Le^(-2/3)", Range{0.8, 1.2});
-    f("humidity", &Evaporation::humidity, dimension::dimensionless, "relative humidity of the room", Range{0.1, 0.95});
+    f("humidity", &Evaporation::humidity, dimension::dimensionless, "relative humidity of the room",
+      Range{0.1, 0.95}.up_to(1.0));
     f("while_on", &Evaporation::while_on, "input channel between 0 and 1 that scales it");
   }
 

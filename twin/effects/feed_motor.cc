@@ -46,7 +46,7 @@ struct FeedMotor {
     f("bearings", &FeedMotor::bearings, "support_bearings whose friction it overcomes, at most two");
     f("resistance", &FeedMotor::resistance, dimension::resistance, "of a phase at 20 degC", Range{0.01, 20});
     f("torque_constant", &FeedMotor::torque_constant, dimension::torque_constant, "per effective phase current",
-      Range{0.1, 5});
+      Range{0.1, 5}.above_zero());
     f("constant_torque", &FeedMotor::constant_torque, dimension::torque,
       "of seals, guides and a weight, as if it were friction: the same both ways, none at rest", Range{-50, 50});
     f("peak_factor", &FeedMotor::peak_factor, dimension::dimensionless,
@@ -54,7 +54,8 @@ struct FeedMotor {
     f("hysteresis", &FeedMotor::hysteresis, dimension::power, "iron loss at reference speed, proportional to it",
       Range{0, 100});
     f("eddy", &FeedMotor::eddy, dimension::power, "iron loss at reference speed, with its square", Range{0, 100});
-    f("reference_speed", &FeedMotor::reference_speed, dimension::angular_speed, "of the iron losses", plausible_speed);
+    f("reference_speed", &FeedMotor::reference_speed, dimension::angular_speed, "of the iron losses",
+      plausible_speed.above_zero());
   }
 
   void add_to(Assembly& assembly) const {

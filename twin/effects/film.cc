@@ -8,6 +8,7 @@
 #include "twin/effect.h"
 #include "twin/effects/part_time_motion.h"
 #include "twin/effects/sized_surface.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -146,13 +147,23 @@ struct Film {
     f("area", &Film::area, dimension::area, "default: that of the surface; a lump has none of its own", plausible_area);
     f("coefficient", &Film::coefficient, dimension::film_coefficient, "of a constant film or one under a fan",
       Range{1.0, 2e4});
-    f("diameter", &Film::diameter, dimension::length, "of a cylinder or disc", plausible_diameter);
+    f("diameter", &Film::diameter, dimension::length, "of a cylinder or disc", plausible_diameter.above_zero());
     f("height", &Film::height, dimension::length, "of a vertical plate; area over perimeter of a horizontal one",
-      plausible_length);
-    f("emissivity", &Film::emissivity, dimension::dimensionless, "of a room film", Range{0.05, 1.0});
+      plausible_length.above_zero());
+    f("emissivity", &Film::emissivity, dimension::dimensionless, "of a room film", Range{0.05, 1.0}.up_to(1.0));
     f("factor", &Film::factor, dimension::dimensionless, "of the surface's coefficient over the correlation's",
       Range{0.1, 10.0});
     f("speed", &Film::speed, "input channel with the speed of rotation, or what runs the fan");
+  }
+
+  void check(Value const& table) const {
+    auto const refuse = [&](char const* key) {
+      if (table.find(key))
+        throw FileError(where_of(table, key),
+                        fmt::format("'{}' does nothing with correlation = \"{}\"", key, correlation));
+    };
+    if (!is_round()) refuse("diameter");
+    if (!is_plate()) refuse("height");
   }
 
   void add_to(Assembly& assembly) const {
@@ -183,13 +194,16 @@ struct Film {
     return to == "ambient" ? assembly.air(point) : assembly.port(assembly.place(to, {"ambient"}));
   }
   [[nodiscard]] double size() const {
-    bool const round = correlation.find("cylinder") != std::string::npos || correlation.starts_with("rotating_disc");
-    bool const plate = correlation.find("plate") != std::string::npos;
-    if (!round && !plate) return 1.0;
-    auto const& given = round ? diameter : height;
+    if (!is_round() && !is_plate()) return 1.0;
+    auto const& given = is_round() ? diameter : height;
     if (given) return *given;
-    throw thermal::InputError("film '" + name + "': " + correlation + " needs a " + (round ? "diameter" : "height"));
+    throw thermal::InputError("film '" + name + "': " + correlation + " needs a " +
+                              (is_round() ? "diameter" : "height"));
   }
+  [[nodiscard]] bool is_round() const {
+    return correlation.find("cylinder") != std::string::npos || correlation.starts_with("rotating_disc");
+  }
+  [[nodiscard]] bool is_plate() const { return correlation.find("plate") != std::string::npos; }
   [[nodiscard]] double needed() const {
     bool const is_given = correlation == "constant" || correlation == "fan";
     if (is_given && !coefficient)

@@ -2,6 +2,7 @@
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/sized_surface.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -23,6 +24,8 @@ struct FloodCoolant {
     f("area", &P::area, dimension::area, "default: that of the surface; a lump has none of its own", Range{1e-3, 10.0});
     f("while_on", &P::while_on, "input channel between 0 and 1 that scales it");
   }
+
+  void check(Value const& table) const { refuse_both(table, "follows", "from"); }
 
   void add_to(Assembly& assembly) const {
     Place const place = sized_surface(assembly.surface(on), area, "flood_coolant '" + name + "'");

@@ -39,7 +39,8 @@ struct Gear {
     f("rated_speed", &Gear::rated_speed, dimension::angular_speed, "default: the spindle's maximum", plausible_speed);
     f("speed", &Gear::speed, "input channel with the speed");
     f("oil", &Gear::oil, "ISO viscosity grade", Range{10, 100});
-    f("efficiency", &Gear::efficiency, dimension::dimensionless, "of the stage under load", Range{0.98, 0.99});
+    f("efficiency", &Gear::efficiency, dimension::dimensionless, "of the stage under load",
+      Range{0.98, 0.99}.up_to(1.0));
     f("transmitted_power", &Gear::transmitted_power, dimension::power, "mean, under load", Range{0.0, 1e5});
     f("while_loaded", &Gear::while_loaded, "input channel between 0 and 1 that scales the load");
   }

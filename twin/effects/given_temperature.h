@@ -5,6 +5,7 @@
 
 #include "thermal/error.h"
 #include "twin/assembly.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 
@@ -22,6 +23,11 @@ struct GivenTemperature {
       Range{-20, 20});
   }
 
+  /// FileError where a constant temperature and what only one that follows has are both given.
+  void check(Value const& table) const {
+    refuse_both(table, "follows", "temperature");
+    if (offset != 0.0) refuse_both(table, "offset", "temperature");
+  }
   /// InputError that begins with `owner` where neither is given.
   [[nodiscard]] thermal::Port port(Assembly& assembly, std::string const& owner) const {
     if (temperature) return assembly.network().add_boundary({owner, *temperature, {}});

@@ -38,11 +38,11 @@ struct GreaseRunIn {
     f.name("outer", &P::outer, "place of the outer rings");
     f("power", &P::power, dimension::power, "extra heat at rated speed at first: 0.3 to 3 times the bearing's own",
       Range{5, 500});
-    f("decay_time", &P::decay_time, dimension::time, "since the spindle last started", Range{1800, 18000});
+    f("decay_time", &P::decay_time, dimension::time, "since the spindle last started", Range{1800, 18000}.above_zero());
     f("decay_revolutions", &P::decay_revolutions, dimension::dimensionless,
-      "instead or besides: turns after which fresh grease has run in", Range{1e4, 1e8});
+      "instead or besides: turns after which fresh grease has run in", Range{1e4, 1e8}.above_zero());
     f("rated_speed", &P::rated_speed, dimension::angular_speed, "default: the spindle's maximum", plausible_speed);
-    f("inner_share", &P::inner_share, dimension::dimensionless, "of the heat, into the inner rings", Range{0.0, 1.0});
+    f("inner_share", &P::inner_share, dimension::dimensionless, "of the heat, into the inner rings", share_range);
   }
 
   void add_to(Assembly& assembly) const {

@@ -70,11 +70,12 @@ struct Guide {
     f("sliding_friction", &Guide::sliding_friction, dimension::dimensionless, "sliding: its least value",
       Range{0.02, 0.06});
     f("stribeck_speed", &Guide::stribeck_speed, dimension::speed, "sliding: where 63 % of the fall is done",
-      Range{1e-3, 0.2});
+      Range{1e-3, 0.2}.above_zero());
     f("viscous_friction", &Guide::viscous_friction, dimension::dimensionless,
       "sliding: rise of the coefficient up to the reference feed", Range{0.0, 0.1});
-    f("reference_feed", &Guide::reference_feed, dimension::speed, "of the two viscous parts", Range{0.01, 2.0});
-    f("rail_share", &Guide::rail_share, dimension::dimensionless, "of the heat, into the rail", Range{0.0, 1.0});
+    f("reference_feed", &Guide::reference_feed, dimension::speed, "of the two viscous parts",
+      Range{0.01, 2.0}.above_zero());
+    f("rail_share", &Guide::rail_share, dimension::dimensionless, "of the heat, into the rail", share_range);
   }
 
   void add_to(Assembly& assembly) const {

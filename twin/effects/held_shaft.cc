@@ -23,15 +23,17 @@ struct HeldShaftPart {
     f.name("housing", &P::housing, "stretch of the housing between the bearings");
     f("length", &P::length, dimension::length, "between the bearings", plausible_length);
     f("front_stiffness", &P::front_stiffness, dimension::stiffness, "of the front bearing and its seat, along the axis",
-      plausible_stiffness);
+      plausible_stiffness.above_zero());
     f("rear_stiffness", &P::rear_stiffness, dimension::stiffness, "of the rear bearing and its seat",
       plausible_stiffness);
     f("shaft_expansion", &P::shaft_expansion, dimension::expansion, "of the shaft", Range{3e-6, 24e-6});
     f("housing_expansion", &P::housing_expansion, dimension::expansion, "of the housing", Range{3e-6, 24e-6});
-    f("shaft_area", &P::shaft_area, dimension::area, "section of the shaft", plausible_area);
-    f("housing_area", &P::housing_area, dimension::area, "section of the housing", plausible_area);
-    f("shaft_modulus", &P::shaft_modulus, dimension::stress, "Young's modulus of the shaft", plausible_modulus);
-    f("housing_modulus", &P::housing_modulus, dimension::stress, "Young's modulus of the housing", plausible_modulus);
+    f("shaft_area", &P::shaft_area, dimension::area, "section of the shaft", plausible_area.above_zero());
+    f("housing_area", &P::housing_area, dimension::area, "section of the housing", plausible_area.above_zero());
+    f("shaft_modulus", &P::shaft_modulus, dimension::stress, "Young's modulus of the shaft",
+      plausible_modulus.above_zero());
+    f("housing_modulus", &P::housing_modulus, dimension::stress, "Young's modulus of the housing",
+      plausible_modulus.above_zero());
     f("weight", &P::weight, dimension::dimensionless, "sign with which the shaft's way outwards counts in the channel",
       Range{-1.0, 1.0});
   }

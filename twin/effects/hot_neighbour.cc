@@ -32,9 +32,9 @@ struct HotNeighbour : GivenTemperature {
     f.name("on", &P::on, "place that faces the neighbour");
     GivenTemperature::fields_of<P>(f);
     f("area", &P::area, dimension::area, "of the machine's side", Range{0.05, 5.0});
-    f("emissivity", &P::emissivity, dimension::dimensionless, "of both sides together", Range{0.05, 1.0});
+    f("emissivity", &P::emissivity, dimension::dimensionless, "of both sides together", Range{0.05, 1.0}.up_to(1.0));
     f("view", &P::view, dimension::dimensionless, "share of the side's radiation that meets the neighbour",
-      Range{0.05, 0.5});
+      Range{0.05, 0.5}.up_to(1.0));
     f("conductance", &P::conductance, dimension::conductance, "by warm air besides", Range{0.0, 20.0});
     f("while_on", &P::while_on, "input channel between 0 and 1: the neighbour's own hours, the sun");
   }

@@ -21,7 +21,7 @@ struct HydraulicUnit {
       "place where oil is throttled: valves, clamps; without one all heat goes to the tank");
     f("electric_power", &P::electric_power, dimension::power, "of the pump while it runs", Range{20, 5000});
     f("duty", &P::duty, dimension::dimensionless, "share of the time that it runs; with an accumulator 0.05 to 0.3",
-      Range{0.05, 1.0});
+      Range{0.05, 1.0}.up_to(1.0));
     f("pressure_drop", &P::pressure_drop, dimension::pressure, "at the consumers", Range{0.0, 2e7});
     f("volume_flow", &P::volume_flow, dimension::volume_flow, "mean flow through the consumers", Range{0.0, 1e-3});
     f("while_on", &P::while_on, "input channel between 0 and 1 that scales it");

@@ -62,19 +62,24 @@ struct Jacket : GivenTemperature {
     f.name("wall", &Jacket::wall, "surface or body that it cools");
     f("from", &Jacket::from, "body of fluid from which it is fed and to which it returns; or its temperature is given");
     GivenTemperature::fields_of<Jacket>(f);
-    f("flow", &Jacket::flow, dimension::volume_flow, "of the pump", Range{1e-6, 5e-3});
+    f("flow", &Jacket::flow, dimension::volume_flow, "of the pump", Range{1e-6, 5e-3}.above_zero());
     f("flow_exponent", &Jacket::flow_exponent, dimension::dimensionless,
       "of (ν0/ν): 0 where a volume is displaced, 1 where a constant pressure drives laminar flow", Range{0.0, 1.0});
     f.temperature("flow_temperature", &Jacket::flow_temperature, "of the fluid, at which the flow is stated");
     f("fluid", &Jacket::fluid, "known fluid: water, emulsion, water-glycol, oil VG10 and so on");
-    f("channel_width", &Jacket::channel_width, dimension::length, "of the section", Range{1e-3, 0.1});
-    f("channel_height", &Jacket::channel_height, dimension::length, "of the section", Range{1e-3, 0.1});
-    f("length", &Jacket::length, dimension::length, "of the channel, unrolled", Range{0.05, 50.0});
+    f("channel_width", &Jacket::channel_width, dimension::length, "of the section", Range{1e-3, 0.1}.above_zero());
+    f("channel_height", &Jacket::channel_height, dimension::length, "of the section", Range{1e-3, 0.1}.above_zero());
+    f("length", &Jacket::length, dimension::length, "of the channel, unrolled", Range{0.05, 50.0}.above_zero());
     f("helix_diameter", &Jacket::helix_diameter, dimension::length, "of a helical channel; without it straight",
-      Range{0.02, 1.0});
+      Range{0.02, 1.0}.above_zero());
     f("area", &Jacket::area, dimension::area, "wetted area that cools; default: three sides of the channel",
       Range{1e-3, 5.0});
     f("while_on", &Jacket::while_on, "input channel between 0 and 1 that scales the flow");
+  }
+
+  void check(Value const& table) const {
+    GivenTemperature::check(table);
+    for (auto const* key : {"temperature", "follows"}) refuse_both(table, key, "from");
   }
 
   void add_to(Assembly& assembly) const {

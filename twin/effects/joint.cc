@@ -6,6 +6,7 @@
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/joint_side.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -30,6 +31,10 @@ struct Joint {
     f("area", &Joint::area, dimension::area, "of contact, where the places have none or touch in part", plausible_area);
     f("in_series", &Joint::in_series, dimension::conductance, "a further conductance on the way", Range{0.0, 1e6});
     f("welded", &Joint::welded, "one piece of metal: only the half cells resist");
+  }
+
+  void check(Value const& table) const {
+    for (auto const* key : {"coefficient", "area"}) refuse_both(table, key, "conductance");
   }
 
   void add_to(Assembly& assembly) const {

@@ -18,8 +18,8 @@ struct MotorLoad {
     f("rotor", &MotorLoad::rotor, "place that takes the slip's share of it");
     f("power", &MotorLoad::power, dimension::power, "at the shaft, mean under load", Range{50, 50000});
     f("efficiency", &MotorLoad::efficiency, dimension::dimensionless, "at that load, loss without load left out",
-      Range{0.7, 0.98});
-    f("slip", &MotorLoad::slip, dimension::dimensionless, "of an induction motor", Range{0.0, 0.08});
+      Range{0.7, 0.98}.above_zero().up_to(1.0));
+    f("slip", &MotorLoad::slip, dimension::dimensionless, "of an induction motor", Range{0.0, 0.08}.up_to(1.0));
     f("while_loaded", &MotorLoad::while_loaded, "input channel between 0 and 1 that scales the load");
   }
 

@@ -37,7 +37,7 @@ struct MotorLoss {
     f("rated_speed", &MotorLoss::rated_speed, dimension::angular_speed, "default: the spindle's maximum",
       plausible_speed);
     f("base_speed_ratio", &MotorLoss::base_speed_ratio, dimension::dimensionless,
-      "above this share of the rated speed the field is weakened: eddy loss constant, hysteresis falling", positive);
+      "above this share of the rated speed the field is weakened: eddy loss constant, hysteresis falling", above_zero);
     f("while_on", &MotorLoss::while_on, "input channel that enables the motor");
   }
 

@@ -41,12 +41,12 @@ struct NutPreload {
     f("axis", &P::axis, "whose screw it is");
     f("torque", &P::torque, dimension::torque, "of the nut's preload at assembly", Range{0.05, 2.0});
     f("deflection", &P::deflection, dimension::length, "of the balls under that preload, along the radius",
-      Range{1e-6, 20e-6});
+      Range{1e-6, 20e-6}.above_zero());
     f("nominal_diameter", &P::nominal_diameter, dimension::length, "of the screw", Range{0.005, 0.2});
-    f("screw_expansion", &P::screw_expansion, dimension::expansion, "of the screw", Range{9e-6, 13e-6});
+    f("screw_expansion", &P::screw_expansion, dimension::expansion, "of the screw", Range{9e-6, 13e-6}.above_zero());
     f("nut_expansion", &P::nut_expansion, dimension::expansion, "of the nut", Range{9e-6, 13e-6});
     f.temperature("assembly_temperature", &P::assembly_temperature, "at which the preload was set");
-    f("nut_share", &P::nut_share, dimension::dimensionless, "of the heat, into the nut", Range{0.0, 1.0});
+    f("nut_share", &P::nut_share, dimension::dimensionless, "of the heat, into the nut", share_range);
   }
 
   void add_to(Assembly& assembly) const {

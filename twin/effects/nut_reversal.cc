@@ -38,9 +38,10 @@ struct NutReversal {
     f("energy", &NutReversal::energy, dimension::energy, "of one reversal", Range{0.5, 5.0});
     f("stroke", &NutReversal::stroke, dimension::length,
       "between reversals; default: the axis' stroke; must be given where the nut is followed to and fro",
-      Range{0.01, 10.0});
-    f("nut_length", &NutReversal::nut_length, dimension::length, "over which the balls run", Range{0.02, 0.5});
-    f("nut_share", &NutReversal::nut_share, dimension::dimensionless, "of the heat, into the nut", Range{0.0, 1.0});
+      Range{0.01, 10.0}.above_zero());
+    f("nut_length", &NutReversal::nut_length, dimension::length, "over which the balls run",
+      Range{0.02, 0.5}.above_zero());
+    f("nut_share", &NutReversal::nut_share, dimension::dimensionless, "of the heat, into the nut", share_range);
   }
 
   void add_to(Assembly& assembly) const {

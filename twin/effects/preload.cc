@@ -58,14 +58,15 @@ struct Preload {
     f("load_exponent", &P::load_exponent, dimension::dimensionless, "y: the torque grows with preload^(1 + y)",
       Range{0.3, 0.6});
     f("balls", &P::balls, "in one bearing", Range{3, 100});
-    f("ball_diameter", &P::ball_diameter, dimension::length, "D_b", Range{0.001, 0.1});
-    f("pitch_diameter", &P::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0});
+    f("ball_diameter", &P::ball_diameter, dimension::length, "D_b", Range{0.001, 0.1}.above_zero());
+    f("pitch_diameter", &P::pitch_diameter, dimension::length, "d_m", Range{0.005, 1.0}.above_zero());
     f("bore", &P::bore, dimension::length, "of the shaft, for the centrifugal growth of the inner ring",
       Range{0.0, 0.5});
-    f("contact_angle", &P::contact_angle, dimension::angle, "unloaded, for example \"15 deg\"", Range{0.17, 0.7});
+    f("contact_angle", &P::contact_angle, dimension::angle, "unloaded, for example \"15 deg\"",
+      Range{0.17, 0.7}.above_zero());
     f("axial_preload", &P::axial_preload, dimension::force, "of one bearing at assembly", Range{50, 5000});
     f("deflection", &P::deflection, dimension::length,
-      "δ0 of ball and races under that preload; default: after Palmgren", Range{1e-6, 6e-6});
+      "δ0 of ball and races under that preload; default: after Palmgren", Range{1e-6, 6e-6}.above_zero());
     f("ring_expansion", &P::ring_expansion, dimension::expansion, "of rings and balls", Range{3e-6, 13e-6});
     f("shaft_expansion", &P::shaft_expansion, dimension::expansion, "of the shaft", Range{3e-6, 24e-6});
     f("housing_expansion", &P::housing_expansion, dimension::expansion, "of the housing", Range{3e-6, 24e-6});
@@ -73,7 +74,7 @@ struct Preload {
     f("housing", &P::housing, "stretch of the housing between the bearings; default: the outer rings' place");
     f("span", &P::span, dimension::length, "between the bearings that are braced against each other", Range{0.0, 2.0});
     f.temperature("assembly_temperature", &P::assembly_temperature, "at which the initial preload holds");
-    f("inner_share", &P::inner_share, dimension::dimensionless, "of the heat, into the inner rings", Range{0.0, 1.0});
+    f("inner_share", &P::inner_share, dimension::dimensionless, "of the heat, into the inner rings", share_range);
   }
 
   void add_to(Assembly& assembly) const {

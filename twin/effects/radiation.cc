@@ -33,13 +33,13 @@ struct Radiation {
     f("area", &Radiation::area, dimension::area, "default: that of the surface; a lump has none of its own",
       Range{1e-3, 20.0});
     f("emissivity", &Radiation::emissivity, dimension::dimensionless, "painted 0.9, cast 0.6, machined 0.2",
-      Range{0.05, 1.0});
+      Range{0.05, 1.0}.up_to(1.0));
     f("other_emissivity", &Radiation::other_emissivity, dimension::dimensionless, "of the other side; a room: 1",
-      Range{0.05, 1.0});
+      Range{0.05, 1.0}.up_to(1.0));
     f("view", &Radiation::view, dimension::dimensionless, "F12, share of its radiation that meets the other side",
-      Range{0.05, 1.0});
+      Range{0.05, 1.0}.up_to(1.0));
     f("view_back", &Radiation::view_back, dimension::dimensionless, "F21 = F12 A1/A2; 0 where the other is far larger",
-      Range{0.0, 1.0});
+      Range{0.0, 1.0}.up_to(1.0));
   }
 
   void add_to(Assembly& assembly) const {

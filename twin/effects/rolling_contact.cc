@@ -58,16 +58,19 @@ struct RollingContactPart {
     f("force", &P::force, dimension::force, "axial load of a bearing, preload of a nut, all normal forces of a guide",
       Range{10, 1e5});
     f("elements", &P::elements, dimension::dimensionless, "balls or rollers; of a nut: circulating turns",
-      Range{1, 1000});
-    f("element_diameter", &P::element_diameter, dimension::length, "of ball or roller", Range{0.001, 0.1});
-    f("pitch_diameter", &P::pitch_diameter, dimension::length, "bearing, nut: of the centres", Range{0.005, 1.0});
-    f("lead", &P::lead, dimension::length, "nut: travel per revolution", Range{0.001, 0.1});
-    f("roller_length", &P::roller_length, dimension::length, "guide_roller: of a roller", Range{0.001, 0.1});
-    f("contact_angle", &P::contact_angle, dimension::angle, "bearing, nut, for example \"15 deg\"", Range{0.17, 1.06});
+      Range{1, 1000}.above_zero());
+    f("element_diameter", &P::element_diameter, dimension::length, "of ball or roller", Range{0.001, 0.1}.above_zero());
+    f("pitch_diameter", &P::pitch_diameter, dimension::length, "bearing, nut: of the centres",
+      Range{0.005, 1.0}.above_zero());
+    f("lead", &P::lead, dimension::length, "nut: travel per revolution", Range{0.001, 0.1}.above_zero());
+    f("roller_length", &P::roller_length, dimension::length, "guide_roller: of a roller",
+      Range{0.001, 0.1}.above_zero());
+    f("contact_angle", &P::contact_angle, dimension::angle, "bearing, nut, for example \"15 deg\"",
+      Range{0.17, 1.06}.above_zero());
     f("oil", &P::oil, "ISO viscosity grade of the base oil", Range{10, 100});
     f("oil_density", &P::oil_density, dimension::density, "of the oil", Range{800, 1000});
     f("sealed", &P::sealed, "contact seals double the friction");
-    f("first_share", &P::first_share, dimension::dimensionless, "of the heat, into the first side", Range{0.0, 1.0});
+    f("first_share", &P::first_share, dimension::dimensionless, "of the heat, into the first side", share_range);
   }
 
   void add_to(Assembly& assembly) const {

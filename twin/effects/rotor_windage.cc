@@ -5,6 +5,7 @@
 #include "thermal/windage.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -71,15 +72,19 @@ struct RotorWindage {
     f("stator", &P::stator, "place that faces it; without one that share of the heat goes to the air");
     f.choice("kind", &P::kind, {"known", "gap", "disc"},
              "power known at one speed; gap between cylinders; disc or chuck in free air");
-    f("rotor_share", &P::rotor_share, dimension::dimensionless, "of the heat, into the rotor", Range{0.0, 1.0});
-    f("stator_share", &P::stator_share, dimension::dimensionless, "of the heat, into the stator", Range{0.0, 1.0});
+    f("rotor_share", &P::rotor_share, dimension::dimensionless, "of the heat, into the rotor", share_range);
+    f("stator_share", &P::stator_share, dimension::dimensionless, "of the heat, into the stator", share_range);
     f("power", &P::power, dimension::power, "known: at rated speed", Range{2, 150});
     f("exponent", &P::exponent, dimension::dimensionless, "known: of the speed", Range{2.0, 3.0});
     f("rated_speed", &P::rated_speed, dimension::angular_speed, "known: default the spindle's maximum",
       plausible_speed);
-    f("diameter", &P::diameter, dimension::length, "of rotor or disc", Range{0.01, 1.0});
-    f("length", &P::length, dimension::length, "of the rotor in its gap", Range{0.01, 1.0});
-    f("gap", &P::gap, dimension::length, "between rotor and stator", Range{0.1e-3, 5e-3});
+    f("diameter", &P::diameter, dimension::length, "of rotor or disc", Range{0.01, 1.0}.above_zero());
+    f("length", &P::length, dimension::length, "of the rotor in its gap", Range{0.01, 1.0}.above_zero());
+    f("gap", &P::gap, dimension::length, "between rotor and stator", Range{0.1e-3, 5e-3}.above_zero());
+  }
+
+  void check(Value const& table) const {
+    if (!stator.empty()) refuse_more_than_whole(table, {{"rotor_share", rotor_share}, {"stator_share", stator_share}});
   }
 
   void add_to(Assembly& assembly) const {

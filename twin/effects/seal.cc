@@ -3,6 +3,7 @@
 #include "thermal/error.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -47,9 +48,11 @@ struct Seal {
     f("line_force", &Seal::line_force, dimension::stiffness, "force of a lip per length", Range{50, 200});
     f("outer_diameter", &Seal::outer_diameter, dimension::length,
       "of a deep groove ball bearing: its table changes at 62, 80 and 100 mm", Range{0.01, 1.0});
-    f("shaft_share", &Seal::shaft_share, dimension::dimensionless, "of the heat, into the shaft", Range{0.0, 1.0});
+    f("shaft_share", &Seal::shaft_share, dimension::dimensionless, "of the heat, into the shaft", share_range);
     f("speed", &Seal::speed, "input channel with the speed");
   }
+
+  void check(Value const& table) const { refuse_both(table, "diameter", "torque"); }
 
   void add_to(Assembly& assembly) const {
     assembly.network().add<SealHeat>(assembly.part(), {assembly.port(shaft), assembly.port(housing)},

@@ -4,6 +4,7 @@
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/part_time_motion.h"
+#include "twin/file/document.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -52,10 +53,10 @@ struct SkfBearingPart {
     f.name("shaft", &P::shaft, "place on the screw or shaft");
     f.name("ring", &P::ring, "place of the outer rings");
     f("speed", &P::speed, "input channel with the speed");
-    f("count", &P::count, dimension::dimensionless, "bearings in the set", Range{1, 6});
+    f("count", &P::count, dimension::dimensionless, "bearings in the set", Range{1, 6}.above_zero());
     f("oil", &P::oil, "ISO viscosity grade of the base oil", Range{10, 100});
-    f("bore", &P::bore, dimension::length, "d of each", Range{0.005, 0.5});
-    f("outer_diameter", &P::outer_diameter, dimension::length, "D of each", Range{0.01, 1.0});
+    f("bore", &P::bore, dimension::length, "d of each", Range{0.005, 0.5}.above_zero());
+    f("outer_diameter", &P::outer_diameter, dimension::length, "D of each", Range{0.01, 1.0}.above_zero());
     f("axial_load", &P::axial_load, dimension::force, "of each, preload included", Range{0.0, 2e4});
     f("radial_load", &P::radial_load, dimension::force, "of each", Range{0.0, 2e4});
     f("replenishment", &P::replenishment, dimension::dimensionless,
@@ -66,8 +67,16 @@ struct SkfBearingPart {
       Range{0.02, 0.1});
     f("centrifugal_factor", &P::centrifugal_factor, dimension::dimensionless,
       "of the published centrifugal terms, which overpredict super-precision bearings", Range{0.0, 1.0});
-    f("inner_share", &P::inner_share, dimension::dimensionless, "of the heat, into the shaft", Range{0.0, 1.0});
+    f("inner_share", &P::inner_share, dimension::dimensionless, "of the heat, into the shaft", share_range);
     f("conductance", &P::conductance, dimension::conductance, "shaft to outer rings", Range{0.0, 20.0});
+  }
+
+  void check(Value const& table) const {
+    if (outer_diameter <= bore)
+      throw FileError(where_of(table, "outer_diameter"),
+                      fmt::format("'outer_diameter' is {}; it must be more than the bore, {}",
+                                  thermal::format_quantity(outer_diameter, dimension::length),
+                                  thermal::format_quantity(bore, dimension::length)));
   }
 
   void add_to(Assembly& assembly) const {

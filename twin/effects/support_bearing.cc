@@ -41,9 +41,9 @@ struct SupportBearing {
       Range{0.05, 1.0});
     f("oil", &SupportBearing::oil, "ISO viscosity grade of the base oil", Range{10, 100});
     f("reference_speed", &SupportBearing::reference_speed, dimension::angular_speed, "of the drag torque",
-      plausible_speed);
+      plausible_speed.above_zero());
     f("inner_share", &SupportBearing::inner_share, dimension::dimensionless, "of the heat, into the shaft",
-      Range{0.0, 1.0});
+      share_range);
     f("conductance", &SupportBearing::conductance, dimension::conductance, "shaft to outer rings", Range{0.5, 20.0});
   }
 

@@ -1,6 +1,7 @@
 #include "twin/file/document.h"
 
 #include "thermal/units.h"
+#include "twin/file/schema.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -50,6 +51,24 @@ Location where_of_item(Value const& table, std::string const& key, std::size_t i
   Value const* value = table.find(key);
   auto const* list = value && value->is_list() ? &std::get<Value::List>(value->content) : nullptr;
   return list && item < list->size() ? (*list)[item].where : where_of(table, key);
+}
+
+void refuse_both(Value const& table, std::string const& key, std::string const& other) {
+  if (table.find(key) && table.find(other))
+    throw FileError(where_of(table, key), fmt::format("give either '{}' or '{}', not both", other, key));
+}
+
+void refuse_more_than_whole(Value const& table, std::vector<std::pair<std::string, double>> const& shares) {
+  double sum = 0.0;
+  std::vector<std::string> terms;
+  Location where = table.where;
+  for (auto const& [key, share] : shares) {
+    sum += share;
+    terms.push_back(fmt::format("'{}' {:g}", key, share));
+    if (table.find(key)) where = where_of(table, key);
+  }
+  if (sum > 1.0 + slack_of_limit)
+    throw FileError(where, fmt::format("{} are {:g} of the heat; allowed is 1 in all", fmt::join(terms, " and "), sum));
 }
 
 std::optional<double> number_in(Value const& table, std::string const& key, thermal::Dimension dimension) {

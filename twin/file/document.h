@@ -26,6 +26,11 @@ namespace thermotwin::twin {
 /// Where an item of the list under a key stands; without it, the key.
 [[nodiscard]] Location where_of_item(Value const& table, std::string const& key, std::size_t item);
 
+/// FileError at `key` where the table has `other` as well, which says the same otherwise.
+void refuse_both(Value const& table, std::string const& key, std::string const& other);
+/// FileError at the last of these keys that is given, where what is shared out is more than the whole.
+void refuse_more_than_whole(Value const& table, std::vector<std::pair<std::string, double>> const& shares);
+
 /// The number under a key, in SI.
 [[nodiscard]] std::optional<double> number_in(Value const& table, std::string const& key, thermal::Dimension dimension);
 

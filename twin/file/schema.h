@@ -30,8 +30,15 @@ namespace thermotwin::twin {
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool without_low = false;  ///< and so is `low` itself: others are divided by the number
+  bool without_zero = false;                              ///< and so is 0: others are divided by the number
+  double most = std::numeric_limits<double>::infinity();  ///< more is an error: no efficiency is above 1
+
+  [[nodiscard]] constexpr Range above_zero() const { return {low, high, true, most}; }
+  [[nodiscard]] constexpr Range up_to(double limit) const { return {low, high, without_zero, limit}; }
 };
+
+/// Of what is allowed at most, by how much more is let pass: the step of a derivative, the last digit of a share.
+inline constexpr double slack_of_limit = 5e-3;
 
 /// Of a room, a coolant, a machine.
 inline constexpr Range plausible_temperature{thermal::coldest_machine, thermal::hottest_machine};
@@ -264,10 +271,14 @@ class FieldReader {
       throw FileError(value.where, fmt::format("'{}' is {}; it must be finite", key, value.text()));
     if (!value.is_text() && !(dimension == thermal::dimension::dimensionless))
       throw FileError(value.where, fmt::format("'{}': {}", key, thermal::missing_unit(value.text(), dimension)));
-    if (range.low >= 0.0 && (result < 0.0 || (range.without_low && result == range.low)))
-      throw FileError(value.where,
-                      fmt::format("'{}' is {}; it must {} (plausible: {})", key, value.text(),
-                                  range.without_low ? "be positive" : "not be negative", range_text(range, dimension)));
+    auto const refuse = [&](std::string_view what) {
+      throw FileError(value.where, fmt::format("'{}' is {}; it must {} (plausible: {})", key, value.text(), what,
+                                               range_text(range, dimension)));
+    };
+    if (range.low >= 0.0 && (result < 0.0 || (range.without_zero && result == 0.0)))
+      refuse(range.without_zero ? "be positive" : "not be negative");
+    if (result > range.most * (1.0 + slack_of_limit))
+      refuse("be at most " + thermal::format_quantity(range.most, dimension));
     return result;
   }
 
@@ -275,8 +286,10 @@ class FieldReader {
   static std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", text); }
   static std::string range_text(Range range, thermal::Dimension dimension) {
     auto const side = [&](double x) { return thermal::format_quantity(x, dimension); };
-    if (std::isfinite(range.low) && std::isfinite(range.high)) return side(range.low) + " to " + side(range.high);
-    if (std::isfinite(range.low)) return (range.without_low ? "above " : "from ") + side(range.low);
+    std::string const above = range.without_zero && range.low == 0.0 ? "above " : "";
+    if (std::isfinite(range.low) && std::isfinite(range.high))
+      return above + side(range.low) + " to " + side(range.high);
+    if (std::isfinite(range.low)) return (above.empty() ? "from " : above) + side(range.low);
     return std::isfinite(range.high) ? "up to " + side(range.high) : "any";
   }
 

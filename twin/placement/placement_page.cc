@@ -25,8 +25,11 @@ std::string position_text(SetFigures::Sensor const& sensor) {
   return fmt::format("{:.0f} {:.0f} {:.0f}", p.x(), p.y(), p.z());
 }
 
-/// `idle`: how a sensor is called without which the error hardly changes.
-std::string set_table(SetFigures const& set, std::string const& idle) {
+std::string idle(SetFigures::Sensor const&) { return "idle"; }
+
+/// `idle_text`: what a sensor is there for without which the error hardly changes.
+template <class Text>
+std::string set_table(SetFigures const& set, Text idle_text) {
   std::size_t width = 4;
   for (auto const& sensor : set.sensors) width = std::max(width, sensor.site.name.size());
   std::string text = fmt::format("  {:<3} {:<{}}  {:>22}  {:>5}  {:>16}\n", "", "site", width, "position [mm]", "cost",
@@ -35,7 +38,7 @@ std::string set_table(SetFigures const& set, std::string const& idle) {
   for (auto const& sensor : set.sensors)
     text += fmt::format("  {:<3} {:<{}}  {:>22}  {:>5g}  {:>8.2f} um {:+4.0f} %{}\n", ++number, sensor.site.name, width,
                         position_text(sensor), sensor.site.cost, sensor.error_without_um,
-                        percent(sensor.error_without_um, set.model_um), sensor.idle ? "  " + idle : "");
+                        percent(sensor.error_without_um, set.model_um), sensor.idle ? "  " + idle_text(sensor) : "");
   text += fmt::format("\n  {:<14} {:>14} {:>14} {:>14}\n", "error [um]", "no sensor", "predicted 1s", "unseen rms");
   for (auto const& channel : set.channels)
     text += fmt::format("  {:<14} {:>14.2f} {:>14.2f} {:>14.2f}\n", channel.name, channel.prior_um,
@@ -91,6 +94,7 @@ Json to_json(Distinction const& d) {
                {"for_displacement_deg", degrees(d.for_displacement)},
                {"all_candidates_deg", degrees(d.of_all)},
                {"closest", {d.first, d.second}},
+               {"idle", d.idle},
                {"all_sets_looked_at", d.proved}};
   if (d.fewer) json["one_fewer_deg"] = degrees(*d.fewer);
   if (d.more) json["one_more_deg"] = degrees(*d.more);
@@ -141,9 +145,19 @@ class ErrorTable {
   std::size_t width_ = 26;
 };
 
-/// What a sensor is there for without which the error hardly changes.
-std::string idle_text(PlacementReport const& report) {
-  return report.dead > 0 ? "spare" : report.distinction ? "for the effects" : "idle";
+/// Of the recommended.
+std::string idle_in(PlacementReport const& report, SetFigures::Sensor const& sensor) {
+  if (report.dead > 0) return "spare";
+  auto const& distinction = report.distinction;
+  if (!distinction || std::count(distinction->idle.begin(), distinction->idle.end(), sensor.site.name) > 0)
+    return idle(sensor);
+  return "for the effects";
+}
+
+/// "8 of 200 sites", or "8 sensors for 5 sites".
+std::string sites_text(PlacementReport const& report, std::size_t count) {
+  return count > report.candidates ? fmt::format("{} sensors for {} sites", count, report.candidates)
+                                   : fmt::format("{} of {} sites", count, report.candidates);
 }
 
 Json to_json(SetFigures const& set, int dead) {
@@ -171,6 +185,28 @@ Json to_json(SetFigures const& set, int dead) {
   return json;
 }
 
+/// What its author calls a site; empty: it is called by its place.
+std::string own_name(CandidateSite const& site) {
+  bool const by_place = site.name.starts_with(fmt::format("{}", fmt::join(site.at, " and ")));
+  return by_place || site.name.find_first_of("\"\\") != std::string::npos ? "" : site.name;
+}
+
+/// Names that no sensor of the machine has, and no two of these.
+std::vector<std::string> sensor_names(PlacementReport const& report) {
+  auto const& sensors = report.recommended.sensors;
+  auto taken = report.taken;
+  std::vector<std::string> names;
+  for (auto const& sensor : sensors) {
+    auto const own = own_name(sensor.site);
+    names.push_back(!own.empty() && taken.insert(own).second ? own : "");
+  }
+  int number = 0;
+  for (auto& name : names)
+    while (name.empty())
+      if (auto const next = fmt::format("P{}", ++number); taken.insert(next).second) name = next;
+  return names;
+}
+
 Json list_of(Eigen::VectorXd const& values) { return std::vector<double>(values.begin(), values.end()); }
 
 }  // namespace
@@ -179,12 +215,13 @@ std::string placement_text(PlacementReport const& report) {
   auto const& best = report.recommended;
   auto const count = best.sensors.size();
   std::string text = fmt::format(
-      "{} of {} sites on {}; sensors with an error of {:g} K of their own\n"
+      "{} on {}; sensors with an error of {:g} K of their own\n"
       "{} machines that the file could stand for, {} spectra each; judged on {} others with other spectra\n"
       "{}\n{}\n\nrecommended\n\n{}\n",
-      count, report.candidates, report.machine, report.noise, report.members, report.experiments.size(),
-      report.unseen_members, numbers_text(report), teacher_text(report.teacher), set_table(best, idle_text(report)));
-  if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(report.proposed->set, "idle"));
+      sites_text(report, count), report.machine, report.noise, report.members, report.experiments.size(),
+      report.unseen_members, numbers_text(report), teacher_text(report.teacher),
+      set_table(best, [&](auto const& sensor) { return idle_in(report, sensor); }));
+  if (report.proposed) text += fmt::format("proposed\n\n{}\n", set_table(report.proposed->set, idle));
   text += ErrorTable(report).text();
   if (!report.remarks.empty()) text += "\n";
   for (auto const& remark : report.remarks) text += remark + "\n";
@@ -236,9 +273,10 @@ std::string placement_json(PlacementReport const& report) {
 std::string sensor_tables(PlacementReport const& report) {
   std::string text = fmt::format("# {} sensors for {}: predicted error {:.2f} um (1 sigma)\n",
                                  report.recommended.sensors.size(), report.machine, report.recommended.predicted_um);
-  int number = 0;
+  auto const names = sensor_names(report);
+  auto name = names.begin();
   for (auto const& sensor : report.recommended.sensors) {
-    text += fmt::format("\n[[temperature_sensor]]\nname = \"P{}\"\n", ++number);
+    text += fmt::format("\n[[temperature_sensor]]\nname = \"{}\"\n", *name++);
     text += sensor.site.at.size() == 1 ? fmt::format("at = \"{}\"\n", sensor.site.at[0])
                                        : fmt::format("at = [\"{}\"]\n", fmt::join(sensor.site.at, "\", \""));
   }

@@ -31,13 +31,20 @@ constexpr double most_sets = 1e6;        // that are all looked at
 constexpr double most_angles = 2e7;      // likewise, of sets that shall tell effects apart
 constexpr int first_unseen = 1'000'000;  // members of the design have smaller numbers
 
-void check(PlacementOptions const& options, std::size_t candidates) {
+/// Every site has room for `dead` spares.
+void check_room(PlacementOptions const& options, std::size_t sites) {
+  auto const each = std::size_t(options.dead) + 1;
+  if (std::size_t(options.sensors) <= sites * each) return;
+  throw InputError(fmt::format("{} sensors, but only {} candidate sites{}", options.sensors, sites,
+                               each > 1 ? fmt::format(" with room for {} each", each) : ""));
+}
+
+void check(PlacementOptions const& options, std::size_t sites) {
   if (options.sensors < 1) throw InputError(fmt::format("{} sensors; at least 1 is due", options.sensors));
-  if (std::size_t(options.sensors) > candidates)
-    throw InputError(fmt::format("{} sensors, but only {} candidate sites", options.sensors, candidates));
   if (options.dead < 0) throw InputError(fmt::format("{} dead sensors; 0 or more are due", options.dead));
   if (options.dead >= options.sensors)
     throw InputError(fmt::format("{} of {} sensors dead; at least one must be left", options.dead, options.sensors));
+  check_room(options, sites);
   if (options.dead > 0 && options.distinguish)
     throw InputError("sensors are chosen either to outlive dead ones or to tell effects apart, not for both");
   if (!(options.noise > 0.0)) throw InputError(fmt::format("the noise is {} K; it must be positive", options.noise));
@@ -150,6 +157,8 @@ class Judge {
   [[nodiscard]] InformationMap map(Sites const& set) const;
   [[nodiscard]] std::optional<double> widest_angle(models::Signatures const& signatures, Index count) const;
   [[nodiscard]] Sites widest_set(models::Signatures const& signatures, Index count) const;
+  /// Those without which the smallest angle is narrower by less than 1 %; the least useful goes first.
+  [[nodiscard]] std::vector<std::string> widening_nothing(models::Signatures const& signatures, Sites set) const;
   /// Fills in what the signatures say; returns the set that tells effects apart.
   [[nodiscard]] Sites distinguishing(Distinction& distinction, Sites const& for_displacement) const;
   [[nodiscard]] bool all_looked_at(Index count) const {
@@ -339,10 +348,26 @@ Sites Judge::widest_set(models::Signatures const& signatures, Index count) const
                               : models::place_to_distinguish(signatures, count, prices_);
 }
 
-/// None for a number of sensors that cannot be.
+/// None for a number of sensors that cannot be, or that the budget does not buy.
 std::optional<double> Judge::widest_angle(models::Signatures const& signatures, Index count) const {
   if (count < 1 || count > candidates_) return std::nullopt;
-  return models::closest_pair(signatures, widest_set(signatures, count)).angle;
+  auto const set = widest_set(signatures, count);
+  if (Index(set.size()) < count) return std::nullopt;
+  return models::closest_pair(signatures, set).angle;
+}
+
+std::vector<std::string> Judge::widening_nothing(models::Signatures const& signatures, Sites set) const {
+  auto const angle = [&](Sites const& of) { return models::closest_pair(signatures, of).angle; };
+  double const limit = (1.0 - idle_share) * angle(set);
+  std::vector<std::string> idle;
+  while (set.size() > 1) {
+    auto const least = *std::max_element(
+        set.begin(), set.end(), [&](Index a, Index b) { return angle(without(set, a)) < angle(without(set, b)); });
+    if (angle(without(set, least)) < limit) break;
+    idle.push_back(sites_[std::size_t(least)].name);
+    set = without(set, least);
+  }
+  return idle;
 }
 
 Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacement) const {
@@ -350,6 +375,7 @@ Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacem
   auto signatures = found.signatures;
   signatures.gram.resize(std::size_t(candidates_));
   auto const set = widest_set(signatures, options_.sensors);
+  auto const count = Index(set.size());  // a budget may end first
   auto const closest = models::closest_pair(signatures, set);
   auto const [first, second] = signatures.pairs[closest.pair];
   Sites every(static_cast<std::size_t>(places_));
@@ -360,11 +386,12 @@ Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacem
                  closest.angle,
                  models::closest_pair(signatures, every).angle,
                  models::closest_pair(signatures, for_displacement).angle,
-                 widest_angle(signatures, options_.sensors - 1),
-                 widest_angle(signatures, options_.sensors + 1),
+                 widest_angle(signatures, count - 1),
+                 widest_angle(signatures, count + 1),
                  {},
                  found.effects[std::size_t(first)],
                  found.effects[std::size_t(second)],
+                 widening_nothing(signatures, set),
                  all_looked_at(options_.sensors)};
   if (!proposed_.empty()) distinction.proposed = models::closest_pair(found.signatures, proposed_).angle;
   return set;
@@ -373,6 +400,7 @@ Sites Judge::distinguishing(Distinction& distinction, Sites const& for_displacem
 PlacementReport Judge::operator()() {
   PlacementReport report;
   report.machine = machine_;
+  for (auto const& table : Tables(document_).of("temperature_sensor")) report.taken.insert(name_in(table));
   report.candidates = std::size_t(places_);
   report.members = options_.design.members;
   report.unseen_members = options_.unseen_members;
@@ -412,10 +440,16 @@ PlacementReport Judge::operator()() {
 std::vector<std::string> Judge::remarks(PlacementReport const& report) const {
   std::vector<std::string> words;
   auto const& rules = options_.rules;
-  if (int(report.recommended.sensors.size()) < options_.sensors)
-    words.push_back(fmt::format("{} were asked for; the budget of {:g} has room for no better set than these {}",
-                                options_.sensors, rules.budget, report.recommended.sensors.size()));
   auto const& chosen = report.recommended.sensors;
+  if (int(chosen.size()) < options_.sensors && std::isfinite(rules.budget))
+    words.push_back(fmt::format("{} were asked for; the budget of {:g} has room for no better set than these {}",
+                                options_.sensors, rules.budget, chosen.size()));
+  else if (int(chosen.size()) < options_.sensors)
+    words.push_back(fmt::format("{} were asked for; beside {}, no other site tells anything more", options_.sensors,
+                                chosen.size() == 1 ? "this one" : fmt::format("these {}", chosen.size())));
+  if (report.distinction && !report.distinction->idle.empty())
+    words.push_back(fmt::format("without {} the smallest angle is less than {:g} % narrower",
+                                fmt::join(report.distinction->idle, " and "), 100.0 * idle_share));
   auto const idle = std::count_if(chosen.begin(), chosen.end(), [](auto const& sensor) { return sensor.idle; });
   if (idle > 0 && options_.dead == 0 && !options_.distinguish)  // those sets need theirs: as spares, for the effects
     words.push_back(

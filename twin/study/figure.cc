@@ -42,6 +42,11 @@ std::vector<double> ratio_of_means(std::vector<double> const& a, std::vector<dou
   return parts;
 }
 
+bool more_is_better(std::string_view figure) {
+  return figure == "improvement" || figure.ends_with(".r_squared") || figure == "selection.found" ||
+         figure == "selection.rank_correlation";
+}
+
 std::vector<double> values_of(Figures const& figures, std::string const& name) {
   auto const it = figures.find(name);
   return it == figures.end() ? std::vector<double>() : it->second;

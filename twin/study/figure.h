@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace thermotwin::twin {
@@ -23,6 +24,10 @@ struct Interval {
 
 /// Figures by name ("cross.rmse"), each once per repetition; NaN where there is none.
 using Figures = std::map<std::string, std::vector<double>>;
+
+/// Whether a combination with more of this figure is the better one: of r_squared, improvement, found and
+/// rank_correlation. Of all others it is the one with less.
+[[nodiscard]] bool more_is_better(std::string_view figure);
 
 /// The values of a figure; empty when the figures have none of that name.
 [[nodiscard]] std::vector<double> values_of(Figures const& figures, std::string const& name);

@@ -49,7 +49,8 @@ struct StudyWorld {
     namespace dimension = thermal::dimension;
     f.name("name", &StudyWorld::name, "as the table shall call it");
     f.name("machine", &StudyWorld::machine, "name of a machine, or its file");
-    f("set", &StudyWorld::changes, "parameters of the machine to change, as run --set: \"bearing.front.torque=2\"");
+    f("set", &StudyWorld::changes,
+      "parameters of the machine to change, as run --set: \"bearing.front.grease_factor=2\"");
     f("add", &StudyWorld::added, "tables to add to the machine, as they would stand in its file");
     f("train", &StudyWorld::train, "experiments or measured runs (.h5, .csv, .toml) that models are fitted to");
     f("test", &StudyWorld::test, "the ones that no model has seen");
@@ -87,14 +88,15 @@ struct StudyClaim {
     f.name("says", &StudyClaim::says, "the claim in words");
     f.name("combination", &StudyClaim::combination, "\"selection + model\", or \"chosen by cross-validation\"");
     f("than", &StudyClaim::than,
-      "the other combination, or \"best of papers\"; 'combination' shall have less of 'figure'");
+      "the other combination, or \"best of papers\"; 'combination' shall have less of 'figure', or more where more is "
+      "better: r_squared, improvement, found, rank_correlation");
     f("figure", &StudyClaim::figure, "column of the table");
     f("world", &StudyClaim::world, "where; default: the first; \"mean of worlds\": in the mean of all");
     f("at_most", &StudyClaim::at_most, dimension::dimensionless, "in the figure's unit, in place of 'than'");
     f("improvement", &StudyClaim::improvement, dimension::dimensionless,
-      "by how many percent less; default: less at all");
+      "by how many percent better; default: better at all");
     f("tolerance", &StudyClaim::tolerance, dimension::dimensionless,
-      "no worse than 'than': more of 'figure' by so many percent at most; 0: not more; in place of 'improvement'",
+      "no worse than 'than', but by so many percent of 'figure' at most; 0: not worse; in place of 'improvement'",
       Range{0.0});
     f("share", &StudyClaim::share, dimension::dimensionless,
       "at most so much of 'than': 0.5 for half of it; in place of 'improvement'", Range{0.0});

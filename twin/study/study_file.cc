@@ -16,6 +16,7 @@
 #include "twin/file/value.h"
 #include "twin/file_kind.h"
 #include "twin/study/combinations.h"
+#include "twin/study/figure.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -100,6 +101,54 @@ void check_comparison(Value const& table, StudyClaim const& claim) {
                     "a 'share' is of another combination; give 'than', and no 'improvement' or 'tolerance'");
 }
 
+/// Where the default of a claim is the first world.
+StudyWorld const& world_of(StudyClaim const& claim, StudyDescription const& study) {
+  auto const named = [&](StudyWorld const& world) { return world.name == claim.world; };
+  auto const world = std::find_if(study.worlds.begin(), study.worlds.end(), named);
+  return world == study.worlds.end() ? study.worlds.front() : *world;
+}
+
+/// What a claim may be of: the columns of figures_of(), but for those that the study cannot have.
+std::vector<std::string> figures_to_claim(StudyClaim const& claim, StudyDescription const& study) {
+  std::vector<std::string> parts = {"self", "cross"};
+  if (study.folds > 0) parts.emplace_back("validation");
+  std::vector<std::string> figures;
+  for (auto const& part : parts) figures.push_back(part + ".rmse");
+  if (claim.world == mean_of_worlds) return figures;
+  for (auto const& part : parts)
+    for (auto const* measure : {".mae", ".max", ".r_squared", ".mape"}) figures.push_back(part + measure);
+  for (std::string const statistic : {"S", "Mn", "Sd", "verification.Mn", "verification.Sd"})
+    for (auto const* of : {"", ".least", ".most"}) figures.push_back(statistic + of);
+  figures.emplace_back("improvement");
+  for (std::string const worth : {"regret", "informative", "found", "rank_correlation", "switches", "count"})
+    figures.push_back("selection." + worth);
+  for (auto const& instant : world_of(claim, study).instants)
+    for (auto const* measure : {".rmse", ".mae", ".max"}) figures.push_back(instant.name() + measure);
+  return figures;
+}
+
+/// That there is the figure, and what is asked of it.
+void check_figure(Value const& table, StudyClaim const& claim, StudyDescription const& study) {
+  auto const known = figures_to_claim(claim, study);
+  if (std::find(known.begin(), known.end(), claim.figure) == known.end())
+    throw FileError(where_of(table, "figure"),
+                    fmt::format("a study has no figure '{}'{}; {}", claim.figure,
+                                claim.world == mean_of_worlds ? " in the mean of worlds" : "",
+                                claim.figure.starts_with("validation.") && study.folds == 0
+                                    ? "give 'folds', which it is of"
+                                    : thermal::did_you_mean(claim.figure, known)));
+  bool const more = more_is_better(claim.figure);
+  if (claim.share && more)
+    throw FileError(where_of(table, "share"),
+                    fmt::format("a 'share' is at most so much of the other's figure, but of '{}' more is better; give "
+                                "'improvement' or 'tolerance'",
+                                claim.figure));
+  if (claim.improvement && *claim.improvement > 100.0 && !more)
+    throw FileError(where_of(table, "improvement"),
+                    fmt::format("an 'improvement' by {:g} % leaves less than nothing of the other's '{}'; 100 % is all",
+                                *claim.improvement, claim.figure));
+}
+
 void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::string> combinations,
                  StudyDescription const& study) {
   combinations.emplace_back(best_of_papers);
@@ -115,6 +164,7 @@ void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::s
   if (!claim.world.empty() && std::find(worlds.begin(), worlds.end(), claim.world) == worlds.end())
     throw FileError(where_of(table, "world"),
                     fmt::format("no world '{}'; {}", claim.world, thermal::did_you_mean(claim.world, worlds)));
+  check_figure(table, claim, study);
 }
 
 template <class Method>

@@ -60,8 +60,8 @@ struct Study {
 /// One about a world says which, too.
 [[nodiscard]] thermal::InputError about(StudyWorld const& world, std::string const& complaint);
 
-/// FileError with line and column: unknown keys, methods and combinations; no world, selection or model; names given
-/// twice; a world without anything to test on.
+/// FileError with line and column: unknown keys, methods, combinations and figures of claims; no world, selection or
+/// model; names given twice; a world without anything to test on.
 [[nodiscard]] Study read_study(std::filesystem::path const& file);
 
 /// A study file, or the name of one in scenarios/studies; InputError with the nearest name.

@@ -84,6 +84,31 @@ std::vector<Row const*> of_world(std::vector<Row> const& rows, std::string const
   return result;
 }
 
+double rank_of(Combination const& row, std::string const& figure) {
+  double const mean = interval(values_of(row.figures, figure)).mean;
+  return std::isfinite(mean) ? mean : INFINITY;
+}
+
+constexpr std::size_t room_for_chosen = 40;
+
+/// Sensors of the best combination with a selection; empty where its name says which, or there is no room for them.
+std::string chosen_text(StudyReport const& report, SelectionFigures const& selection) {
+  if (selection.selection == "all" || selection.selection.starts_with("sensors ")) return {};
+  Combination const* best = nullptr;
+  for (auto const& row : report.rows)
+    if (row.world == selection.world && row.selection == selection.selection && !row.sensors.empty() &&
+        row.refused.empty() && (!best || rank_of(row, "cross.rmse") < rank_of(*best, "cross.rmse")))
+      best = &row;
+  if (!best) return {};
+  auto const text = fmt::format("{}", fmt::join(best->sensors, " "));
+  return text.size() > room_for_chosen ? "" : text;
+}
+
+bool names_chosen(StudyReport const& report) {
+  return std::any_of(report.selections.begin(), report.selections.end(),
+                     [&](auto const& row) { return !chosen_text(report, row).empty(); });
+}
+
 std::string selection_table(StudyReport const& report, std::string const& world) {
   auto const rows = of_world(report.selections, world);
   auto const shown = used(selection_columns, rows);
@@ -93,14 +118,10 @@ std::string selection_table(StudyReport const& report, std::string const& world)
   for (auto const* row : rows) {
     text += fmt::format("  {:<{}}", row->selection, width);
     for (auto const& column : shown) text += cell(row->figures, column);
-    text += (row->remark.empty() ? "" : "  " + row->remark) + "\n";
+    auto const chosen = chosen_text(report, *row);
+    text += (chosen.empty() ? "" : "  chosen: " + chosen) + (row->remark.empty() ? "" : "  " + row->remark) + "\n";
   }
   return text;
-}
-
-double rank_of(Combination const& row, std::string const& figure) {
-  double const mean = interval(values_of(row.figures, figure)).mean;
-  return std::isfinite(mean) ? mean : INFINITY;
 }
 
 /// Best first.
@@ -171,7 +192,7 @@ std::string words_of(StudyWork const& work) {
   return text + ", " + counted(work.fits, "fit") + ", each made once";
 }
 
-/// Of the intervals and of "better %", where the tables have them.
+/// Of the intervals, of "better %" and of what was chosen, where the tables have them.
 std::string legend(StudyReport const& report) {
   std::vector<std::string> words;
   if (std::any_of(report.repetitions.begin(), report.repetitions.end(), [](int count) { return count > 1; }))
@@ -180,6 +201,7 @@ std::string legend(StudyReport const& report) {
                   [](auto const& row) { return row.figures.contains("improvement"); }))
     words.push_back(fmt::format("better: {} of cross-prediction against {}", report.description.metric,
                                 report.description.reference));
+  if (names_chosen(report)) words.emplace_back("chosen: for the first training set, with the first seed");
   return words.empty() ? "" : fmt::format("{}\n", fmt::join(words, "; "));
 }
 

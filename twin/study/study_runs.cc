@@ -31,6 +31,7 @@ constexpr double tolerance = 1e-6;
 struct Source {
   fs::path file;
   bool measured = false;
+  Location named = {};  ///< where in the study's file
 };
 
 fs::path measured_folder() { return fs::path(THERMOTWIN_SOURCE_DIR) / "scenarios" / "measured"; }
@@ -68,16 +69,6 @@ Value changed_machine(StudyWorld const& world, Value document) {
   return document;
 }
 
-/// A complaint about what the world changes stands in the study's file.
-Machine machine_of(StudyWorld const& world, Value const& nominal) {
-  if (world.changes.empty() && world.added.empty()) return Machine::build(nominal);
-  try {
-    return Machine::build(changed_machine(world, nominal));
-  } catch (thermal::InputError const& error) {
-    throw about(world, error.what());
-  }
-}
-
 /// What a world asks for: the machine and the runs, by file.
 struct Order {
   StudyWorld const* world;
@@ -95,6 +86,26 @@ auto in_world(StudyWorld const& world, Action action) {
   } catch (thermal::InputError const& error) {
     throw about(world, error.what());
   }
+}
+
+/// A complaint about what the world changes stands in the study's file.
+Machine machine_of(StudyWorld const& world, Value const& nominal) {
+  if (world.changes.empty() && world.added.empty()) return in_world(world, [&] { return Machine::build(nominal); });
+  try {
+    return Machine::build(changed_machine(world, nominal));
+  } catch (thermal::InputError const& error) {
+    throw about(world, error.what());
+  }
+}
+
+std::vector<Source> sources_of(StudyWorld const& world, fs::path const& directory) {
+  std::vector<Source> sources;
+  for (auto const& [key, names] : {std::pair{"train", &world.train}, {"test", &world.test}})
+    for (std::size_t i = 0; i < names->size(); ++i) {
+      sources.push_back(source_of((*names)[i], directory));
+      if (world.table.is_table()) sources.back().named = where_of_item(world.table, key, i);
+    }
+  return sources;
 }
 
 /// Before hours of runs.
@@ -129,15 +140,13 @@ void check_experiments(Order const& order) {
 }
 
 Order order_of(StudyWorld const& world, fs::path const& directory) {
-  Order order = in_world(world, [&] {
-    Value const nominal = nominal_machine(world, directory);
-    Order own{&world, nominal, machine_of(world, nominal), {}};
-    check_error(world, own.machine);
-    for (auto const* list : {&world.train, &world.test})
-      for (auto const& name : *list) own.sources.push_back(source_of(name, directory));
-    if (std::all_of(own.sources.begin(), own.sources.end(), [](auto& source) { return source.measured; }))
-      own.nominal = changed_machine(world, nominal);
-    return own;
+  Value const nominal = in_world(world, [&] { return nominal_machine(world, directory); });
+  Order order{&world, nominal, machine_of(world, nominal), {}};
+  in_world(world, [&] {
+    check_error(world, order.machine);
+    order.sources = sources_of(world, directory);
+    if (std::all_of(order.sources.begin(), order.sources.end(), [](auto& source) { return source.measured; }))
+      order.nominal = changed_machine(world, nominal);
   });
   check_experiments(order);
   return order;
@@ -158,13 +167,25 @@ std::string key_of(Order const& order, Source const& source, int seed) {
                      seed);
 }
 
-MeasuredRun measured(Job const& job) {
-  auto run = read_measured_run(job.source.file, job.order->machine);
-  auto const& sampling = job.order->world->sampling;
+/// A complaint about what the run lacks stands where the study names it.
+MeasuredRun read_run(Order const& order, Source const& source) {
+  try {
+    return read_measured_run(source.file, order.machine);
+  } catch (FileError const&) {
+    throw;
+  } catch (thermal::InputError const& error) {
+    if (source.named.line == 0) throw;
+    throw FileError(source.named, fmt::format("world '{}': {}", order.world->name, error.what()));
+  }
+}
+
+MeasuredRun measured(Order const& order, Source const& source) {
+  auto run = read_run(order, source);
+  auto const& sampling = order.world->sampling;
   double const own = usual_interval({run.time.data(), std::size_t(run.time.size())});
   if (sampling && *sampling < own * (1.0 - 1e-6))
     throw thermal::InputError(fmt::format("'sampling' is {:g} s, finer than the {:g} s between the rows of {}",
-                                          *sampling, own, job.source.file.filename().string()));
+                                          *sampling, own, source.file.filename().string()));
   return run;
 }
 
@@ -210,7 +231,12 @@ std::vector<Order> orders_of(Study const& study) {
 
 }  // namespace
 
-void check_worlds(Study const& study) { static_cast<void>(orders_of(study)); }
+void check_worlds(Study const& study) {
+  for (auto const& order : orders_of(study))
+    for (auto const& source : order.sources)
+      if (source.measured && source.file.parent_path() != measured_folder())
+        in_world(*order.world, [&] { static_cast<void>(measured(order, source)); });
+}
 
 std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)> const& progress,
                                   std::atomic<bool> const* stop) {
@@ -238,7 +264,7 @@ std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)
   in_parallel(jobs.size(), progress, stop, [&](std::size_t j) {
     in_world(*jobs[j].order->world, [&] {
       if (jobs[j].source.measured) {
-        jobs[j].run = std::make_shared<MeasuredRun const>(measured(jobs[j]));
+        jobs[j].run = std::make_shared<MeasuredRun const>(measured(*jobs[j].order, jobs[j].source));
         jobs[j].data = dataset_of(*jobs[j].run, jobs[j].order->world->sampling);
       } else {
         jobs[j].data = simulated(jobs[j], stop);

@@ -26,8 +26,9 @@ struct WorldRuns {
   std::size_t made = 0;  ///< data sets that were simulated or read for this world, and for none before it
 };
 
-/// FileError where a world names a machine, a run or an error that is not there, or an experiment that the machine
-/// cannot be put through; simulates nothing.
+/// FileError where a world names a machine, a run or an error that is not there, an experiment that the machine cannot
+/// be put through, or a measured run that cannot be read on it (the shipped ones, whose data may be elsewhere, are not
+/// read); simulates nothing.
 void check_worlds(Study const& study);
 
 /// Simulates and reads, in parallel; see study_data().

@@ -31,9 +31,10 @@ Rows papers_of(Rows const& rows) {
 
 Combination const* best_of(Rows const& rows, std::string const& figure) {
   Combination const* best = nullptr;
+  double const sign = more_is_better(figure) ? -1.0 : 1.0;
   double least = INFINITY;
   for (auto const* row : rows)
-    if (double const mean = interval(values_of(row->figures, figure)).mean; mean < least) {
+    if (double const mean = sign * interval(values_of(row->figures, figure)).mean; mean < least) {
       least = mean;
       best = row;
     }
@@ -115,19 +116,23 @@ Margin within_share(double share, Compared const& compared) {
   return margin;
 }
 
-/// Less by `improvement`, or more by `tolerance` at most [%].
-Margin less_than(StudyClaim const& claim, Compared const& compared) {
+/// Better by `improvement`, or worse by `tolerance` at most [%]; better is less, where more is not.
+Margin better_than(StudyClaim const& claim, Compared const& compared) {
+  bool const more = more_is_better(claim.figure);
+  double const sign = more ? -1.0 : 1.0;
   double const share = 0.01 * (claim.improvement.value_or(0.0) - claim.tolerance.value_or(0.0));
-  double const whole = interval(compared.others).mean;
+  double const whole = std::abs(interval(compared.others).mean);
   Margin margin;
-  std::vector<double> less;
+  std::vector<double> gains;
   for (std::size_t r = 0; r < std::min(compared.values.size(), compared.others.size()); ++r) {
-    less.push_back(100.0 * (compared.others[r] - compared.values[r]) / whole);
-    margin.values.push_back((1.0 - share) * compared.others[r] - compared.values[r]);
+    double const gain = sign * (compared.others[r] - compared.values[r]);
+    gains.push_back(100.0 * gain / whole);
+    margin.values.push_back(gain - share * std::abs(compared.others[r]));
   }
-  margin.words = other_text(compared) + text_of(interval(less), 1) + " % less";
+  margin.words = fmt::format("{}{} % {}", other_text(compared), text_of(interval(gains), 1), more ? "more" : "less");
   if (claim.improvement) margin.words += fmt::format(", against {:g} %", *claim.improvement);
-  if (claim.tolerance) margin.words += fmt::format(", against {:g} % more at most", *claim.tolerance);
+  if (claim.tolerance)
+    margin.words += fmt::format(", against {:g} % {} at most", *claim.tolerance, more ? "less" : "more");
   return margin;
 }
 
@@ -155,7 +160,7 @@ ClaimVerdict judged_claim(StudyReport const& report, StudyClaim const& claim) {
   }
   auto const margin = claim.at_most ? below(*claim.at_most, compared)
                       : claim.share ? within_share(*claim.share, compared)
-                                    : less_than(claim, compared);
+                                    : better_than(claim, compared);
   if (margin.values.empty())
     return {claim, world, ClaimVerdict::Answer::refused,
             fmt::format("there is no '{}' of these combinations in '{}'{}", claim.figure, world,

@@ -104,6 +104,7 @@ VolumetricStudy volumetric_files(VolumetricFiles const& files) {
   refuse_to_overwrite(files.picture, files.machine, {files.run}, files.output);
   check_picture(files.picture);
   if (!files.output.empty()) output::require_empty(files.output);
+  refuse_repeated(files.settings);
   Value document = read_toml(files.machine);
   for (auto const& setting : files.settings) set_parameter(document, setting.path, setting.value);
   auto const machine = read_volumetric(document);

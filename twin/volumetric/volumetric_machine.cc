@@ -104,11 +104,29 @@ GeometricErrors errors_of(VolumetricDescription const& description, Workspace co
   return errors;
 }
 
-void check_growth(VolumetricDescription const& description, Value const& table) {
+/// Whether a table of that kind, [[displacement]] or [[rotation]], has the name.
+bool has_channel(Value const& document, std::string_view kind, std::string const& name) {
+  Value const* tables = document.find(kind);
+  if (!tables || !tables->is_list()) return false;
+  auto const& list = std::get<Value::List>(tables->content);
+  return std::any_of(list.begin(), list.end(), [&](Value const& table) {
+    auto const* named = table.is_table() ? table.find("name") : nullptr;
+    return named && named->is_text() && std::get<std::string>(named->content) == name;
+  });
+}
+
+/// Of a channel that the machine's file makes.
+void check_unit(Value const& document, GrowthDescription const& growth, bool angle) {
+  if (has_channel(document, angle ? "displacement" : "rotation", growth.channel))
+    throw InputError(fmt::format("'{}' is {}; {} is due for '{}', which it moves", growth.channel,
+                                 angle ? "a length" : "an angle", angle ? "an angle" : "a length", growth.element));
+}
+
+void check_growth(VolumetricDescription const& description, Value const& table, Value const& document) {
   for (std::size_t i = 0; i < description.growth.size(); ++i)
     located(entry(table, "growth", i), [&] {
-      auto const& element = description.growth[i].element;
-      if (!is_squareness(element)) (void)element_place(element);
+      auto const& growth = description.growth[i];
+      check_unit(document, growth, is_squareness(growth.element) || element_place(growth.element).component >= 3);
     });
 }
 
@@ -129,7 +147,7 @@ VolumetricMachine read_volumetric(Value const& document) {
   if (Value const* laser = document.find("laser")) read_fields(*laser, machine.laser);
   machine.workspace = workspace_of(machine.description, *table);
   machine.cold = errors_of(machine.description, machine.workspace, *table);
-  check_growth(machine.description, *table);
+  check_growth(machine.description, *table, document);
   return machine;
 }
 

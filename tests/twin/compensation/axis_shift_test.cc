@@ -19,6 +19,12 @@ TEST(AxisShift, MovesInStepsOfTheResolution) {
   EXPECT_EQ(shift.move_to(-1.3, 1.0), -1.5);
 }
 
+TEST(AxisShift, HasNoNegativeZero) {
+  AxisShift shift({1.0, 0.0, infinity, 10.0});
+  for (double const target : {-0.3, -0.0, -3.0, -0.0})
+    EXPECT_FALSE(shift.move_to(target, 1.0) == 0.0 && std::signbit(shift.offset())) << target;
+}
+
 TEST(AxisShift, FollowsTheTargetToTheDeadBandOrHalfAStep) {
   for (double const dead_band : {0.0, 0.3, 0.5, 1.0, 2.0}) {
     AxisShift shift({1.0, dead_band, infinity, 100.0});

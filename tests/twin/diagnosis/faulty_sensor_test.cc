@@ -142,6 +142,18 @@ TEST(FaultySensor, IsNoneAcrossAMissingSampleWhereOtherTablesHaveRowsBetweenItsO
   EXPECT_FALSE(found_in_two_tables(warming(), leaps));
 }
 
+/// A body that warms fast goes farther between samples that are farther apart.
+TEST(FaultySensor, IsNoneWhereRowsAreKeptAtRandom) {
+  VectorXd const rising = 295.15 + 8.0 * (1.0 - (-VectorXd::LinSpaced(480, 0.0, 479.0).array() / 25.0).exp());
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    std::mt19937 random(seed);
+    VectorXd kept = rising;
+    for (double& value : kept)
+      if (random() % 10 >= 3) value = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(found({{"T1", false, kept}, {"T2", false, warming()}})) << seed;
+  }
+}
+
 TEST(FaultySensor, IsOneThatShowsNothing) {
   VectorXd const nothing = VectorXd::Constant(480, std::numeric_limits<double>::quiet_NaN());
   auto const sensor = found({{"T1", false, nothing}, {"T2", false, warming()}});

@@ -139,7 +139,7 @@ TEST(MeasuredRun, APowerOnValueIsLeftOut) {
                                     "' reads 85 degC in 2 rows from 0.12 h on, as a "
                                     "DS18B20 does that was switched on: left out"));
   EXPECT_TRUE(std::isnan(run.channels[4].values[7]));
-  dataset.readings[4].values[91] = 83.0;
+  dataset.readings[4].values.segment(5, 4) << 82.0, 84.0, 85.0, 83.0;  // it is as hot as that
   EXPECT_FALSE(std::isnan(measured_run(dataset, machine(), "hot").channels[4].values[7]));
 }
 
@@ -208,6 +208,51 @@ TEST(MeasuredRun, DeadSensorsAndGapsBecomeRemarks) {
   EXPECT_TRUE(run.channels[2].values.tail(59).array().isNaN().all());
   EXPECT_TRUE(std::isfinite(run.channels[2].values[100]));
   EXPECT_TRUE(std::isnan(run.channels[4].values[7]));
+}
+
+/// Coarse readings of a body that warms to a steady state stand for longer and longer; those of one that was cut off
+/// do so at once.
+TEST(MeasuredRun, ASensorThatIsNearlySteadyIsNotDead) {
+  MeasuredData data;
+  data.time = Eigen::VectorXd::LinSpaced(151, 0.0, 5 * 3600.0);
+  Eigen::VectorXd const rising = 22.0 + 5.0 * (1.0 - (-data.time.array() / 5400.0).exp());
+  auto const coarse = [](Eigen::VectorXd const& values) -> Eigen::VectorXd {
+    return 0.0625 * (values / 0.0625).array().round();
+  };
+  Eigen::VectorXd cut = rising;
+  cut.tail(100).setConstant(rising[50]);
+  data.readings = {{"T1", "degC", "", coarse(rising)}, {"T2", "degC", "", coarse(cut)}, {"T3", "degC", "", rising}};
+  data.inputs = {{"spindle.speed", "rad/s", {0.0}, {0.0}}, {"ambient.temperature", "K", {0.0}, {293.0}}};
+  auto const run = measured_run(std::move(data), machine(), "coarse");
+  EXPECT_FALSE(run.channels[0].dead_from);
+  EXPECT_TRUE(run.channels[1].dead_from);
+  EXPECT_FALSE(run.channels[2].dead_from);
+}
+
+/// A value of one row, there and back; what goes there and stays is none, nor what noise does.
+TEST(MeasuredRun, AValueThatStandsAloneIsLeftOutAndTold) {
+  MeasuredData data;
+  data.time = Eigen::VectorXd::LinSpaced(121, 0.0, 2 * 3600.0);
+  Eigen::VectorXd const rising = 22.0 + data.time.array() / 3600.0;
+  Eigen::VectorXd spiked = rising, jumped = rising, noisy = rising, moved = 10.0 * (rising.array() - 22.0);
+  spiked[60] += 40.0;
+  spiked[90] -= 15.0;
+  jumped.tail(60).array() += 10.0;
+  for (Eigen::Index r = 0; r < noisy.size(); ++r) noisy[r] += (r % 2 == 0 ? 1.5 : -1.5);
+  moved[30] = 500.0;
+  data.readings = {{"T1", "degC", "", spiked}, {"T2", "degC", "", jumped}, {"T3", "degC", "", noisy}};
+  data.displacements = {{"E_Z", "um", "", moved}};
+  data.inputs = {{"spindle.speed", "rad/s", {0.0}, {0.0}}, {"ambient.temperature", "K", {0.0}, {293.0}}};
+  auto const run = measured_run(std::move(data), machine(), "spiked");
+  auto const missing = [&](int channel) { return run.channels[std::size_t(channel)].values.array().isNaN().count(); };
+  EXPECT_TRUE(std::isnan(run.channels[0].values[60]) && std::isnan(run.channels[0].values[90]));
+  EXPECT_EQ(missing(0), 2);
+  EXPECT_EQ(missing(1) + missing(2), 0);
+  EXPECT_TRUE(std::isnan(run.channels[3].values[30]));
+  EXPECT_EQ(missing(3), 1);
+  EXPECT_THAT(run.remarks, Contains("'T1' reads 63 degC in one row at 1.00 h, and so in 1 more, far from the rows "
+                                    "before and after: left out"));
+  EXPECT_THAT(run.remarks, Contains(HasSubstr("'E_Z' reads 500 um in one row at 0.50 h, far")));
 }
 
 /// The rows of two tables lie between one another, and a frozen sensor has readings in one of them.

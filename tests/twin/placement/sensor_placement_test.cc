@@ -12,6 +12,7 @@
 #include "tests/output/temporary_directory.h"
 #include "tests/twin/random_machine.h"
 #include "thermal/error.h"
+#include "twin/experiment_file.h"
 #include "twin/machine.h"
 #include "twin/placement/snapshot_moments.h"
 #include "twin/turning_bodies.h"
@@ -148,6 +149,11 @@ TEST(CandidateSites, HaveNamesOfTheirOwn) {
               ThrowsMessage<thermal::InputError>(HasSubstr("candidates.toml:5:8: the name 'a' is taken")));
   EXPECT_THAT([] { rules_from("[[body]]\nname = \"bed\"\n[[body]]\nname = \"bed\"\ncost = 2\n"); },
               ThrowsMessage<thermal::InputError>(HasSubstr("candidates.toml:4:8: the name 'bed' is taken")));
+}
+
+/// Everything may be left out, and so may all of it.
+TEST(CandidateSites, OfAnEmptyFileAreThoseOfNoFile) {
+  EXPECT_EQ(names_of(candidate_sites(v450(), rules_from(""))), names_of(candidate_sites(v450(), {})));
 }
 
 TEST(CandidateSites, HaveRoomForSpares) {
@@ -390,6 +396,55 @@ TEST(PlaceSensors, TellsMissingEffectsApartWithinTheBudget) {
   EXPECT_FALSE(json.contains("above_bound"));
 }
 
+/// A third sensor is not to be had for the money, and the second, in the room, widens no angle: that is said of both.
+TEST(PlaceSensors, WidensNoAngleBeyondTheBudget) {
+  auto options = quick(3);
+  options.design.members = options.unseen_members = 3;
+  options.distinguish = true;
+  options.rules.budget = 2.0;
+  options.rules.sites = {{"head", {"head_front"}, 2.0},
+                         {"column", {"column_rear"}, 1.0},
+                         {"ring", {"cartridge[90 mm]"}, 5.0},
+                         {"motor", {"motor"}, 1.0},
+                         {"room", {"ambient"}, 0.5}};
+  auto const report = place_sensors(v450(), options);
+  ASSERT_EQ(report.recommended.sensors.size(), 2U);
+  auto const& distinction = report.distinction.value();
+  EXPECT_FALSE(distinction.more);
+  EXPECT_NEAR(distinction.fewer.value(), distinction.recommended, 0.01 * distinction.recommended);
+  EXPECT_THAT(distinction.idle, testing::ElementsAre("room"));
+  EXPECT_THAT(report.remarks, Contains("without room the smallest angle is less than 1 % narrower"));
+  auto const json = nlohmann::json::parse(placement_json(report))["distinction"];
+  EXPECT_FALSE(json.contains("one_more_deg"));
+  EXPECT_EQ(json["idle"], std::vector<std::string>{"room"});
+}
+
+/// Every one of the sites has room for the sensor and two spares.
+TEST(PlaceSensors, MayBeMoreThanSitesWithSpares) {
+  auto options = quick(5);
+  options.dead = 2;
+  options.rules.sites = {{"head", {"head_front"}}, {"column", {"column_front"}}};
+  auto const report = place_sensors(v450(), options);
+  EXPECT_EQ(report.recommended.sensors.size(), 5U);
+  EXPECT_THAT(placement_text(report), testing::StartsWith("5 sensors for 2 sites on v450"));
+  EXPECT_THAT(report.taken, Contains("T1"));
+  options.sensors = 7;
+  EXPECT_THAT(refusal(v450(), options), HasSubstr("7 sensors, but only 2 candidate sites with room for 3 each"));
+}
+
+/// By the author's names where the machine has no sensor of that name.
+TEST(PlaceSensors, KeepTheNamesOfTheirSites) {
+  PlacementReport report;
+  report.taken = {"T1", "P1"};
+  for (CandidateSite const& site : {CandidateSite{"nose", {"cartridge[10 mm]"}}, {"T1", {"motor"}}, {"bed", {"bed"}}})
+    report.recommended.sensors.push_back({site, {}, 0.0, false});
+  std::vector<std::string> names;
+  Value const tables = parse_toml(sensor_tables(report), "sensors.toml");
+  for (auto const& table : std::get<Value::List>(tables.find("temperature_sensor")->content))
+    names.push_back(std::get<std::string>(table.find("name")->content));
+  EXPECT_THAT(names, testing::ElementsAre("nose", "P2", "P3"));
+}
+
 TEST(PlaceSensors, PutsSparesBesideSensorsThatAreThere) {
   auto options = quick(4);
   options.dead = 1;
@@ -450,6 +505,18 @@ TEST(PlaceSensors, SaysWhatABudgetLeavesOf) {
                                    "the proposed set sits on what is forbidden: bed",
                                    "the proposed set costs 3, more than the budget of 2"));
   EXPECT_THAT(placement_text(report), HasSubstr(report.remarks.front()));
+}
+
+/// A room that does not move: nothing ends the set but what sites tell.
+TEST(PlaceSensors, SaysWhereNoOtherSiteTellsMore) {
+  auto options = quick(2);
+  options.rules.sites = {{"head", {"head_front"}}, {"room", {"ambient"}}};
+  auto const spectrum = experiment_file("golden_b_4000");
+  options.design.experiments = {read_experiment(read_toml(spectrum), spectrum)};
+  auto const report = place_sensors(v450(), options);
+  ASSERT_EQ(report.recommended.sensors.size(), 1U);
+  EXPECT_THAT(report.remarks,
+              testing::ElementsAre("2 were asked for; beside this one, no other site tells anything more"));
 }
 
 /// T6 sits on head_front, T8 on the motor.

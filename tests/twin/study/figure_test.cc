@@ -15,6 +15,14 @@ TEST(StudyIntervals, AreStudentsOnes) {
   EXPECT_EQ(text_of(interval({})), "-");
 }
 
+TEST(StudyFigures, AreBetterByLessButForSome) {
+  for (auto const* figure :
+       {"cross.r_squared", "validation.r_squared", "improvement", "selection.found", "selection.rank_correlation"})
+    EXPECT_TRUE(more_is_better(figure)) << figure;
+  for (auto const* figure : {"cross.rmse", "self.mape", "S", "Mn.least", "selection.regret", "feed_8000 at 60 min.max"})
+    EXPECT_FALSE(more_is_better(figure)) << figure;
+}
+
 TEST(StudyIntervals, HaveNoNegativeZero) {
   EXPECT_EQ(text_of(interval({-1e-17, -2e-17})), "0.00 ± 0.00");
   EXPECT_EQ(text_of(interval({-0.004})), "0.00");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/twin/study/small_study.h"
+#include "twin/study/study_runs.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -74,6 +75,77 @@ TEST(Study, MistakesAreNamedWhereTheyStand) {
   EXPECT_THAT(with("reference = \"all + liner\"\n" + all, "Small", "Small"),
               HasSubstr("small.toml:1:13: the study has no combination 'all + liner'; did you mean 'all + linear'?"));
   EXPECT_THAT(with(all, "error = \"E_Z\"", "error = \"slope z\""), HasSubstr("no laser measurement of axis 'z'"));
+}
+
+TEST(Study, RefusesClaimsOfFiguresThatItCannotHave) {
+  auto const claimed = [&](std::string const& keys) {
+    return SmallStudy(head + world + "[[claim]]\nsays = \"x\"\ncombination = \"all + linear\"\n" + keys).complaint();
+  };
+  EXPECT_THAT(claimed("figure = \"cross.rms\"\nat_most = 1\n"),
+              HasSubstr("small.toml:17:10: a study has no figure 'cross.rms'; did you mean 'cross.rmse'?"));
+  EXPECT_THAT(claimed("figure = \"validation.rmse\"\nat_most = 1\n"),
+              HasSubstr("small.toml:17:10: a study has no figure 'validation.rmse'; give 'folds', which it is of"));
+  EXPECT_THAT(claimed("figure = \"feed_8000 at 60 min.rmse\"\nat_most = 1\n"),
+              HasSubstr("small.toml:17:10: a study has no figure 'feed_8000 at 60 min.rmse'; "));
+  EXPECT_THAT(claimed("than = \"all + ridge\"\nimprovement = 200\n"),
+              HasSubstr("small.toml:18:15: an 'improvement' by 200 % leaves less than nothing of the other's "
+                        "'cross.rmse'; 100 % is all"));
+  EXPECT_THAT(claimed("than = \"all + ridge\"\nfigure = \"cross.r_squared\"\nshare = 0.5\n"),
+              HasSubstr("small.toml:19:9: a 'share' is at most so much of the other's figure, but of 'cross.r_squared' "
+                        "more is better; give 'improvement' or 'tolerance'"));
+  auto second = world;
+  second.replace(second.find("\"v450\""), 6, "\"twin\"");
+  EXPECT_THAT(SmallStudy(head + world + second +
+                         "[[claim]]\nsays = \"x\"\ncombination = \"all + linear\"\nat_most = 1\n"
+                         "world = \"mean of worlds\"\nfigure = \"cross.mae\"\n")
+                  .complaint(),
+              HasSubstr("a study has no figure 'cross.mae' in the mean of worlds; did you mean 'cross.rmse'?"));
+}
+
+/// What a report has, a claim may be of.
+TEST(Study, MayClaimAnyFigureThatItHas) {
+  auto const text = "folds = 2\n" + head + world;
+  auto const report = SmallStudy(text).report();
+  for (auto const& row : report.rows)
+    for (auto const& [figure, values] : figures_of(report, row)) {
+      SmallStudy const claiming(text + "[[claim]]\nsays = \"x\"\ncombination = \"all + linear\"\nat_most = 1\n" +
+                                fmt::format("figure = \"{}\"\n", figure));
+      EXPECT_NO_THROW((void)read_study(claiming.file())) << figure;
+    }
+}
+
+/// Where the study names the run, and not where it names the machine.
+TEST(Study, ChecksThatTheMachineHasItsMeasuredRuns) {
+  auto text = head + world;
+  text.replace(text.find("fast.toml"), 9, "fast.csv");
+  SmallStudy const study(text);
+  std::string rows = "time_s,T1_degC,T8_degC,T9_degC,E_Z_um\n";
+  for (int row = 0; row < 12; ++row)
+    rows += fmt::format("{},{},{},{},{}\n", 600 * row, 20 + 2 * row, 20 + row, 21 + row, 3 * row);
+  tests::put(study.experiment_path("fast.csv"), rows);
+  try {
+    check_worlds(read_study(study.file()));
+    FAIL() << "no complaint";
+  } catch (FileError const& error) {
+    EXPECT_THAT(error.what(), HasSubstr("small.toml:12:10: world 'v450': "));
+    EXPECT_THAT(error.what(), HasSubstr("fast.csv: the machine 'v450' needs inputs that the data lack: "));
+  }
+}
+
+TEST(Study, SaysOnceWhereAChangeIsWrong) {
+  auto const complaint = SmallStudy(head + world + "set = [\"bearing.front.torque=2\"]\n").complaint();
+  EXPECT_THAT(complaint, HasSubstr("small.toml:7:1: world 'v450': parameter bearing.front.torque: unknown key"));
+  EXPECT_EQ(complaint.find("world 'v450'"), complaint.rfind("world 'v450'"));
+}
+
+/// As `describe study` shows it.
+TEST(Study, CanChangeWhatItsDescriptionChanges) {
+  for (auto const& field : list_fields<StudyWorld>()) {
+    if (field.key != "set") continue;
+    auto const change = field.description.substr(field.description.find('"'));
+    SmallStudy const study(head + world + "set = [" + change + "]\n");
+    EXPECT_NO_THROW(check_worlds(read_study(study.file()))) << change;
+  }
 }
 
 /// What stands in `also` is "selection + model", of names that are known, and none of the cross product.

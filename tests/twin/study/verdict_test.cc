@@ -170,6 +170,41 @@ TEST(StudyVerdict, SaysWhereAClaimHasNothingToCompare) {
   }
 }
 
+/// R², of which more is better, even where it is below zero.
+TEST(StudyVerdict, KnowsOfWhichFiguresMoreIsBetter) {
+  using enum ClaimVerdict::Answer;
+  StudyReport report;
+  report.description.worlds.resize(1);
+  report.units = {"um"};
+  auto const add = [&](std::string const& selection, double r_squared) {
+    report.rows.push_back({"", selection, "linear", {{"cross.r_squared", {r_squared, r_squared}}}, {}, {}, {}});
+  };
+  add("all", 0.5);
+  add("grey_fuzzy", 0.9);
+  add("grey_relational", -1.0);
+  auto const claim = [&](std::string const& combination, std::string const& than) -> StudyClaim& {
+    auto& made = report.description.claims.emplace_back();
+    made.figure = "cross.r_squared";
+    made.combination = combination + " + linear";
+    made.than = than == best_of_papers ? than : than + " + linear";
+    return made;
+  };
+  claim("all", "grey_fuzzy");
+  claim("grey_fuzzy", "all");
+  claim("grey_fuzzy", "all").improvement = 90.0;
+  claim("all", "grey_fuzzy").tolerance = 50.0;
+  claim("grey_relational", "all");
+  claim("all", "grey_relational").improvement = 140.0;
+  claim("all", std::string(best_of_papers));
+  put_verdict(report);
+  std::vector<ClaimVerdict::Answer> answers;
+  for (auto const& one : report.claims) answers.push_back(one.answer);
+  EXPECT_THAT(answers, testing::ElementsAre(fails, holds, fails, holds, fails, holds, fails));
+  EXPECT_THAT(report.claims.at(1).words, HasSubstr("of all + linear: 0.500 ± 0.000; 80.0 ± 0.0 % more"));
+  EXPECT_THAT(report.claims.at(3).words, testing::EndsWith("-44.4 ± 0.0 % more, against 50 % less at most"));
+  EXPECT_THAT(report.claims.at(6).words, HasSubstr("of grey_fuzzy + linear (best of papers): 0.900"));
+}
+
 /// One value has no interval: the sign decides, and the words say so.
 TEST(StudyVerdict, SaysWhereThereIsButOneRepetition) {
   StudyReport report;

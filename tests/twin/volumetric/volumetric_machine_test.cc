@@ -78,6 +78,20 @@ TEST(VolumetricMachine, MistakesAreToldWithTheirPlace) {
   EXPECT_THAT(complaint(axes + "growth = [{ channel = \"A\", element = \"EAW\" }]\n"), HasSubstr("EAW"));
 }
 
+/// What a run would be refused for, after it.
+TEST(VolumetricMachine, GrowthHasTheUnitOfWhatItMoves) {
+  auto const growth = [](std::string const& channel, std::string const& element) {
+    return complaint(axes + "growth = [{ channel = \"" + channel + "\", element = \"" + element +
+                     "\" }]\n[[displacement]]\nname = \"E_X\"\n[[rotation]]\nname = \"A\"\n");
+  };
+  EXPECT_THAT(growth("E_X", "EAZ"), AllOf(HasSubstr("mill.toml:8:"),
+                                          HasSubstr("'E_X' is a length; an angle is due for 'EAZ', which it moves")));
+  EXPECT_THAT(growth("E_X", "squareness_yz"), HasSubstr("an angle is due for 'squareness_yz'"));
+  EXPECT_THAT(growth("A", "EXZ"), HasSubstr("'A' is an angle; a length is due for 'EXZ', which it moves"));
+  EXPECT_EQ(growth("E_X", "EXZ"), "nothing was thrown");
+  EXPECT_EQ(growth("A", "squareness_yz"), "nothing was thrown");
+}
+
 /// A run: the screw grows by 1 µm per 100 mm and hour, the head rises 5 µm and tilts 8 µrad in the hour.
 output::Dataset run() {
   output::Dataset run;
