@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
-#include <numbers>
 
 #include "scenarios/course.h"
 #include "thermal/error.h"
@@ -26,9 +25,7 @@ constexpr double late_deviation = 4.0;         // 2 min
 constexpr double lag_of_walls = 6.0 * 3600.0;  // of a hall, behind its air [s]
 constexpr double share_of_walls = 0.3;         // deviation of what surfaces exchange with them and not with the air
 constexpr double least_swing = 0.2;            // of a temperature of which that could be seen [K]
-constexpr double other_cycle = 0.15;           // of the air at the machine, and not at its sensor [K]
-constexpr double daily = 2.0 * std::numbers::pi / 86400.0;
-constexpr double settling = 900.0;  // in which a shaft and its bearings forget their speed [s]
+constexpr double settling = 900.0;             // in which a shaft and its bearings forget their speed [s]
 
 /// What is held between rows and whose zero is rest; a stroke's is a place. A share or a switch that never changes is a
 /// setting.
@@ -67,15 +64,6 @@ Experiment otherwise(Experiment experiment, std::vector<std::size_t> const& chan
     signal = signal.with_piece(part.from, part.to, slow ? signal.largest_magnitude() : 0.0);
   }
   return experiment;
-}
-
-/// Those of a record, and every quarter of an hour from its first to its last.
-std::vector<double> times_of_cycle(std::vector<double> times) {
-  double const first = times.front(), last = times.back();
-  for (double t = first; t < last; t += 900.0) times.push_back(t);
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
 }
 
 void leave_out_rows(MeasuredRun& run, double from, double to) {
@@ -146,7 +134,7 @@ void add_other_air(MeasuredRun& run, Experiment const& experiment, scenarios::Ma
     auto const [low, high] = std::minmax_element(values.begin(), values.end());
     bool const of_air = channel.unit == "K" && channel.name.starts_with("ambient.");
     bool const held = signal.interpolation() == scenarios::Interpolation::step;
-    if (!of_air || held) continue;
+    if (!of_air || held || *high - *low < least_swing) continue;
     auto const add = [&](std::string const& words, std::vector<double> times, std::vector<double> others,
                          double deviation) {
       Experiment other = experiment;
@@ -154,16 +142,6 @@ void add_other_air(MeasuredRun& run, Experiment const& experiment, scenarios::Ma
       run.alternatives.push_back(
           {channel.name + words, std::make_shared<scenarios::ExperimentCourse const>(other, limits), deviation});
     };
-    if (channel.name == "ambient.temperature") {
-      auto const times = times_of_cycle(signal.times());
-      for (bool const sine : {false, true}) {
-        std::vector<double> cycled;
-        for (double const t : times)
-          cycled.push_back(signal.at(t) + (sine ? std::sin(t * daily) : std::cos(t * daily)));
-        add(fmt::format(" and a daily {} of 1 K", sine ? "sine" : "cosine"), times, std::move(cycled), other_cycle);
-      }
-    }
-    if (*high - *low < least_swing) continue;
     auto earlier = signal.times(), slow = values;
     for (double& t : earlier) t -= late_record;
     add(fmt::format(" {:.0f} s before its record", late_record), std::move(earlier), values, late_deviation);
