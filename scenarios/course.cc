@@ -75,7 +75,7 @@ void check_motion(DrivenChannel const& driven, MachineLimits const& machine, dou
 /// Whether a channel of another dimension is driven is told by ExperimentCourse::replace_or_add.
 void check(DrivenChannel const& driven, MachineLimits const& machine, double most) {
   auto const dimension = thermal::dimension_of(driven.channel.unit);
-  if (dimension == thermal::dimension::temperature_difference) check_temperature(driven);
+  if (dimension == thermal::dimension::temperature_difference) return check_temperature(driven);
   check_switch(driven, machine, most);
   check_motion(driven, machine, most);
 }

@@ -159,7 +159,7 @@ class OddityFinder {
   void look_at_laser() {
     if (!experiment_.laser) return;
     auto const& laser = *experiment_.laser;
-    auto const length = [](double x) { return thermal::format_quantity(x, thermal::dimension::length); };
+    auto const length = [](double x) { return fmt::format("{:g} mm", 1e3 * x); };
     for (auto const& axis : machine_.limits.axes) {
       if (axis.name != laser.axis) continue;
       double const stroke = axis.stroke_to - axis.stroke_from;
