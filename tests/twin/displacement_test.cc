@@ -300,8 +300,9 @@ preload = "{}"
   };
   EXPECT_EQ(message("12 mm", "90 mm", "300 N"), "nothing was thrown");
   EXPECT_THAT(message("12 mm", "90 mm", "0 N"), HasSubstr("bearing_shift 'front': 'preload' must be above 0"));
-  for (auto const& [ball, pitch] : {std::pair("12 mm", "0 mm"), {"0 mm", "90 mm"}, {"90 mm", "90 mm"}})
-    EXPECT_THAT(message(ball, pitch, "300 N"), HasSubstr("bearing_shift 'front': the balls are above 0"));
+  EXPECT_THAT(message("12 mm", "0 mm", "300 N"), HasSubstr("'pitch_diameter' is \"0 mm\"; it must be positive"));
+  EXPECT_THAT(message("0 mm", "90 mm", "300 N"), HasSubstr("'ball_diameter' is \"0 mm\"; it must be positive"));
+  EXPECT_THAT(message("90 mm", "90 mm", "300 N"), HasSubstr("bearing_shift 'front': the balls are above 0"));
 }
 
 TEST(Displacement, HeldShaftShowsOnlyItsShareInFront) {
