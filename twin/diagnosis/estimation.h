@@ -96,7 +96,7 @@ class Estimation {
   /// Whitens signals of one run.
   void whiten(std::size_t run, Eigen::Ref<Eigen::MatrixXd> signals) const;
   /// Whitens signals of one channel of that.
-  void whiten(std::size_t run, std::size_t channel, Eigen::Ref<Eigen::MatrixXd> signals) const {
+  void whiten(std::size_t run, std::size_t channel, Eigen::MatrixXd& signals) const {
     whitenings_[run][channel].apply(signals);
   }
   /// Σ ln |2π S| of the innovations of all channels: what the evidence of a fit lacks beside one with other noise.
