@@ -215,17 +215,14 @@ LoggedTable TableReader::read(LoggedFile const& file, std::filesystem::path cons
   TimeColumn time(csv, places.front());
   for (; row; row = csv.next()) {
     double const t = time.read(start_);
-    bool const again = !table.times.empty() && t == table.times.back();
-    if (!again) table.times.push_back(t);
-    again ? table.lines.back() = csv.line() : table.lines.emplace_back(csv.line());
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      auto& column = table.columns[i];
-      double const read = value(file, csv, places[i + 1]);
-      if (!again)
-        column.push_back(read);
-      else if (!std::isnan(read))
-        column.back() = read;
+    if (table.times.empty() || t != table.times.back()) {
+      table.times.push_back(t);
+      table.lines.push_back(0);
+      for (auto& column : table.columns) column.push_back(std::numeric_limits<double>::quiet_NaN());
     }
+    table.lines.back() = csv.line();
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (double const read = value(file, csv, places[i + 1]); !std::isnan(read)) table.columns[i].back() = read;
   }
   table.clock_remark = time.remark();
   table.repeats_remark = time.remark_on_repeats(table.times.size());

@@ -10,21 +10,12 @@
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
 #include "twin/experiment_file.h"
+#include "twin/needed_channels.h"
 
 namespace thermotwin::twin {
 namespace {
 
 constexpr double rounding_of_sum = 1e-9;  ///< of durations
-
-/// Those that its parts and displacements ask for.
-std::vector<std::string> channels_asked_for(Machine const& machine) {
-  auto const& network = machine.network();
-  std::vector<std::string> names(network.channel_names().begin(),
-                                 network.channel_names().begin() + network.external_channels());
-  for (auto const& displacement : machine.displacements)
-    for (auto const& term : displacement.input_terms) names.push_back(term.channel);
-  return names;
-}
 
 /// The channels that every experiment has, and those that the machine asks for.
 std::vector<std::string> channels_known(scenarios::Experiment experiment, Machine const& machine) {
@@ -32,7 +23,7 @@ std::vector<std::string> channels_known(scenarios::Experiment experiment, Machin
   experiment.inputs.clear();
   experiment.driven.clear();
   scenarios::ExperimentCourse const own(experiment, machine.limits);
-  auto names = channels_asked_for(machine);
+  auto names = needed_channels(machine);
   for (auto const& channel : own.channels()) names.push_back(channel.name);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -46,7 +37,7 @@ class OddityFinder {
       : experiment_(experiment),
         machine_(machine),
         known_(channels_known(experiment, machine)),
-        asked_for_(channels_asked_for(machine)) {}
+        asked_for_(needed_channels(machine)) {}
 
   std::vector<std::string> operator()() {
     look_at_sampling();

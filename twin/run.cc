@@ -310,8 +310,7 @@ std::string balance_remark(thermal::IntegrationSummary const& summary) {
   if (imbalance <= largest_imbalance || imbalance * summary.moved() <= least_gap) return "";
   return fmt::format(
       "the heat balance closes to {:.1e} only, where {:.0e} is due: the numbers of this run are not to be trusted; is "
-      "a "
-      "length, a mass or a conductance wrong by powers of ten?",
+      "a length, a mass or a conductance wrong by powers of ten?",
       imbalance, largest_imbalance);
 }
 

@@ -56,8 +56,7 @@ class Diagnostician {
   [[nodiscard]] std::vector<Hypothesis> excited_hypotheses() const;
   [[nodiscard]] FreeHeat unknown_heat() const;
   [[nodiscard]] Estimation on_held_out(Value const& document) const;
-  [[nodiscard]] double vote() const;
-  [[nodiscard]] std::vector<Disagreement> disagreements_held_out() const;
+  void ask_held_out();
   struct Written;
   void write_down();
   bool write_down_and_reject();
@@ -98,8 +97,7 @@ Diagnosis Diagnostician::operator()() {
   d.scan = scan_for_free_heat(search_.plain(), d.calibrated);
   while (write_down_and_reject()) search_();
   auto const& amended = search_.estimation();
-  if (!held_out_.empty() && !d.effects.empty()) d.vote = vote();
-  if (!held_out_.empty()) d.disagreement_held_out = disagreements_held_out();
+  if (!held_out_.empty()) ask_held_out();
   d.visible = search_.visible();
   d.could_hide = search_.detection_limits();
   d.noise_heard = search_.noise_heard();
@@ -198,19 +196,21 @@ Estimation Diagnostician::on_held_out(Value const& document) const {
   return {document, held_out_, channels, noise};
 }
 
-/// What is linear is at its best for either machine.
-double Diagnostician::vote() const {
-  double costs[2];
-  in_parallel(2, [&](std::size_t i) {
-    costs[i] = on_held_out(i == 0 ? diagnosis_.calibrated_document : diagnosis_.document).cost_of_document();
+/// What they say of the machine that is written, and where effects were found, of the calibrated one beside it: what is
+/// linear is at its best for either.
+void Diagnostician::ask_held_out() {
+  auto& d = diagnosis_;
+  double amended = 0.0, calibrated = 0.0;
+  in_parallel(d.effects.empty() ? 1 : 2, [&](std::size_t i) {
+    if (i == 1) {
+      calibrated = on_held_out(d.calibrated_document).cost_of_document();
+      return;
+    }
+    Estimation const asked = on_held_out(d.document);
+    d.disagreement_held_out = disagreements(asked, asked.fit(asked.prior_mean(), 0).x, machine_);
+    if (!d.effects.empty()) amended = asked.cost_of_document();
   });
-  return costs[0] - costs[1];
-}
-
-/// Of the machine that is written.
-std::vector<Disagreement> Diagnostician::disagreements_held_out() const {
-  Estimation const asked = on_held_out(diagnosis_.document);
-  return disagreements(asked, asked.fit(asked.prior_mean(), 0).x, machine_);
+  if (!d.effects.empty()) d.vote = calibrated - amended;
 }
 
 double Diagnostician::strongest_on_heat() const {

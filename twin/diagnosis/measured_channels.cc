@@ -108,12 +108,18 @@ void leave_out_failures(MeasuredChannel& channel, output::Channel const& shown, 
   leave_out(values, is_about_power_on);
 }
 
-/// Rows that stand alone: far from the reading before and the one after, which are near each other. No body and no
-/// tool goes there and back between samples.
-std::vector<Eigen::Index> spikes_of(Eigen::VectorXd const& values, double least) {
+/// Rows in which a channel was read; those of other tables are between them.
+std::vector<Eigen::Index> rows_read(Eigen::VectorXd const& values) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index r = 0; r < values.size(); ++r)
     if (std::isfinite(values[r])) rows.push_back(r);
+  return rows;
+}
+
+/// Rows that stand alone: far from the reading before and the one after, which are near each other. No body and no
+/// tool goes there and back between samples.
+std::vector<Eigen::Index> spikes_of(Eigen::VectorXd const& values, double least) {
+  auto const rows = rows_read(values);
   std::vector<double> steps;
   for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(std::abs(values[rows[i]] - values[rows[i - 1]]));
   if (steps.size() < fewest_changes) return {};
@@ -168,14 +174,6 @@ bool moves(Eigen::VectorXd const& values) {
     if (value != first) return true;
   }
   return false;
-}
-
-/// Rows in which a channel was read; those of other tables are between them.
-std::vector<Eigen::Index> rows_read(Eigen::VectorXd const& values) {
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index r = 0; r < values.size(); ++r)
-    if (std::isfinite(values[r])) rows.push_back(r);
-  return rows;
 }
 
 /// Row from which on a channel repeats one value, longer than chance has it repeat values before: coarse readings of a

@@ -17,6 +17,7 @@
 #include "twin/diagnosis/input_gap.h"
 #include "twin/diagnosis/measured_data.h"
 #include "twin/file/tables.h"
+#include "twin/needed_channels.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -66,17 +67,6 @@ bool is_derived(SampledInput const& input, MeasuredData const& data) {
     return (what == "running" || what == "time_running" || what == "revolutions") &&
            find(data.inputs, "spindle.speed") != nullptr;
   return what == "running" && find(data.inputs, owner + ".feed") != nullptr;
-}
-
-std::vector<std::string> needed_channels(Machine const& machine) {
-  auto const& network = machine.network();
-  std::vector<std::string> names(network.channel_names().begin(),
-                                 network.channel_names().begin() + network.external_channels());
-  for (auto const& displacement : machine.displacements)
-    for (auto const& term : displacement.input_terms) names.push_back(term.channel);
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
 }
 
 /// The record without which a needed channel is unknown; empty if it can be supposed.

@@ -26,9 +26,8 @@ struct Doubt {
 ///   clock       one shift in time brings the changes of most channels onto the predicted ones (lateness.h)
 ///   motion      the sensors go through three times of what they should, in a run that is short or in which the spindle
 ///               crawls: the unit of time, or of speed
-///   room        hotter than any, or up and down with the spindle, as a sensor on the machine is; or steady, where one
-///   in
-///               the air is not
+///   room        hotter than any, or up and down with the spindle, as a sensor on the machine is; or steady, where a
+///               sensor in the air is not
 ///   sign, unit  a displacement follows the mirror image of its prediction, or a thousand times or a thousandth of it
 ///   swap        of two sensors on bodies, each follows the other's prediction four times as well as its own
 ///   offset      a sensor on a body stands 0.5 K otherwise against the others at the start of a run than of the first

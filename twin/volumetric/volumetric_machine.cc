@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "thermal/error.h"
+#include "twin/file/document.h"
 #include "twin/file/tables.h"
 
 namespace thermotwin::twin {
@@ -105,14 +106,9 @@ GeometricErrors errors_of(VolumetricDescription const& description, Workspace co
 }
 
 /// Whether a table of that kind, [[displacement]] or [[rotation]], has the name.
-bool has_channel(Value const& document, std::string_view kind, std::string const& name) {
-  Value const* tables = document.find(kind);
-  if (!tables || !tables->is_list()) return false;
-  auto const& list = std::get<Value::List>(tables->content);
-  return std::any_of(list.begin(), list.end(), [&](Value const& table) {
-    auto const* named = table.is_table() ? table.find("name") : nullptr;
-    return named && named->is_text() && std::get<std::string>(named->content) == name;
-  });
+bool has_channel(Value const& document, std::string const& kind, std::string const& name) {
+  auto const& tables = Tables(document).of(kind);
+  return std::any_of(tables.begin(), tables.end(), [&](Value const& table) { return name_in(table) == name; });
 }
 
 /// Of a channel that the machine's file makes.
