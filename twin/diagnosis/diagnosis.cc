@@ -13,7 +13,7 @@
 #include "twin/diagnosis/gap.h"
 #include "twin/diagnosis/jumping_sensor.h"
 #include "twin/diagnosis/seen_form.h"
-#include "twin/diagnosis/start.h"
+#include "twin/diagnosis/uncertain_number.h"
 #include "twin/diagnosis/verdict.h"
 #include "twin/parallel.h"
 

@@ -69,7 +69,8 @@ Estimation::Estimation(Value document, std::vector<BinnedRun> const& data, std::
     rows_ += run.values.size();
   }
   add_numbers_and_lags();
-  linear_ = std::make_shared<LinearUnknowns const>(document_at(prior_mean()), data, channels);  // with the usual lags
+  linear_ = std::make_shared<LinearUnknowns const>(document_at(prior_mean()), data, channels,  // with the usual lags
+                                                   has_drawings(numbers_));
   first_linear_ = Eigen::Index(unknowns_.size());
   unknowns_.insert(unknowns_.end(), linear_->all().begin(), linear_->all().end());
   hear(noise);
@@ -181,7 +182,8 @@ Estimation Estimation::with_laws(double share) const {
 
 Estimation Estimation::about(Eigen::VectorXd const& x) const {
   Estimation other = *this;
-  auto linear = std::make_shared<LinearUnknowns const>(document_at(x), *data_, channels_, zeros());
+  auto linear =
+      std::make_shared<LinearUnknowns const>(document_at(x), *data_, channels_, has_drawings(numbers_), zeros());
   if (linear->all().size() != linear_->all().size()) return other;
   other.linear_ = std::move(linear);
   other.hear(noise_);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
+#include <numbers>
 
 #include "scenarios/course.h"
 #include "thermal/error.h"
@@ -25,7 +26,9 @@ constexpr double late_deviation = 4.0;         // 2 min
 constexpr double lag_of_walls = 6.0 * 3600.0;  // of a hall, behind its air [s]
 constexpr double share_of_walls = 0.3;         // deviation of what surfaces exchange with them and not with the air
 constexpr double least_swing = 0.2;            // of a temperature of which that could be seen [K]
-constexpr double settling = 900.0;             // in which a shaft and its bearings forget their speed [s]
+constexpr double daily = 0.15;                 // between the machine's air and that of its record [K]
+constexpr double turn_of_a_day = 2.0 * std::numbers::pi / 86400.0;  // [rad/s]
+constexpr double settling = 900.0;  // in which a shaft and its bearings forget their speed [s]
 
 /// What is held between rows and whose zero is rest; a stroke's is a place. A share or a switch that never changes is a
 /// setting.
@@ -136,20 +139,28 @@ void add_other_air(MeasuredRun& run, Experiment const& experiment, scenarios::Ma
     bool const held = signal.interpolation() == scenarios::Interpolation::step;
     if (!of_air || held || *high - *low < least_swing) continue;
     auto const add = [&](std::string const& words, std::vector<double> times, std::vector<double> others,
-                         double deviation) {
+                         double deviation, bool for_drawn) {
       Experiment other = experiment;
       other.driven[k].signal = scenarios::Signal(std::move(times), std::move(others), scenarios::Interpolation::linear);
-      run.alternatives.push_back(
-          {channel.name + words, std::make_shared<scenarios::ExperimentCourse const>(other, limits), deviation});
+      run.alternatives.push_back({channel.name + words,
+                                  std::make_shared<scenarios::ExperimentCourse const>(other, limits), deviation,
+                                  for_drawn});
     };
     auto earlier = signal.times(), slow = values;
     for (double& t : earlier) t -= late_record;
-    add(fmt::format(" {:.0f} s before its record", late_record), std::move(earlier), values, late_deviation);
+    add(fmt::format(" {:.0f} s before its record", late_record), std::move(earlier), values, late_deviation, false);
     auto const count = Eigen::Index(values.size());
     FirstOrderLag const walls(Eigen::VectorXd::Map(signal.times().data(), count),
                               Eigen::VectorXd::Map(values.data(), count), lag_of_walls);
     std::transform(signal.times().begin(), signal.times().end(), slow.begin(), [&](double t) { return walls.at(t); });
-    add(" as walls follow it", signal.times(), std::move(slow), share_of_walls);
+    add(" as walls follow it", signal.times(), std::move(slow), share_of_walls, false);
+    // Beside steps of weights that may be anything it explains the cold of a chiller.
+    for (auto const& [words, phase] :
+         {std::pair{" and a cosine of the day", 0.5 * std::numbers::pi}, {" and a sine of the day", 0.0}}) {
+      auto others = values;
+      for (std::size_t i = 0; i < others.size(); ++i) others[i] += std::sin(turn_of_a_day * signal.times()[i] + phase);
+      add(words, signal.times(), std::move(others), daily, true);
+    }
   }
 }
 

@@ -24,9 +24,10 @@ namespace thermotwin::twin {
 void add_alternatives(MeasuredRun& run, std::vector<std::vector<RecordGap>> const& gaps,
                       scenarios::Experiment const& experiment, scenarios::MachineLimits const& limits);
 
-/// Adds the machine's course where the air was recorded late, for a thermometer in still air takes minutes; and where
-/// its surfaces see walls that follow the air by six hours: with some 4 W/(m² K) of radiation beside 2 to 5 of
-/// convection (physics.md 2.6) they exchange as much with these. Of temperatures of the air that change at all.
+/// Adds the machine's course where the air was recorded late, for a thermometer in still air takes minutes; where its
+/// surfaces see walls that follow the air by six hours: with some 4 W/(m² K) of radiation beside 2 to 5 of convection
+/// (physics.md 2.6) they exchange as much with these; and where the air around it has a cosine or a sine of a day, of
+/// 1 K, beside that of the room's sensor. Of temperatures of the air that change at all.
 void add_other_air(MeasuredRun& run, scenarios::Experiment const& experiment, scenarios::MachineLimits const& limits);
 
 /// For people: one remark for each gap, which names the inputs that have it.

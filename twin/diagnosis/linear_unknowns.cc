@@ -103,13 +103,14 @@ Eigen::VectorXd response_to(SensorPlace const& place, LinearisedRun const& twin,
 }  // namespace
 
 LinearUnknowns::LinearUnknowns(Value const& document, std::vector<BinnedRun> const& data,
-                               std::vector<std::string> const& channels, std::vector<ChangedZero> const& zeros)
+                               std::vector<std::string> const& channels, bool drawn,
+                               std::vector<ChangedZero> const& zeros)
     : machine_(Machine::build(document)),
       interiors_(document),
       places_(sensor_places(document, machine_)),
       gaps_(loop_gaps(machine_)) {
   add_of_channels(data, channels);
-  for (std::size_t r = 0; r < data.size(); ++r) add_of_run(data[r], int(r));
+  for (std::size_t r = 0; r < data.size(); ++r) add_of_run(data[r], int(r), drawn);
   add_of_machine();
   Eigen::Index rows = 0;
   std::vector<Eigen::Index> first;
@@ -167,7 +168,7 @@ void LinearUnknowns::add_of_channels(std::vector<BinnedRun> const& data, std::ve
   }
 }
 
-void LinearUnknowns::add_of_run(BinnedRun const& data, int run) {
+void LinearUnknowns::add_of_run(BinnedRun const& data, int run, bool drawn) {
   using Kind = Unknown::Kind;
   int const number = run + 1;  // as people count
   unknowns_.push_back({.kind = Kind::start,
@@ -185,11 +186,12 @@ void LinearUnknowns::add_of_run(BinnedRun const& data, int run) {
       {.kind = Kind::air, .name = fmt::format("air in run {}", number), .deviation = air_deviation, .run = run});
   auto const& alternatives = data.run->alternatives;
   for (std::size_t a = 0; a < alternatives.size(); ++a)
-    unknowns_.push_back({.kind = Kind::input,
-                         .name = fmt::format("{}, run {}", alternatives[a].name, number),
-                         .deviation = alternatives[a].deviation,
-                         .index = a,
-                         .run = run});
+    if (drawn || !alternatives[a].for_drawn)
+      unknowns_.push_back({.kind = Kind::input,
+                           .name = fmt::format("{}, run {}", alternatives[a].name, number),
+                           .deviation = alternatives[a].deviation,
+                           .index = a,
+                           .run = run});
   auto const clocks = clocks_of(*data.run);
   for (std::size_t i = 0; i < clocks.size(); ++i)
     unknowns_.push_back({.kind = Kind::clock,

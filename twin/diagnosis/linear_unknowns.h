@@ -19,8 +19,9 @@ namespace thermotwin::twin {
 /// in gaps, of which a share is estimated: in proportion to its heat, of which only what is stored is seen.
 class LinearUnknowns {
  public:
+  /// `drawn`: the machine's structural loop is known (has_drawings).
   LinearUnknowns(Value const& document, std::vector<BinnedRun> const& data, std::vector<std::string> const& channels,
-                 std::vector<ChangedZero> const& zeros = {});
+                 bool drawn, std::vector<ChangedZero> const& zeros = {});
 
   /// The same, and more zeros that changed, after all others.
   [[nodiscard]] LinearUnknowns with(std::vector<ChangedZero> const& zeros, std::vector<BinnedRun> const& data) const;
@@ -34,7 +35,7 @@ class LinearUnknowns {
 
  private:
   void add_of_channels(std::vector<BinnedRun> const& data, std::vector<std::string> const& channels);
-  void add_of_run(BinnedRun const& data, int run);
+  void add_of_run(BinnedRun const& data, int run, bool drawn);
   void add_of_machine();
   void add(std::vector<ChangedZero> const& zeros, std::vector<BinnedRun> const& data);
   [[nodiscard]] Eigen::MatrixXd columns_of(BinnedRun const& data, int run,

@@ -32,13 +32,14 @@ struct AlternativeCourse {
   std::string name;  ///< "spindle.speed from 6.00 h to 7.60 h, first half"
   std::shared_ptr<thermal::Course const> course;
   double deviation = 0.0;  ///< of the share of what channels show more with it
+  bool for_drawn = false;  ///< only where the machine's structural loop is known (has_drawings)
 };
 
 /// One run to calibrate or diagnose with: the inputs that the machine was given, and what its channels showed.
 struct MeasuredRun {
   std::string name;
   std::shared_ptr<thermal::Course const> course;
-  /// Two of each gap in what is held between rows, one of each half; and one of the air.
+  /// Two of each gap in what is held between rows, one of each half; and those of the air.
   std::vector<AlternativeCourse> alternatives;
   std::vector<InputChange> changes;           ///< when its inputs changed, as far as the record tells
   Eigen::VectorXd time;                       ///< [s], strictly increasing

@@ -22,10 +22,6 @@ Eigen::VectorXd drawn(Estimation const& estimation, std::uint64_t seed, double s
 
 }  // namespace
 
-bool has_drawings(std::vector<UncertainNumber> const& numbers) {
-  return std::none_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.is_any_step(); });
-}
-
 Eigen::VectorXd drawn_start(Estimation const& estimation, std::uint64_t seed) { return drawn(estimation, seed, 1.0); }
 
 std::vector<Eigen::VectorXd> starts(Estimation const& estimation) {

@@ -8,9 +8,6 @@
 
 namespace thermotwin::twin {
 
-/// Whether the steps of a machine's structural loop are known to some per cent, none of them of weight 0.
-[[nodiscard]] bool has_drawings(std::vector<UncertainNumber> const& numbers);
-
 /// A point for a fit to begin at, drawn from the priors, within bounds.
 [[nodiscard]] Eigen::VectorXd drawn_start(Estimation const& estimation, std::uint64_t seed);
 

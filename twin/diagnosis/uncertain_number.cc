@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "thermal/lubricant.h"
-#include "twin/diagnosis/start.h"
 #include "twin/effect.h"
 #include "twin/file/document.h"
 #include "twin/sensitivity.h"
@@ -191,6 +190,10 @@ std::vector<UncertainNumber> uncertain_numbers(Value& document) {
     std::erase_if(numbers, [](auto const& number) { return number.path.ends_with(viscous_exponent); });
   for (auto const& range : ranged_numbers(document)) set_range(document, range, numbers);
   return numbers;
+}
+
+bool has_drawings(std::vector<UncertainNumber> const& numbers) {
+  return std::none_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.is_any_step(); });
 }
 
 }  // namespace thermotwin::twin

@@ -63,4 +63,7 @@ struct UncertainNumber {
 /// defaults of conductances, so that every path can be set.
 [[nodiscard]] std::vector<UncertainNumber> uncertain_numbers(Value& document);
 
+/// Whether the steps of a machine's structural loop are known to some per cent, none of them of weight 0.
+[[nodiscard]] bool has_drawings(std::vector<UncertainNumber> const& numbers);
+
 }  // namespace thermotwin::twin

@@ -98,7 +98,7 @@ TEST(LumpInteriors, LeadTheMeanAsAHeatedSlabDoes) {
   // The oil stays as cold as it was: a sensor a tenth of the way to it sees a tenth less of the rise P t/C.
   auto const& iron = thermal::material("GJL-300");
   double const rise = power * data.time[rows - 1] / (7.25 * iron.specific_heat);
-  LinearUnknowns const all(cube(), {data}, {"T1", "T2", "E_Z"});
+  LinearUnknowns const all(cube(), {data}, {"T1", "T2", "E_Z"}, true);
   auto const near =
       std::find_if(all.all().begin(), all.all().end(), [](auto const& u) { return u.name == "T1 near oil"; });
   ASSERT_NE(near, all.all().end());

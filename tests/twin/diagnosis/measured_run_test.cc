@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
 
 #include "output/csv.h"
@@ -290,8 +291,9 @@ TEST(MeasuredRun, WhatMayHaveBeenGivenInAGapIsTheOtherExtremeInEachHalf) {
                                                    "z.feed from 0.90 h to 1.23 h, first half",
                                                    "z.feed from 0.90 h to 1.23 h, second half"));
   double const fastest = thermal::from_unit(6000.0, "rpm");
-  for (auto const& [name, course, deviation] : run.alternatives) {
+  for (auto const& [name, course, deviation, for_drawn] : run.alternatives) {
     EXPECT_EQ(deviation, 0.7);
+    EXPECT_FALSE(for_drawn);
     bool const spindle = name.starts_with("spindle"), first = name.ends_with("first half");
     for (double const minute : {53.0, 58.0, 70.0, 75.0}) {
       bool const other = first ? minute == 58.0 : minute == 70.0;
@@ -313,14 +315,19 @@ TEST(MeasuredRun, TheRoomMayBeOtherThanItsRecord) {
   EXPECT_TRUE(measured_run(dataset, machine(), "constant").alternatives.empty());
   room = 20.0 + dataset.time_s.array() / 3600.0;
   auto const run = measured_run(dataset, machine(), "rising");
-  ASSERT_EQ(run.alternatives.size(), 2U);
+  ASSERT_EQ(run.alternatives.size(), 4U);
   EXPECT_EQ(run.alternatives[0].name, "ambient.temperature 30 s before its record");
   EXPECT_EQ(run.alternatives[1].name, "ambient.temperature as walls follow it");
+  EXPECT_EQ(run.alternatives[2].name, "ambient.temperature and a cosine of the day");
+  EXPECT_EQ(run.alternatives[3].name, "ambient.temperature and a sine of the day");
   auto const at = [](thermal::Course const& course, double t) { return value_at(course, "ambient.temperature", t); };
   for (double const t : {600.0, 2000.0}) {
     EXPECT_NEAR(at(*run.alternatives[0].course, t), at(*run.course, t + 30.0), 1e-9);
     double const hours = t / 3600.0, lag = 6.0;  // a kelvin an hour, through a lag, from row to row
     EXPECT_NEAR(at(*run.alternatives[1].course, t), 293.15 + hours - lag * (1.0 - std::exp(-hours / lag)), 1e-5);
+    double const angle = 2.0 * std::numbers::pi * hours / 24.0;
+    EXPECT_NEAR(at(*run.alternatives[2].course, t), at(*run.course, t) + std::cos(angle), 1e-5);
+    EXPECT_NEAR(at(*run.alternatives[3].course, t), at(*run.course, t) + std::sin(angle), 1e-5);
     for (auto const& alternative : run.alternatives)
       EXPECT_EQ(value_at(*alternative.course, "spindle.speed", t), value_at(*run.course, "spindle.speed", t));
   }
@@ -332,7 +339,7 @@ TEST(MeasuredRun, OfAnAxisOnlyWhatWasNotRecordedMayHaveBeenOtherwise) {
   keep_inputs(dataset, {"spindle.speed", "ambient.temperature", "z.feed", "z.duty"});
   channel(dataset.inputs, "z.duty").values.segment(35, 20).setConstant(std::nan(""));
   auto const run = measured_run(dataset, machine(), "gap");
-  ASSERT_EQ(run.alternatives.size(), 4U);  // the last two are of the room
+  ASSERT_EQ(run.alternatives.size(), 6U);  // the last four are of the room
   EXPECT_EQ(run.alternatives[0].name, "z.duty from 0.57 h to 0.92 h, first half");
   EXPECT_EQ(run.alternatives[1].name, "z.duty from 0.57 h to 0.92 h, second half");
   EXPECT_THAT(run.remarks, Contains(HasSubstr("not recorded from 0.57 h to 0.92 h: z.duty, which a fit")));
