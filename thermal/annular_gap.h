@@ -60,9 +60,9 @@ S annular_gap_film(S const& wall1, S const& wall2, S const& mean_radius, S const
   return 0.5 * annular_gap_nusselt<S>(taylor, film.prandtl) * film.conductivity / gap;
 }
 
-/// U = 0.765 (|ω|R)^{2/3} δ^{−1/3} [W/(m² K)], surface to surface, air. Source: Jungnickel 2010.
 inline constexpr Validity jungnickel_gap_speed{-150.0, 150.0, "rim speed at an annular gap after Jungnickel [m/s]"};
 
+/// U = 0.765 (|ω|R)^{2/3} δ^{−1/3} [W/(m² K)], surface to surface, air. Source: Jungnickel 2010.
 template <class S>
 S jungnickel_gap_film(S const& radius, S const& gap, S const& angular_speed) {
   using std::pow;

@@ -55,9 +55,9 @@ S smooth_pipe_friction(S const& reynolds) {
   return 1.0 / (root * root);
 }
 
-/// Nu = petukhov(ξ, Re, Pr) [1 + (d/L)^{2/3}], turbulent, Re 1e4 to 1e6. Source: Gnielinski 1975, VDI Heat Atlas.
 inline constexpr Validity gnielinski_prandtl{0.1, 1000.0, "Pr of a fluid in a channel"};
 
+/// Nu = petukhov(ξ, Re, Pr) [1 + (d/L)^{2/3}], turbulent, Re 1e4 to 1e6. Source: Gnielinski 1975, VDI Heat Atlas.
 template <class S>
 S gnielinski_nusselt(S const& reynolds, S const& prandtl, S const& diameter_to_length) {
   using std::pow;

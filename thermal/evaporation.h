@@ -11,9 +11,9 @@ namespace thermotwin::thermal {
 /// Evaporation of coolant from wet surfaces and tanks; wet surfaces settle 2 to 5 K below the room.
 /// Source: physics.md §2.14.
 
-/// p_s = 611.2 exp(17.62 T/(243.12 + T)) [Pa], T in °C here, in kelvin at the function. Source: Magnus.
 inline constexpr Validity magnus_temperature{273.15, 333.15, "temperature of vapour [K]"};
 
+/// p_s = 611.2 exp(17.62 T/(243.12 + T)) [Pa], T in °C here, in kelvin at the function. Source: Magnus.
 template <class S>
 S saturation_pressure(S const& temperature) {
   using std::exp;

@@ -23,9 +23,9 @@ S rayleigh(FluidProperties<S> const& film, S const& difference, S const& length)
   return drive * length * length * length * film.prandtl / (nu * nu);
 }
 
-/// Nu = {0.825 + 0.387 Ra^{1/6}/[1 + (0.492/Pr)^{9/16}]^{8/27}}², vertical plate. Source: Churchill & Chu 1975.
 inline constexpr Validity churchill_chu_plate_rayleigh{0.1, 1e12, "Ra of a vertical plate"};
 
+/// Nu = {0.825 + 0.387 Ra^{1/6}/[1 + (0.492/Pr)^{9/16}]^{8/27}}², vertical plate. Source: Churchill & Chu 1975.
 template <class S>
 S vertical_plate_nusselt(S const& rayleigh_number, S const& prandtl) {
   using std::pow;
@@ -61,19 +61,19 @@ S unstable_plate_nusselt(S const& rayleigh_number) {
                              horizontal_plate_turbulence_rayleigh);
 }
 
-/// Nu = 0.27 Ra^{1/4}, L = area/perimeter: hot face down or cold face up.
 inline constexpr Validity stable_plate_rayleigh{1e5, 1e10, "Ra of a hot face that looks down or a cold one up"};
 
+/// Nu = 0.27 Ra^{1/4}, L = area/perimeter: hot face down or cold face up.
 template <class S>
 S stable_plate_nusselt(S const& rayleigh_number) {
   using std::pow;
   return 0.27 * pow(rayleigh_number, 0.25);
 }
 
-/// Nu = {0.60 + 0.387 Ra^{1/6}/[1 + (0.559/Pr)^{9/16}]^{8/27}}², horizontal cylinder, L = D. Source: Churchill & Chu
-/// 1975.
 inline constexpr Validity churchill_chu_cylinder_rayleigh{1e-5, 1e12, "Ra of a horizontal cylinder"};
 
+/// Nu = {0.60 + 0.387 Ra^{1/6}/[1 + (0.559/Pr)^{9/16}]^{8/27}}², horizontal cylinder, L = D. Source: Churchill & Chu
+/// 1975.
 template <class S>
 S horizontal_cylinder_nusselt(S const& rayleigh_number, S const& prandtl) {
   using std::pow;

@@ -21,9 +21,9 @@ S cylinder_reynolds(S const& angular_speed, S const& diameter, S const& viscosit
 
 /// The ranges of Re begin at 0, where free convection takes over (assisting_convection), not where their sources begin.
 
-/// Nu_D = 0.133 Re^{2/3} Pr^{1/3} (2.6). Source: Becker 1963 (water, from 800), commonly used for air up to Re = 4.3e5.
 inline constexpr Validity becker_reynolds{0.0, 4.3e5, "Re of a rotating cylinder after Becker"};
 
+/// Nu_D = 0.133 Re^{2/3} Pr^{1/3} (2.6). Source: Becker 1963 (water, from 800), commonly used for air up to Re = 4.3e5.
 template <class S>
 S becker_nusselt(S const& reynolds, S const& prandtl) {
   using std::cbrt;
@@ -32,9 +32,9 @@ S becker_nusselt(S const& reynolds, S const& prandtl) {
   return 0.133 * pow(reynolds, 2.0 / 3.0) * cbrt(prandtl);
 }
 
-/// Nu_D = 0.683 Re^0.466 Pr^{1/3}: alternative for slow rotation; 30 % below Becker's at the end of its range.
 inline constexpr Validity slow_cylinder_reynolds{0.0, 2.5e4, "Re of a slowly rotating cylinder"};
 
+/// Nu_D = 0.683 Re^0.466 Pr^{1/3}: alternative for slow rotation; 30 % below Becker's at the end of its range.
 template <class S>
 S slow_cylinder_nusselt(S const& reynolds, S const& prandtl) {
   using std::cbrt;
@@ -43,9 +43,9 @@ S slow_cylinder_nusselt(S const& reynolds, S const& prandtl) {
   return 0.683 * pow(reynolds, 0.466) * cbrt(prandtl);
 }
 
-/// Nu_D = 0.10 Re^{2/3}, air, Re above 1.1 Gr^{1/2}. Source: Anderson & Saunders 1953.
 inline constexpr Validity anderson_saunders_reynolds{0.0, 1e5, "Re of a rotating cylinder after Anderson & Saunders"};
 
+/// Nu_D = 0.10 Re^{2/3}, air, Re above 1.1 Gr^{1/2}. Source: Anderson & Saunders 1953.
 template <class S>
 S anderson_saunders_nusselt(S const& reynolds) {
   using std::pow;
