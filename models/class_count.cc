@@ -76,7 +76,8 @@ std::vector<int> bends(VectorXd const& loss, double threshold, int most) {
 }
 
 int count_by_slope(VectorXd const& loss, std::vector<int> const& candidates) {
-  auto const slope = [&](int k) { return k < 2 ? 0.0 : loss(k - 2) - loss(k - 1); };
+  VectorXd const slopes = loss_slopes(loss);
+  auto const slope = [&](int k) { return k < 2 ? 0.0 : slopes(k - 2); };
   return *std::max_element(candidates.begin(), candidates.end(), [&](int a, int b) { return slope(a) < slope(b); });
 }
 
