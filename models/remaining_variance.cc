@@ -1,6 +1,5 @@
 #include "models/remaining_variance.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -75,14 +74,6 @@ double remaining_variance(PlacementProblem const& problem, std::span<Eigen::Inde
   RemainingVariance state(problem, Eigen::Index(sensors.size()));
   for (auto const site : sensors) state.add(site);
   return state.value();
-}
-
-Eigen::MatrixXd estimator(PlacementProblem const& problem, std::span<Eigen::Index const> sensors, std::size_t world) {
-  std::vector<Eigen::Index> const set(sensors.begin(), sensors.end());
-  auto const& covariance = problem.worlds.at(world);
-  Eigen::MatrixXd readings = covariance.readings(set, set);
-  readings.diagonal() += problem.noise(set);
-  return readings.llt().solve(covariance.cross(set, Eigen::all));
 }
 
 }  // namespace thermotwin::models

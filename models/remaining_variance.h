@@ -73,9 +73,4 @@ class RemainingVariance {
 /// V(A).
 [[nodiscard]] double remaining_variance(PlacementProblem const& problem, std::span<Eigen::Index const> sensors);
 
-/// (S_AA + R_A)⁻¹ S_Ay in one of the worlds: what the readings' departures from their mean are multiplied by, k × d
-/// [µm/K].
-[[nodiscard]] Eigen::MatrixXd estimator(PlacementProblem const& problem, std::span<Eigen::Index const> sensors,
-                                        std::size_t world = 0);
-
 }  // namespace thermotwin::models

@@ -63,18 +63,6 @@ TEST(RemainingVariance, OfExactSensorsIsWhatNoSensorSees) {
   EXPECT_NEAR(remaining_variance(problem, Set{0, 5, 10, 15}), 0.1, 1e-4);
 }
 
-/// The estimate's error is V: tr(S_yy − 2 WᵀS_Ay + Wᵀ(S_AA + R)W).
-TEST(Estimator, HasTheRemainingVarianceAsItsError) {
-  auto const problem = random_placement(6, 20);
-  Set const set = {1, 7, 12, 18};
-  Eigen::MatrixXd const weights = estimator(problem, set);
-  Eigen::MatrixXd readings = problem.worlds[0].readings(set, set);
-  readings.diagonal() += problem.noise(set);
-  double const error = problem.prior() - 2.0 * weights.cwiseProduct(problem.worlds[0].cross(set, Eigen::all)).sum() +
-                       weights.cwiseProduct(readings * weights).sum();
-  EXPECT_NEAR(error, remaining_variance(problem, set), 1e-9 * problem.prior());
-}
-
 TEST(ExhaustivePlacement, IsTheBestOfAllSets) {
   auto const problem = random_placement(7, 9);
   double best = problem.prior();
