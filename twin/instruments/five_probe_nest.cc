@@ -68,7 +68,6 @@ NestReadings read(FiveProbeNest const& nest, InstrumentChannel const& channel, S
     for (auto const& [property, value] : one.drawn) readings.drawn[name + "." + property] = value;
   }
   readings.errors = spindle_errors(nest, readings.probes);
-  readings.truth_errors = spindle_errors(nest, readings.truth_probes);
   return readings;
 }
 

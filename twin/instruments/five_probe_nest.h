@@ -64,10 +64,9 @@ struct SpindleCourse {
 };
 
 struct NestReadings {
-  FiveColumns probes;        ///< X1, Y1, X2, Y2, Z [µm]
-  FiveColumns errors;        ///< E_X, E_Y, E_Z [µm], E_A, E_B [µrad], from the probes
-  FiveColumns truth_probes;  ///< the same, of perfect probes
-  FiveColumns truth_errors;
+  FiveColumns probes;                   ///< X1, Y1, X2, Y2, Z [µm]
+  FiveColumns errors;                   ///< E_X, E_Y, E_Z [µm], E_A, E_B [µrad], from the probes
+  FiveColumns truth_probes;             ///< X1, Y1, X2, Y2, Z of perfect probes [µm]
   std::map<std::string, double> drawn;  ///< "X1.scale_error", … [SI]
 };
 

@@ -58,7 +58,7 @@ TEST(FiveProbeNest, ReadingsWithoutNoiseReturnTheErrors) {
   VectorXd const time = VectorXd::LinSpaced(40, 0.0, 39.0 * 60.0);
   NestReadings const readings = read(nest, {"nest"}, {time, some_errors(40), VectorXd::Constant(40, 293.15), {}}, time);
   EXPECT_LT((readings.errors - 1e6 * some_errors(40)).cwiseAbs().maxCoeff(), 1e-10);
-  EXPECT_LT((readings.truth_errors - readings.errors).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_LT((readings.truth_probes - readings.probes).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 // physics.md §3.3: 0.1 µm of noise over 0.1 m make 1.4 µrad.
