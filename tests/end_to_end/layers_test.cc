@@ -47,6 +47,10 @@ std::vector<Seam> const seams = {
     {"toml++", std::regex("toml(\\+\\+|plusplus).*"), std::regex("twin/file/toml[^/]*\\.cc")},
     {"zlib", std::regex("zlib\\.h"), std::regex("output/(report_page|checksum)\\.cc")},
     {"CLI11", std::regex("CLI/.*"), std::regex("twin/(main|command_line[^/]*)\\.cc")},
+    {"Ceres", std::regex("(ceres|glog)/.*"), std::regex("twin/diagnosis/least_squares\\.cc")},
+    {"Paho MQTT", std::regex("mqtt/.*"), std::regex("twin/compensation/broker\\.cc")},
+    {"Cairo", std::regex("cairo.*"), std::regex("output/cairo[^/]*\\.cc")},
+    {"cpp-httplib", std::regex("httplib\\.h"), std::regex("output/page_server\\.cc")},
 };
 
 std::set<std::string> const root_entries = {
