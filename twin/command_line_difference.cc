@@ -5,8 +5,7 @@
 #include <memory>
 
 #include "output/atomic_file.h"
-#include "thermal/error.h"
-#include "thermal/units.h"
+#include "thermal/dimension.h"
 #include "twin/command_line_number.h"
 #include "twin/machine.h"
 #include "twin/report/difference.h"

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "output/atomic_file.h"
-#include "thermal/error.h"
 #include "twin/progress.h"
 #include "twin/progress_file.h"
 #include "twin/study/study.h"

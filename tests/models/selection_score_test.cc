@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "models/forward_selection.h"
 #include "tests/models/simulated_batch.h"
 
 namespace thermotwin::models {

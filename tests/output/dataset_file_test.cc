@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "output/error.h"
 #include "tests/output/example_dataset.h"
 #include "tests/output/temporary_directory.h"
 #include "thermal/error.h"

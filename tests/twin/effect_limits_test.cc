@@ -3,7 +3,6 @@
 
 #include "tests/scenarios/refusal.h"
 #include "tests/twin/effect_bench.h"
-#include "thermal/error.h"
 
 /// What no part of a machine can have: numbers by which others are divided, shares of more than the whole, and keys
 /// that contradict one another.

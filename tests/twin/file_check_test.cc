@@ -7,7 +7,6 @@
 #include "tests/output/temporary_directory.h"
 #include "twin/error_model_file.h"
 #include "twin/experiment_file.h"
-#include "twin/file/document.h"
 #include "twin/machine.h"
 #include "twin/study/judgement.h"
 

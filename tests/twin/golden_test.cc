@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "scenarios/course.h"
+#include "scenarios/experiment.h"
 #include "tests/twin/golden_tables.h"
 #include "thermal/integrate.h"
-#include "twin/experiment_file.h"
 #include "twin/machine.h"
 
 /// The lumped machines against the golden tables: every cell to 0.02 K and 0.1 µm (and half a printed digit).

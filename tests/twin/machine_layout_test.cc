@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-#include "thermal/error.h"
 #include "thermal/evaluation.h"
 #include "thermal/growth_field.h"
 #include "twin/machine.h"

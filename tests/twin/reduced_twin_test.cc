@@ -8,7 +8,6 @@
 #include "output/dataset_file.h"
 #include "tests/output/temporary_directory.h"
 #include "thermal/error.h"
-#include "twin/file/document.h"
 #include "twin/live_twin.h"
 #include "twin/reduced_summary.h"
 #include "twin/run.h"

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "tests/twin/effect_bench.h"
-#include "thermal/error.h"
 #include "twin/diagnosis/hypothesis.h"
 
 /// What must hold for the way in which diagnosis tries every effect of the catalogue.

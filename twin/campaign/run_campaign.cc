@@ -13,7 +13,6 @@
 #include "output/campaign_file.h"
 #include "output/checksum.h"
 #include "output/csv.h"
-#include "output/error.h"
 #include "output/locked_file.h"
 #include "thermal/error.h"
 #include "thermal/modal_integration.h"

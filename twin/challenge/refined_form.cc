@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "thermal/bounding_box.h"
-#include "thermal/error.h"
 #include "thermal/units.h"
 #include "twin/assembly.h"
 #include "twin/bodies.h"

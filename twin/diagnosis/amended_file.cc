@@ -5,7 +5,6 @@
 #include <map>
 
 #include "output/atomic_file.h"
-#include "thermal/error.h"
 #include "twin/file/output_path.h"
 #include "twin/file/text_file.h"
 #include "twin/file/value.h"

@@ -6,7 +6,6 @@
 
 #include "output/json_text.h"
 #include "thermal/units.h"
-#include "twin/diagnosis/estimate_text.h"
 #include "twin/diagnosis/separation.h"
 
 namespace thermotwin::twin {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "thermal/error.h"
 
 namespace thermotwin::twin {
 

@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 
-#include "thermal/error.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/parallel.h"
 

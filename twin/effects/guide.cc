@@ -1,4 +1,3 @@
-#include "thermal/error.h"
 #include "thermal/feed_drive.h"
 #include "thermal/stroke.h"
 #include "twin/assembly.h"

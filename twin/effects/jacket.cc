@@ -1,7 +1,6 @@
 #include <numbers>
 
 #include "thermal/channel_film.h"
-#include "thermal/error.h"
 #include "thermal/laws.h"
 #include "thermal/physical_constant.h"
 #include "twin/assembly.h"

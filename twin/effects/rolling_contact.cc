@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "thermal/error.h"
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/part_time_motion.h"

@@ -9,7 +9,6 @@
 #include "output/picture_scale.h"
 #include "output/report_page.h"
 #include "output/viridis.h"
-#include "thermal/error.h"
 #include "twin/diagnosis/estimate_text.h"
 #include "twin/report/answer_section.h"
 #include "twin/report/figure_files.h"

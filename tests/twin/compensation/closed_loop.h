@@ -6,7 +6,6 @@
 
 #include "twin/compensation/compensation_loop.h"
 #include "twin/compensation/virtual_machine.h"
-#include "twin/error_model_file.h"
 #include "twin/experiment_file.h"
 #include "twin/machine.h"
 #include "twin/run.h"
