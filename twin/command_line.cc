@@ -36,6 +36,8 @@
 #include "twin/file_check.h"
 #include "twin/file_kind.h"
 #include "twin/known_names.h"
+#include "twin/machine.h"
+#include "twin/machine_tables.h"
 #include "twin/needed_solution.h"
 #include "twin/placement/candidate_sites.h"
 #include "twin/progress.h"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "twin/effect.h"
-#include "twin/machine.h"
+#include "twin/machine_tables.h"
 
 /// What people read of the effect catalogue and of the tables of a file: all of it from the records that the reader of
 /// the file uses, so that it cannot differ from what the program does. At most 100 columns wide.

@@ -25,6 +25,7 @@
 #include "twin/file_kind.h"
 #include "twin/history.h"
 #include "twin/machine.h"
+#include "twin/machine_tables.h"
 #include "twin/placement/candidate_sites.h"
 #include "twin/study/study_runs.h"
 #include "twin/turning_bodies.h"

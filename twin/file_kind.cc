@@ -11,7 +11,7 @@
 #include "twin/campaign/campaign_description.h"
 #include "twin/diagnosis/measurement_file.h"
 #include "twin/error_model_file.h"
-#include "twin/machine.h"
+#include "twin/machine_tables.h"
 #include "twin/placement/candidate_sites.h"
 #include "twin/study/study_description.h"
 
@@ -32,11 +32,9 @@ std::set<std::string> keys_among(std::vector<FieldRecord> const& fields) {
 
 constexpr char const* sensor_table = "temperature_sensor";
 
-/// The tables of a machine, and what stands above them. Sensors alone make none.
+/// Sensors alone make no machine.
 std::set<std::string> keys_of_machine() {
-  auto const tables = describe_machine();
-  auto keys = keys_among(tables.front().fields);
-  for (std::size_t t = 1; t < tables.size(); ++t) keys.insert(tables[t].name);
+  std::set<std::string> keys(machine_keys().begin(), machine_keys().end());
   keys.erase(sensor_table);
   return keys;
 }

@@ -19,6 +19,7 @@
 #include "twin/file/tables.h"
 #include "twin/file_kind.h"
 #include "twin/instruments/temperature_specimen.h"
+#include "twin/machine_tables.h"
 #include "twin/stated_axes.h"
 #include "twin/uncertain_range.h"
 #include "twin/volumetric/volumetric_machine.h"
@@ -27,52 +28,7 @@ namespace thermotwin::twin {
 
 using thermal::InputError;
 
-/// What stands at the top of the file, before any table.
-struct HeadDescription {
-  std::string name, title;
-  std::string up = "z";
-
-  [[nodiscard]] Eigen::Vector3d upwards() const { return Eigen::Vector3d::Unit(up[0] - 'x'); }
-
-  template <class Fields>
-  static void fields(Fields& f) {
-    f.name("name", &HeadDescription::name, "short, as other files refer to it");
-    f("title", &HeadDescription::title, "one line for people");
-    f.choice("up", &HeadDescription::up, {"x", "y", "z"}, "axis that points upwards");
-  }
-};
-
 namespace {
-
-std::vector<std::string> const& own_tables() {
-  static std::vector<std::string> const names = {"name",
-                                                 "title",
-                                                 "up",
-                                                 "spindle",
-                                                 "axis",
-                                                 "material",
-                                                 "lump",
-                                                 "bar",
-                                                 "hollow_cylinder",
-                                                 "block",
-                                                 "channel",
-                                                 "temperature_sensor",
-                                                 "displacement",
-                                                 "rotation",
-                                                 "ball_screw",
-                                                 "displacement_probe",
-                                                 "five_probe_nest",
-                                                 "laser",
-                                                 "volumetric",
-                                                 "uncertain"};
-  return names;
-}
-
-std::vector<std::string> known_keys() {
-  auto keys = own_tables();
-  for (auto const& entry : effect_catalogue()) keys.push_back(entry.name);
-  return keys;
-}
 
 /// The document's own keys, without its tables.
 HeadDescription head_of(Value const& document) {
@@ -84,9 +40,9 @@ HeadDescription head_of(Value const& document) {
   return head;
 }
 
-/// Every key of the document must be a table that the program knows.
+/// Every key of the document must be one that the program knows.
 void check_keys(Value const& document) {
-  auto const known = known_keys();
+  auto const& known = machine_keys();
   for (auto const& entry : std::get<Value::Table>(document.content))
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
       refuse_other_kind(document, FileKind::machine);
@@ -561,32 +517,6 @@ Machine Machine::read(std::filesystem::path const& path) { return build(read_tom
 
 std::filesystem::path machine_file(std::string const& name_or_path) {
   return shipped_file("machine", "twin/machines", name_or_path);
-}
-
-std::vector<TableRecord> describe_machine() {
-  std::vector<TableRecord> tables = {
-      {"machine", "the keys at the top of the file", list_fields<HeadDescription>()},
-      {"spindle", "the main spindle", list_fields<SpindleDescription>()},
-      {"axis", "a linear axis driven by a screw", list_fields<AxisDescription>()},
-      {"material", "a solid of this machine", list_fields<MaterialDescription>()},
-      {"lump", "a body of one temperature", list_fields<LumpDescription>()},
-      {"bar", "a body whose temperature varies along it; faces: surface, start, end", list_fields<BarDescription>()},
-      {"hollow_cylinder", "axial × radial cells; faces: outer, inner, start, end",
-       list_fields<HollowCylinderDescription>()},
-      {"block", "a box of cells; faces: x_min, x_max, y_min, y_max, z_min, z_max", list_fields<BlockDescription>()},
-      {"channel", "a fluid that moves along a line; face: wall", list_fields<ChannelDescription>()},
-      {"temperature_sensor", "an instrument at a place, or at a mean of several", list_fields<SensorDescription>()},
-      {"rotation", "a rotation of the tool relative to the workpiece", list_fields<DisplacementDescription>()},
-      {"displacement", "a displacement of the tool relative to the workpiece", list_fields<DisplacementDescription>()},
-      {"ball_screw", "error of position along a stroke", list_fields<BallScrewDescription>()},
-      {"displacement_probe", "an eddy-current or capacitive probe", list_fields<ProbeDescription>()},
-      {"five_probe_nest", "X1, Y1, X2, Y2 and Z about a test bar; one table", list_fields<FiveProbeNest>()},
-      {"laser", "laser interferometer along an axis; one table", list_fields<LaserInterferometer>()},
-      {"volumetric", "21 error elements of a machine with three linear axes; one table",
-       list_fields<VolumetricDescription>()},
-      {"uncertain", "a number of this file that is known within a range only", list_fields<UncertainRange>()}};
-  for (auto const& entry : effect_catalogue()) tables.push_back({entry.name, entry.meaning, entry.parameters});
-  return tables;
 }
 
 }  // namespace thermotwin::twin

@@ -100,12 +100,4 @@ class Machine {
 /// The file of a machine: a path, or the name of one in twin/machines. InputError that names the nearest one.
 [[nodiscard]] std::filesystem::path machine_file(std::string const& name_or_path);
 
-/// What `thermotwin describe machine` prints: every table of a machine file with its fields.
-struct TableRecord {
-  std::string name;
-  std::string meaning;
-  std::vector<FieldRecord> fields;
-};
-[[nodiscard]] std::vector<TableRecord> describe_machine();
-
 }  // namespace thermotwin::twin

@@ -9,6 +9,7 @@
 #include "thermal/error.h"
 #include "twin/file/schema.h"
 #include "twin/machine.h"
+#include "twin/machine_tables.h"
 
 namespace thermotwin::twin {
 namespace {
