@@ -1,157 +1,33 @@
 #include "twin/file_check.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <optional>
-#include <span>
 
 #include "scenarios/course.h"
-#include "thermal/bounding_box.h"
 #include "thermal/course_inputs.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
-#include "thermal/units.h"
-#include "twin/bodies.h"
 #include "twin/campaign/campaign.h"
 #include "twin/diagnosis/measured_data.h"
 #include "twin/diagnosis/measured_run.h"
 #include "twin/error_model_file.h"
 #include "twin/experiment_file.h"
 #include "twin/experiment_remarks.h"
-#include "twin/file/document.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/tables.h"
 #include "twin/file_kind.h"
 #include "twin/history.h"
+#include "twin/implausible_values.h"
 #include "twin/machine.h"
-#include "twin/machine_tables.h"
+#include "twin/machine_remarks.h"
 #include "twin/placement/candidate_sites.h"
 #include "twin/study/study_runs.h"
-#include "twin/turning_bodies.h"
-#include "twin/uncertain_range.h"
 
 namespace thermotwin::twin {
 namespace {
 
-constexpr double rounding = 1e-9;         ///< of a bound that is written in another unit
 constexpr double shortest_record = 60.0;  ///< in which a machine could warm [s]
-
-/// The value, or those of the list.
-std::vector<Value const*> items_of(Value const& value) {
-  std::vector<Value const*> items;
-  if (!value.is_list()) return {&value};
-  for (auto const& item : std::get<Value::List>(value.content)) items.push_back(&item);
-  return items;
-}
-
-/// A point on the temperature scale [K]; none for what is no text.
-std::optional<double> temperature_of(Value const& value) {
-  if (!value.is_text()) return {};
-  return thermal::parse_temperature(std::get<std::string>(value.content));
-}
-
-/// In SI; none for what is no number.
-std::optional<double> number_of(Value const& value, thermal::Dimension dimension) {
-  Value const table{value.where, Value::Table{{"", value.where, value}}};
-  return number_in(table, "", dimension);
-}
-
-void find_implausible(Value const& table, std::vector<FieldRecord> const& fields, std::vector<std::string>& found) {
-  for (auto const& entry : std::get<Value::Table>(table.content)) {
-    auto const field = std::find_if(fields.begin(), fields.end(), [&](auto const& f) { return f.key == entry.key; });
-    if (field == fields.end()) continue;
-    for (auto const* item : items_of(entry.value)) {
-      if (item->is_table()) find_implausible(*item, field->nested, found);
-      if (field->range.empty()) continue;
-      auto const number = field->is_temperature() ? temperature_of(*item) : number_of(*item, field->dimension);
-      double const low = field->plausible.low, high = field->plausible.high;
-      if (number && (*number < low - rounding * std::abs(low) || *number > high + rounding * std::abs(high)))
-        found.push_back(fmt::format(
-            "{}: '{}' is {}; outside what is plausible: {}{}", item->where.text(), entry.key, item->text(),
-            field->range, item->is_text() ? thermal::doubt_of_unit(std::get<std::string>(item->content)) : ""));
-    }
-  }
-}
-
-/// Sensors from which a signal hardly gets out.
-void doubt_turning_sensors(Value const& document, std::vector<std::string>& found) {
-  auto const turning = bodies_on_spindle(document);
-  Tables const tables(document);
-  for (auto const& sensor : tables.of("temperature_sensor"))
-    for (auto const* place : items_of(*sensor.find("at"))) {
-      auto const body = body_of(std::get<std::string>(place->content));
-      if (std::find(turning.begin(), turning.end(), body) != turning.end())
-        found.push_back(fmt::format("{}: sensor '{}' sits on '{}', which turns; its signal needs a way out",
-                                    place->where.text(), name_in(sensor), body));
-    }
-}
-
-/// Masses that do not fit the box that is stated with them. Boxes are drawn for the picture, and castings are hollow.
-void doubt_masses(Value const& document, std::vector<std::string>& found) {
-  constexpr double least_solid = 0.002, most_solid = 2.0;
-  Tables tables(document);
-  Bodies const bodies(tables);
-  for (auto const& lump : tables.of("lump")) {
-    auto const name = name_in(lump);
-    auto const mass = number_in(lump, "mass", dimension::mass);
-    auto const* material = bodies.material_of(name);
-    if (!mass || !material || !lump.find("size")) continue;
-    double const full = material->density * thermal::bounding_box(bodies.all().at(name).cells).volume();
-    if (*mass < least_solid * full || *mass > most_solid * full)
-      found.push_back(fmt::format("{}: 'mass' is {}; full of {}, the box of its 'size' has {:.3g} kg",
-                                  lump.find("mass")->where.text(), lump.find("mass")->text(), material->name, full));
-  }
-}
-
-/// A nut and its axis tell the same screw's lead: the axis' turns it, the nut's takes part in its friction.
-void doubt_leads(Value const& document, std::vector<std::string>& found) {
-  Tables const tables(document);
-  for (auto const& axis : tables.of("axis"))
-    for (auto const& nut : tables.of("ball_nut")) {
-      auto const driven_by = texts_of(nut, "axis");
-      if (name_in(axis) != (driven_by.empty() ? "z" : driven_by[0])) continue;
-      double const of_axis = number_in(axis, "lead", dimension::length).value();
-      double const of_nut = number_in(nut, "lead", dimension::length).value();
-      if (std::abs(of_nut - of_axis) > 1e-6 * of_axis)
-        found.push_back(fmt::format("{}: 'lead' is {}; axis '{}', whose screw it runs on, has a lead of {}",
-                                    nut.find("lead")->where.text(), nut.find("lead")->text(), name_in(axis),
-                                    axis.find("lead")->text()));
-    }
-}
-
-/// Sensitivities may divide what is counted; a file may not.
-void check_counts(Value const& machine) {
-  for (auto const& [kind, where, value] : std::get<Value::Table>(machine.content))
-    for (auto const* table : items_of(value)) {
-      Value const* count = table->is_table() ? table->find("count") : nullptr;
-      if (!count) continue;
-      auto const number = number_of(*count, thermal::dimension::dimensionless);
-      if (number && *number != std::round(*number))
-        throw FileError(count->where, fmt::format("'count' is {}; a whole number is due", count->text()));
-    }
-}
-
-/// All tables of a machine file, as the fields of one.
-std::vector<FieldRecord> machine_fields() {
-  std::vector<FieldRecord> fields;
-  for (auto const& table : describe_machine())
-    fields.push_back({table.name, "table", "", "", "", table.fields, {}, {}});
-  return fields;
-}
-
-/// An input that an experiment would have to give, and that nearly has the name of one that all have.
-void find_misspelt_inputs(Value const& document, Machine const& machine, std::vector<std::string>& found) {
-  std::vector<std::string> own;
-  for (auto const& channel : scenarios::own_channels(machine.limits)) own.push_back(channel.name);
-  auto const& names = machine.network().channel_names();
-  for (auto const& name : std::span(names).first(std::size_t(machine.network().external_channels()))) {
-    bool const is_own = std::find(own.begin(), own.end(), name) != own.end();
-    if (auto const meant = is_own ? "" : thermal::meant_name(name, own); !meant.empty())
-      found.push_back(
-          fmt::format("{}: input '{}': did you mean '{}'?", place_of(document, "'" + name + "'").text(), name, meant));
-  }
-}
 
 /// InputError for what looks like a name, and is that of no file that comes with the program.
 void refuse_unknown_name(std::filesystem::path const& file) {
@@ -292,7 +168,7 @@ void FileChecker::read(std::filesystem::path const& file, std::size_t i) {
   switch (file_kind(document)) {
     case FileKind::experiment:
       experiments_.push_back({i, {file, document, read_experiment(document, file)}});
-      find_implausible(document, list_fields<scenarios::Experiment>(), check.warnings);
+      check.warnings = implausible_values(document, list_fields<scenarios::Experiment>());
       return;
     case FileKind::campaign:
       check.text = checked_campaign(file);
@@ -316,13 +192,7 @@ void FileChecker::read(std::filesystem::path const& file, std::size_t i) {
 
 void FileChecker::read_machine(std::filesystem::path const& file, Value const& document, FileCheck& check) {
   auto const machine = Machine::build(document);
-  check_counts(document);
-  static_cast<void>(ranged_numbers(document));
-  find_implausible(document, machine_fields(), check.warnings);
-  find_misspelt_inputs(document, machine, check.warnings);
-  doubt_turning_sensors(document, check.warnings);
-  doubt_masses(document, check.warnings);
-  doubt_leads(document, check.warnings);
+  check.warnings = machine_remarks(document, machine);
   check.text = fmt::format("the machine {}: {}, {}, {}, {}", machine.name,
                            counted(std::size_t(machine.network().nodes()), "node"),
                            counted(machine.network().parts().size(), "part"), counted(machine.sensors.size(), "sensor"),

@@ -1,3 +1,5 @@
+#include "twin/machine_remarks.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

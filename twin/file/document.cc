@@ -26,6 +26,13 @@ std::vector<Value*> tables_of(Value& document, std::string const& kind) {
   return tables;
 }
 
+std::vector<Value const*> items_of(Value const& value) {
+  if (!value.is_list()) return {&value};
+  std::vector<Value const*> items;
+  for (auto const& item : std::get<Value::List>(value.content)) items.push_back(&item);
+  return items;
+}
+
 std::vector<std::string> texts_of(Value const& table, std::string const& key) {
   Value const* value = table.find(key);
   if (!value) return {};

@@ -15,6 +15,9 @@ namespace thermotwin::twin {
 /// The tables of a kind; none if there are none.
 [[nodiscard]] std::vector<Value*> tables_of(Value& document, std::string const& kind);
 
+/// The value, or those of the list.
+[[nodiscard]] std::vector<Value const*> items_of(Value const& value);
+
 /// The text, or the texts of the list, under a key.
 [[nodiscard]] std::vector<std::string> texts_of(Value const& table, std::string const& key);
 
