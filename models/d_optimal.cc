@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <fmt/format.h>
-#include <limits>
 
 #include "models/candidates.h"
 #include "models/log_determinant.h"

@@ -1,6 +1,5 @@
 #include "models/distributed_lag_adhoc.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <stdexcept>
 

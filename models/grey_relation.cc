@@ -1,7 +1,6 @@
 #include "models/grey_relation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
 

@@ -1,6 +1,5 @@
 #include "models/ordered_clustering.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>

@@ -1,7 +1,6 @@
 #include "models/principal_component.h"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <fmt/format.h>
 #include <stdexcept>
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <fmt/core.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>

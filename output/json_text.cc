@@ -1,7 +1,6 @@
 #include "output/json_text.h"
 
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "thermal/units.h"
 

@@ -1,7 +1,6 @@
 #include "output/label_places.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 
 namespace thermotwin::output {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 #include "scenarios/sampled.h"
 #include "thermal/error.h"

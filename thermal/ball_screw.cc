@@ -1,7 +1,6 @@
 #include "thermal/ball_screw.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace thermotwin::thermal {
 

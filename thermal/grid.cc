@@ -1,6 +1,5 @@
 #include "thermal/grid.h"
 
-#include <algorithm>
 #include <map>
 
 namespace thermotwin::thermal {

@@ -1,7 +1,6 @@
 #include "thermal/multigrid.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "thermal/fixed_blocks.h"
 #include "thermal/grid_balance.h"

@@ -2,13 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <exception>
-#include <fmt/format.h>
 #include <numeric>
 #include <set>
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <fmt/format.h>
 
 #include "thermal/error.h"
 #include "thermal/integrate.h"

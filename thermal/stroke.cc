@@ -1,6 +1,5 @@
 #include "thermal/stroke.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 #include "thermal/error.h"

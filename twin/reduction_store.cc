@@ -1,6 +1,5 @@
 #include "twin/reduction_store.h"
 
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>

@@ -1,7 +1,5 @@
 #include "twin/run.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 #include "output/dataset_file.h"

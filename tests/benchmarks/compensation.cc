@@ -1,11 +1,7 @@
 // 50 sensors at 100 Hz through a real broker, which is killed and restarted: what gets lost, and how long decisions
 // take.
-#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
-#include <fmt/format.h>
 #include <set>
 #include <thread>
 

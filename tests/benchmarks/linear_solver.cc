@@ -5,7 +5,6 @@
 // Four hours with a jump of the heat every half hour, rtol 1e-6, films that depend on temperature.
 #include <benchmark/benchmark.h>
 #include <cmath>
-#include <limits>
 
 #include "thermal/bar.h"
 #include "thermal/block.h"

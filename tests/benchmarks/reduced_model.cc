@@ -2,7 +2,6 @@
 // the live twin.
 #include <algorithm>
 #include <benchmark/benchmark.h>
-#include <cmath>
 #include <set>
 
 #include "twin/instruments/random_stream.h"

@@ -2,7 +2,6 @@
 // machine can, then 75 %, 100 %, rest and so on; and v450 with forward sensitivities to 40 of its numbers.
 // spectrum.py is the peer of Spectrum/v450, g200 and vmc850.
 #include <benchmark/benchmark.h>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>

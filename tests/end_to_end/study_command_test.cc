@@ -1,5 +1,3 @@
-#include <array>
-#include <cstdio>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 #include "models/candidates.h"
 
-#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

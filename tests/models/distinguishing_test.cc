@@ -1,7 +1,6 @@
 #include "models/distinguishing.h"
 
 #include <algorithm>
-#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <numeric>

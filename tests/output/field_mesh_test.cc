@@ -1,6 +1,5 @@
 #include "output/field_mesh.h"
 
-#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

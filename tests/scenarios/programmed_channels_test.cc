@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <gtest/gtest.h>
-#include <utility>
 
 #include "scenarios/course.h"
 

@@ -1,6 +1,5 @@
 #include "thermal/ball_screw.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 

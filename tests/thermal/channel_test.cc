@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
-#include <numbers>
 
 #include "tests/thermal/function_course.h"
 #include "thermal/bar.h"

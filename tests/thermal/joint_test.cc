@@ -1,6 +1,5 @@
 #include "thermal/joint.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numbers>

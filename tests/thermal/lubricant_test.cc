@@ -1,7 +1,6 @@
 #include "thermal/lubricant.h"
 
 #include <gtest/gtest.h>
-#include <string>
 
 #include "tests/thermal/smoothness.h"
 #include "thermal/error.h"

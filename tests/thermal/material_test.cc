@@ -1,6 +1,5 @@
 #include "thermal/material.h"
 
-#include <algorithm>
 #include <gtest/gtest.h>
 #include <set>
 #include <string>

@@ -2,7 +2,6 @@
 
 #include <cstring>
 #include <gtest/gtest.h>
-#include <numeric>
 
 namespace thermotwin::thermal {
 namespace {

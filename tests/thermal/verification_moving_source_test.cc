@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <numbers>
-#include <numeric>
 
 #include "tests/thermal/verification.h"
 #include "thermal/bar.h"

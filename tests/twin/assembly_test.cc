@@ -1,6 +1,5 @@
 #include "twin/assembly.h"
 
-#include <cmath>
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

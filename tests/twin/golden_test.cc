@@ -1,4 +1,3 @@
-#include <Eigen/Core>
 #include <filesystem>
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sstream>

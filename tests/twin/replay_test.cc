@@ -1,6 +1,5 @@
 #include "twin/replay.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <map>
 #include <set>
 
 #include "tests/twin/effect_bench.h"

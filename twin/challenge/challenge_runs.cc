@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <string>
 
 #include "thermal/physical_constant.h"
 #include "twin/instruments/random_stream.h"

@@ -1,7 +1,6 @@
 #include "twin/compensation/mean_model.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace thermotwin::twin {
 namespace {

@@ -1,7 +1,6 @@
 #include "twin/compensation/model_clock.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace thermotwin::twin {
 namespace {

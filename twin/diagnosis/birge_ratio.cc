@@ -1,7 +1,6 @@
 #include "twin/diagnosis/birge_ratio.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace thermotwin::twin {
 

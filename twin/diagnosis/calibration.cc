@@ -1,6 +1,5 @@
 #include "twin/diagnosis/calibration.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

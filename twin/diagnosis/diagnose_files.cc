@@ -1,6 +1,5 @@
 #include "twin/diagnosis/diagnose_files.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 

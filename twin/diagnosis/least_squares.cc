@@ -6,7 +6,6 @@
 #include <ceres/ceres.h>
 #include <cmath>
 #include <glog/logging.h>
-#include <utility>
 #include <vector>
 
 namespace thermotwin::twin {

@@ -1,7 +1,6 @@
 #include "twin/diagnosis/measurement_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <set>

@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "thermal/motor_loss.h"
 #include "thermal/physical_constant.h"

@@ -1,4 +1,3 @@
-#include <numbers>
 
 #include "thermal/channel_film.h"
 #include "thermal/laws.h"

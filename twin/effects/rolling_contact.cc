@@ -1,7 +1,5 @@
 #include "thermal/rolling_contact.h"
 
-#include <map>
-
 #include "twin/assembly.h"
 #include "twin/effect.h"
 #include "twin/effects/part_time_motion.h"

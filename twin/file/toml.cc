@@ -1,6 +1,5 @@
 // The only file that knows toml++.
 #include <algorithm>
-#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "twin/file/text_file.h"

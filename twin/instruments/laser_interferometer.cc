@@ -1,7 +1,5 @@
 #include "twin/instruments/laser_interferometer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <utility>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "output/fields.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
 
 #include "thermal/nearest_name.h"
 #include "twin/axis_record.h"

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include "scenarios/course.h"

@@ -1,7 +1,6 @@
 #include "twin/volumetric/field_prediction.h"
 
 #include <array>
-#include <cmath>
 #include <ctime>
 #include <fmt/format.h>
 #include <limits>

@@ -1,6 +1,5 @@
 #include "twin/volumetric/volumetric_report.h"
 
-#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <utility>

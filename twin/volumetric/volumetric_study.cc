@@ -1,6 +1,5 @@
 #include "twin/volumetric/volumetric_study.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #include "twin/compensation/mean_model.h"
 
-#include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

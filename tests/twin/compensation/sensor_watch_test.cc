@@ -1,6 +1,5 @@
 #include "twin/compensation/sensor_watch.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

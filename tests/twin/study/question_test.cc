@@ -1,6 +1,5 @@
 #include "twin/study/question.h"
 
-#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <set>
