@@ -14,7 +14,6 @@
 #include "twin/edge_unit.h"
 #include "twin/reduction_store.h"
 #include "twin/run.h"
-#include "twin/version.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -91,23 +90,6 @@ std::vector<std::string> edge_units(thermal::Network const& network, thermal::Co
     for (std::size_t i = 0; i < units.size(); ++i)
       if (network.channel_names()[i] == channel.name) units[i] = edge_unit(channel);
   return units;
-}
-
-output::Dataset head_of(Machine const& machine, scenarios::Experiment const& experiment,
-                        scenarios::ExperimentCourse const& course) {
-  output::Dataset head;
-  head.title = run_title(machine, experiment);
-  head.inputs = input_channels(course);
-  for (auto const& sensor : machine.sensors)
-    head.readings.push_back({sensor.description.name, "degC", sensor.description.title, {}});
-  head.displacements = displacement_channels(machine);
-  head.truth_readings = head.readings;
-  head.truth_displacements = head.displacements;
-  head.provenance["version"] = std::string(version());
-  head.provenance["commit"] = std::string(commit());
-  head.provenance["seed"] = std::to_string(experiment.seed);
-  head.provenance["model"] = "reduced";
-  return head;
 }
 
 /// Largest difference of every channel.
@@ -254,7 +236,8 @@ ReducedResult ReducedTwin::run(scenarios::Experiment const& experiment) const {
   for (std::size_t s = 0; s < result.bound.readings.size(); ++s)
     result.bound.readings[s] = safety * result.bound.readings[s] + least_error_.readings[s];
   result.bound.displacements = safety * result.bound.displacements + least_error_.displacements;
-  auto& dataset = result.dataset = head_of(*machine_, experiment, course);
+  auto& dataset = result.dataset = head_of_run(*machine_, experiment, course);
+  dataset.provenance["model"] = "reduced";
   output::resize_rows(dataset, Eigen::Index(history.sampled().size()));
   keep_truth(history, dataset);
   keep_inputs(course, dataset);

@@ -115,24 +115,14 @@ Recorder::Recorder(Machine const& machine, scenarios::Experiment const& experime
 }
 
 output::Dataset Recorder::make_head() const {
-  output::Dataset head;
-  head.title = run_title(machine_, experiment_);
-  head.inputs = input_channels(course_);
-  for (auto const& sensor : machine_.sensors)
-    head.readings.push_back({sensor.description.name, "degC", sensor.description.title, {}});
-  head.displacements = displacement_channels(machine_);
-  head.truth_readings = head.readings;
-  head.truth_displacements = head.displacements;
+  output::Dataset head = head_of_run(machine_, experiment_, course_);
   for (std::size_t p : shown_parts_)
     head.heat.push_back({machine_.network().parts()[p], "W", "heat given to the bodies", {}});
   if (options_.node_temperatures) {
     head.node_temperatures.emplace(0, machine_.network().nodes());
     for (int i = 0; i < machine_.network().nodes(); ++i) head.node_names.push_back(machine_.network().node_name(i));
   }
-  head.provenance = options_.provenance;
-  head.provenance["version"] = std::string(version());
-  head.provenance["commit"] = std::string(commit());
-  head.provenance["seed"] = std::to_string(experiment_.seed);
+  head.provenance.insert(options_.provenance.begin(), options_.provenance.end());
   head.provenance["nodes"] = options_.node_temperatures ? "yes" : "no";
   head.provenance["tolerance.relative"] = thermal::format_number(options_.integration.relative_tolerance);
   head.provenance["tolerance.absolute_K"] = thermal::format_number(options_.integration.absolute_tolerance);
@@ -328,8 +318,20 @@ std::vector<double> initial_temperatures(Machine const& machine, scenarios::Expe
   return temperatures;
 }
 
-std::string run_title(Machine const& machine, scenarios::Experiment const& experiment) {
-  return experiment.title.empty() ? machine.name : fmt::format("{}: {}", machine.name, experiment.title);
+output::Dataset head_of_run(Machine const& machine, scenarios::Experiment const& experiment,
+                            scenarios::ExperimentCourse const& course) {
+  output::Dataset head;
+  head.title = experiment.title.empty() ? machine.name : fmt::format("{}: {}", machine.name, experiment.title);
+  head.inputs = input_channels(course);
+  for (auto const& sensor : machine.sensors)
+    head.readings.push_back({sensor.description.name, "degC", sensor.description.title, {}});
+  head.displacements = displacement_channels(machine);
+  head.truth_readings = head.readings;
+  head.truth_displacements = head.displacements;
+  head.provenance["version"] = std::string(version());
+  head.provenance["commit"] = std::string(commit());
+  head.provenance["seed"] = std::to_string(experiment.seed);
+  return head;
 }
 
 std::vector<output::Channel> input_channels(scenarios::ExperimentCourse const& course) {

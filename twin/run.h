@@ -76,8 +76,10 @@ inline constexpr double largest_imbalance = 1e-9, least_gap = 1e-5;
 /// for any node at any time that is shown.
 [[nodiscard]] RunResult run(Machine const& machine, scenarios::Experiment const& experiment, RunOptions const& options);
 
-/// "v450: golden run B"; of an experiment without a title the name of the machine.
-[[nodiscard]] std::string run_title(Machine const& machine, scenarios::Experiment const& experiment);
+/// What a run's data set says before it has a row: title ("v450: golden run B"; of an experiment without a title the
+/// name of the machine), channels, and where it comes from.
+[[nodiscard]] output::Dataset head_of_run(Machine const& machine, scenarios::Experiment const& experiment,
+                                          scenarios::ExperimentCourse const& course);
 
 /// The inputs of a course as a data set shows them, without their values: names, units of the edge, descriptions.
 [[nodiscard]] std::vector<output::Channel> input_channels(scenarios::ExperimentCourse const& course);
