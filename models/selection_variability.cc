@@ -4,24 +4,12 @@
 
 namespace thermotwin::models {
 
-SelectionVariability selection_variability(SelectionMethod const& method, std::span<Batch const> batches,
-                                           SelectionOptions const& options) {
-  auto const sensors = stacked(batches).temperature_rise.cols();
-  SelectionVariability variability{{}, 0, 0, Eigen::VectorXd::Zero(sensors)};
-  std::set<std::set<Eigen::Index>> sets;
-  std::set<Eigen::Index> before;
+std::optional<double> switch_share(std::span<std::vector<Eigen::Index> const> sets) {
+  if (sets.size() < 2) return std::nullopt;
+  auto const as_set = [](std::vector<Eigen::Index> const& of) { return std::set<Eigen::Index>(of.begin(), of.end()); };
   int switches = 0;
-  for (auto const& batch : batches) {
-    auto const& chosen = variability.selections.emplace_back(method.select({&batch, 1}, options)).sensors;
-    for (auto const sensor : chosen) variability.chosen_share(sensor) += 1.0 / static_cast<double>(batches.size());
-    std::set<Eigen::Index> const now(chosen.begin(), chosen.end());
-    if (variability.selections.size() > 1 && now != before) ++switches;
-    sets.insert(now);
-    before = now;
-  }
-  variability.different_sets = static_cast<int>(sets.size());
-  if (batches.size() > 1) variability.switch_frequency = switches / static_cast<double>(batches.size() - 1);
-  return variability;
+  for (std::size_t i = 1; i < sets.size(); ++i) switches += as_set(sets[i]) != as_set(sets[i - 1]) ? 1 : 0;
+  return double(switches) / double(sets.size() - 1);
 }
 
 }  // namespace thermotwin::models

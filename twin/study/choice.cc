@@ -115,11 +115,4 @@ std::optional<ChoiceQuality> SelectionTruth::quality(Choice const& choice) const
                        models::score(choice.selection, margin.array() - margin.minCoeff())};
 }
 
-std::optional<double> switch_share(std::vector<Choice const*> const& choices) {
-  if (choices.size() < 2) return std::nullopt;
-  int switches = 0;
-  for (std::size_t i = 1; i < choices.size(); ++i) switches += choices[i]->columns != choices[i - 1]->columns ? 1 : 0;
-  return double(switches) / double(choices.size() - 1);
-}
-
 }  // namespace thermotwin::twin

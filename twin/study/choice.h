@@ -65,7 +65,4 @@ class SelectionTruth {
   std::map<int, models::BestSubset> best_;
 };
 
-/// Share of the choices, from the second on, whose set is not that of the one before; none for fewer than two.
-[[nodiscard]] std::optional<double> switch_share(std::vector<Choice const*> const& choices);
-
 }  // namespace thermotwin::twin

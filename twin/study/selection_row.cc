@@ -4,6 +4,8 @@
 #include <set>
 #include <string>
 
+#include "models/selection_variability.h"
+
 namespace thermotwin::twin {
 
 SelectionTruth selection_truth(StudiedWorld const& world, Combinations const& combinations) {
@@ -28,7 +30,7 @@ SelectionFigures selection_row(StudiedWorld const& world, Combinations const& co
   for (auto const& repetition : world.repetitions) {
     bool chose = true;
     std::map<std::string, std::vector<double>> values;
-    std::vector<Choice const*> choices;
+    std::vector<std::vector<Eigen::Index>> chosen;
     for (std::size_t q = 0; q < repetition.fits; ++q) {
       auto const& choice = repetition.trials[q].choices[selection];
       if (!choice.refused.empty()) {
@@ -38,7 +40,7 @@ SelectionFigures selection_row(StudiedWorld const& world, Combinations const& co
       }
       if (result.remark.empty()) result.remark = choice.selection.remark;
       if (result.evidence.empty()) result.evidence = choice.selection.evidence;
-      choices.push_back(&choice);
+      chosen.push_back(choice.columns);
       values["count"].push_back(double(choice.columns.size()));
       auto const quality = named.name == "all" ? std::nullopt : truth.quality(choice);
       if (!quality) continue;
@@ -48,7 +50,7 @@ SelectionFigures selection_row(StudiedWorld const& world, Combinations const& co
       if (named.sensors.empty()) values["rank_correlation"].push_back(quality->score.rank_correlation);
     }
     for (auto const& [name, of_questions] : values) result.figures[name].push_back(interval(of_questions).mean);
-    if (auto const share = switch_share(choices)) result.figures["switches"].push_back(*share);
+    if (auto const share = models::switch_share(chosen)) result.figures["switches"].push_back(*share);
     refusals += chose ? 0 : 1;
   }
   if (refusals > 0) {
