@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-
 namespace thermotwin::twin {
 
 namespace fs = std::filesystem;
