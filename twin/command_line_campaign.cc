@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "thermal/error.h"
 #include "twin/campaign/campaign.h"
@@ -54,13 +55,19 @@ void CampaignCommand::operator()(std::atomic<bool> const& stop) const {
   auto const report = run_campaign(campaign, options);
   progress.reset();
   bool const whole = finish_campaign(campaign, folder), ended_it = whole && report.made > 0;
-  if (quiet || (rank.index != 0 && !ended_it)) return;
-  fmt::print("{}", text_of(report, rank));
-  if (whole)
-    fmt::print("{}: {} runs, {} of them failed (failures.csv)\n",
-               (std::filesystem::path(folder) / "campaign.h5").string(), campaign.runs(), failed_runs(folder));
-  else
-    fmt::print("{}: other shares are still to be made\n", folder);
+  if (rank.index != 0 && !ended_it) return;
+  auto const failed = whole ? failed_runs(folder) : 0;
+  if (!quiet) {
+    fmt::print("{}", text_of(report, rank));
+    if (whole)
+      fmt::print("{}: {} runs, {} of them failed (failures.csv)\n",
+                 (std::filesystem::path(folder) / "campaign.h5").string(), campaign.runs(), failed);
+    else
+      fmt::print("{}: other shares are still to be made\n", folder);
+  }
+  if (failed == campaign.runs())
+    throw std::runtime_error(fmt::format("no run of the campaign could be made; '{}' says why",
+                                         (std::filesystem::path(folder) / "failures.csv").string()));
 }
 
 }  // namespace

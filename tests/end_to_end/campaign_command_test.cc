@@ -216,6 +216,23 @@ TEST(CampaignCommand, RanksOfALauncherMakeTheWhole) {
   EXPECT_NE(wrong.find("PMI_RANK/PMI_SIZE in the environment: '3/3'"), std::string::npos) << wrong;
 }
 
+/// A motor of a megawatt, which the check does not run.
+TEST(CampaignCommand, OfWhichNoRunCouldBeMadeEndsWithOne) {
+  TemporaryDirectory const directory;
+  auto const file = directory / "campaign.toml";
+  tests::put(file,
+             "experiments = [\"golden_b_4000\"]\nmachine = \"v450\"\nkeep = [\"summary\"]\n"
+             "set = [\"motor_loss.stator.constant=1 MW\"]\n[[grid]]\npath = \"experiment.ambient.mean\"\n"
+             "values = [\"18 degC\", \"20 degC\"]\n");
+  auto const command = program + " campaign " + file.string() + " -o " + (directory / "out").string();
+  auto const text = answer(command, 1);
+  EXPECT_NE(text.find("2 runs, 2 of them failed"), std::string::npos) << text;
+  auto const said =
+      "no run of the campaign could be made; '" + (directory / "out/failures.csv").string() + "' says why";
+  EXPECT_NE(text.find(said), std::string::npos) << text;
+  EXPECT_NE(answer(command + " -q", 1).find(said), std::string::npos);
+}
+
 /// The campaign's numbers are those of the run that it says it made.
 TEST(CampaignCommand, ShowsTheCommandOfARun) {
   TemporaryDirectory const directory;

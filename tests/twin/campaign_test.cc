@@ -464,6 +464,25 @@ TEST(Campaign, MistakesAreToldWithTheirPlace) {
   EXPECT_NE(refusal(changed("part = 7", "prt = 7")).find("unknown key 'prt'; did you mean 'part'?"), std::string::npos);
 }
 
+/// Ends that are whole say nothing of what lies between.
+TEST(Campaign, AKeyThatWantsAWholeNumberGetsOne) {
+  std::string const head = "experiments = [\"spindle_random\"]\nmachine = \"v450\"\n";
+  auto const grid = [&](std::string const& rest) {
+    return refusal(head + "[[grid]]\npath = \"experiment.spindle.random.seed\"\nfrom = 1\n" + rest + "\n");
+  };
+  std::string const place = "parameter experiment.spindle.random.seed: 'seed' is ";
+  EXPECT_EQ(grid("to = 10\ncount = 4"), "no complaint");
+  EXPECT_EQ(grid("to = 10\ncount = 1"), "no complaint");
+  EXPECT_EQ(grid("to = 10\ncount = 19"),
+            "campaign.toml:4:8: " + place + "1.5 (a number); a whole number without unit is due");
+  EXPECT_EQ(grid("to = 16\ncount = 5\nscale = \"log\""), "no complaint");
+  EXPECT_THAT(grid("to = 10\ncount = 3\nscale = \"log\""), testing::StartsWith("campaign.toml:4:8: " + place + "3.16"));
+  EXPECT_THAT(refusal(head + "[latin_hypercube]\ncount = 50\nvary = [{path = \"experiment.spindle.random.seed\", "
+                             "from = 1, to = 10}]\n"),
+              testing::AllOf(testing::StartsWith("campaign.toml:5:17: " + place),
+                             testing::EndsWith("a whole number without unit is due")));
+}
+
 /// It would have no runs, and its file none either.
 TEST(Campaign, ALatinHypercubeHasACount) {
   std::string const text =

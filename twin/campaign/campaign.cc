@@ -47,6 +47,11 @@ std::int64_t Campaign::runs_per_part() const {
   return std::clamp<std::int64_t>((runs() + 255) / 256, 1, 1000);
 }
 
+Setting Campaign::sampled(CampaignParameter const& parameter, std::int64_t sample) const {
+  auto const& latin = *description.latin_hypercube;
+  return parameter.at(latin_hypercube(sample, latin.count, std::uint64_t(latin.seed), parameter.path));
+}
+
 CampaignRun Campaign::run(std::int64_t number) const {
   CampaignRun run;
   run.number = number;
@@ -71,11 +76,7 @@ CampaignRun Campaign::run(std::int64_t number) const {
   if (!cases_.empty())
     run.settings.insert(run.settings.end(), cases_[std::size_t(chosen)].begin(), cases_[std::size_t(chosen)].end());
   for (std::size_t g = 0; g < grid.size(); ++g) add(run, grid[g], grid[g].value(places[g]), places[g]);
-  for (auto const& parameter : samples) {
-    auto const& latin = *description.latin_hypercube;
-    add(run, parameter, parameter.at(latin_hypercube(sample, latin.count, std::uint64_t(latin.seed), parameter.path)),
-        0);
-  }
+  for (auto const& parameter : samples) add(run, parameter, sampled(parameter, sample), 0);
   if (!cases_.empty()) {
     auto const& positions = case_positions_[std::size_t(chosen)];
     run.positions.insert(run.positions.end(), positions.begin(), positions.end());

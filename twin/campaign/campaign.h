@@ -88,6 +88,7 @@ class Campaign {
   Campaign() = default;
   [[nodiscard]] double count() const;
   [[nodiscard]] bool samples_leave_machine() const;
+  [[nodiscard]] Setting sampled(CampaignParameter const& parameter, std::int64_t sample) const;
   void read_experiments();
   void read_machine();
   void read_parameters(Value const& document);

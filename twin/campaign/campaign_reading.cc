@@ -247,6 +247,7 @@ void Campaign::try_setting(Location const& where, std::vector<Setting> const& se
   }
 }
 
+/// Of a range its ends and a value between, which has a fraction where any has one.
 void Campaign::check_settings(Value const& document) const {
   std::set<std::string> paths;
   try_setting(document.where, {});
@@ -259,6 +260,8 @@ void Campaign::check_settings(Value const& document) const {
       if (parameter.values.empty()) {
         try_setting(parameter.where, {parameter.at(0.0)});
         try_setting(parameter.where, {parameter.at(1.0)});
+        try_setting(parameter.where,
+                    {parameters == &grid ? parameter.value(1 % parameter.count) : sampled(parameter, 0)});
       }
       for (std::size_t k = 0; k < std::min(parameter.values.size(), most_values_tried); ++k)
         try_setting(parameter.where, {parameter.value(std::int64_t(k))});
