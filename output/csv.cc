@@ -76,6 +76,14 @@ bool is_wanted(Group const& group, CsvGroups const& wanted) {
   return wanted.truth;
 }
 
+std::string header_line(Dataset const& dataset, CsvGroups const& wanted) {
+  std::string line = "time_s";
+  for (auto const& group : groups)
+    if (is_wanted(group, wanted))
+      for (auto const& channel : dataset.*group.channels) line += "," + csv_field(column_name(channel, group));
+  return line;
+}
+
 Channel make_channel(std::string const& column, std::filesystem::path const& path) try {
   auto const cut = column.rfind('_');
   if (cut == std::string::npos || cut == 0 || cut + 1 == column.size())
@@ -114,15 +122,10 @@ std::string csv_field(std::string const& text) {
 void export_csv(Dataset const& dataset, std::ostream& stream, CsvGroups const& wanted) {
   check(dataset);
   std::vector<Channel const*> columns;
-  stream << "time_s";
-  for (auto const& group : groups) {
-    if (!is_wanted(group, wanted)) continue;
-    for (auto const& channel : dataset.*group.channels) {
-      stream << ',' << csv_field(column_name(channel, group));
-      columns.push_back(&channel);
-    }
-  }
-  stream << '\n';
+  for (auto const& group : groups)
+    if (is_wanted(group, wanted))
+      for (auto const& channel : dataset.*group.channels) columns.push_back(&channel);
+  stream << header_line(dataset, wanted) << '\n';
   for (Eigen::Index row = 0; row < dataset.time_s.size(); ++row) {
     stream << thermal::format_number(dataset.time_s[row]);
     for (auto const* column : columns) {
@@ -137,6 +140,10 @@ void export_csv(Dataset const& dataset, std::filesystem::path const& path, CsvGr
   std::ostringstream text;
   export_csv(dataset, text, wanted);
   write_atomically(path, text.view());
+}
+
+bool is_header_of(Dataset const& dataset, std::string const& line) {
+  return (line + ",").starts_with(header_line(dataset, {}) + ",");
 }
 
 std::vector<std::string> left_out_of_csv(Dataset const& dataset) {

@@ -32,6 +32,9 @@ void export_csv(Dataset const& dataset, std::ostream& stream, CsvGroups const& g
 /// The same, atomically; throws OutputError when the file cannot be written.
 void export_csv(Dataset const& dataset, std::filesystem::path const& path, CsvGroups const& groups = {});
 
+/// Whether a table of this data set begins so, with truth and heat or without them.
+[[nodiscard]] bool is_header_of(Dataset const& dataset, std::string const& line);
+
 /// What stays out of a table, for people: "the laser's passes along z", "the temperatures of the nodes".
 [[nodiscard]] std::vector<std::string> left_out_of_csv(Dataset const& dataset);
 

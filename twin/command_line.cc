@@ -159,6 +159,8 @@ void add_other_commands(CLI::App& app) {
     check_suffix(*output, "a table", {".csv"});
     refuse_to_overwrite(*output, {}, {*input});
     auto const data = output::read(*input);
+    refuse_to_replace_other_table(*output, "table of these channels",
+                                  [&](auto const& line) { return output::is_header_of(data, line); });
     if (!data.complete)
       tell(fmt::format(
           "warning: the run of '{}' did not end: instruments have shown nothing yet; --truth has what is\n", *input));

@@ -200,6 +200,7 @@ void PlayCommand::operator()(std::atomic<bool> const& stop) const {
   require_topics();
   check_suffix(output, "a table", {".csv"});
   check_output(output, {run});
+  refuse_to_replace_other_table(output, "table of `play`", [](auto const& line) { return line == played_header; });
   VirtualMachineSettings settings{displacement(), axis, {}, {}};
   settings.limits.largest = um("--largest", largest);
   settings.limits.slew = um_per_s(slew);

@@ -79,7 +79,7 @@ void PredictCommand::operator()() const {
   auto read = runs;
   read.emplace_back(model);
   refuse_to_overwrite(output, {}, read);
-  refuse_to_replace_other_table(output);
+  refuse_to_replace_other_table(output, "table of predictions", is_prediction_header);
   if (!output.empty() && runs.size() > 1)
     throw thermal::InputError(
         fmt::format("--output {} takes the prediction of one run; {} are given", output, runs.size()));

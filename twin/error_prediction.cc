@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <stdexcept>
@@ -228,15 +227,9 @@ std::string prediction_csv(ErrorPrediction const& prediction) {
   return text;
 }
 
-void refuse_to_replace_other_table(std::filesystem::path const& output) {
-  if (!std::filesystem::is_regular_file(output) || std::filesystem::is_empty(output)) return;
-  std::ifstream file(output);
-  std::string header;
-  std::getline(file, header);
+bool is_prediction_header(std::string const& line) {
   static std::regex const own("time_s(,position_mm)?(,error_\\w+)?,predicted_\\w+");
-  if (std::regex_match(header, own)) return;
-  throw thermal::InputError(fmt::format(
-      "{}: is no table of predictions, whose place one does not take; name another output", output.string()));
+  return std::regex_match(line, own);
 }
 
 }  // namespace thermotwin::twin

@@ -39,7 +39,7 @@ struct ErrorPrediction {
 /// run does not show the error, or the model does not claim to predict it.
 [[nodiscard]] std::string prediction_csv(ErrorPrediction const& prediction);
 
-/// InputError where the table would take the place of a file that is no such table; an empty one may go.
-void refuse_to_replace_other_table(std::filesystem::path const& output);
+/// Whether such a table begins so.
+[[nodiscard]] bool is_prediction_header(std::string const& line);
 
 }  // namespace thermotwin::twin

@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "tests/end_to_end/earlier_run.h"
 #include "tests/end_to_end/program.h"
 #include "tests/output/temporary_directory.h"
 
@@ -60,13 +61,14 @@ TEST_P(WrongMachine, IsToldWithPlaceAndNothingWritten) {
   fs::path const machine = directory.path() / "machine.toml", dataset = directory.path() / "run.h5";
   auto const text = replaced(read_text(source / "twin/machines/v450.toml"), mistake.from, mistake.to);
   write_text(machine, text);
-  write_text(dataset, "what the user had");
+  tests::put_earlier_run(dataset);
+  auto const before = read_text(dataset);
   auto const answer = program("run golden_b_2000 -m " + machine.string() + " -o " + dataset.string());
   EXPECT_EQ(answer.code, 2);
   EXPECT_NE(answer.text.find(mistake.message), std::string::npos) << answer.text;
   auto const place = place_in("machine.toml", text, mistake.marker.empty() ? mistake.to : mistake.marker);
   EXPECT_NE(answer.text.find(place), std::string::npos) << place << " is not in " << answer.text;
-  EXPECT_TRUE(read_text(dataset) == "what the user had");
+  EXPECT_TRUE(read_text(dataset) == before);
   EXPECT_EQ(std::distance(fs::directory_iterator(directory.path()), {}), 2) << "something was left behind";
 }
 
@@ -490,16 +492,25 @@ TEST(BadInput, FilesThatAreReadAreNeverWritten) {
   }
 }
 
-TEST(BadInput, TablesThatAreNoPredictionsAreNotReplaced) {
+TEST(BadInput, OtherTablesAreNotReplaced) {
   tests::TemporaryDirectory const directory;
-  std::string const measured = "time_s,T1_degC\n0,20\n";
-  write_text(directory / "victim.csv", measured);
+  std::string const measured = "time_s,T1_degC\n0,20\n", run = (directory / "run.h5").string();
+  auto const victim = directory / "victim.csv";
+  write_text(victim, measured);
   write_text(directory / "model.toml", "an error model");
-  auto const answer = program("predict " + (directory / "model.toml").string() + " monday.h5 -o " +
-                              (directory / "victim.csv").string());
-  EXPECT_EQ(answer.code, 2);
-  EXPECT_NE(answer.text.find("victim.csv: is no table of predictions"), std::string::npos) << answer.text;
-  EXPECT_EQ(read_text(directory / "victim.csv"), measured);
+  ASSERT_EQ(program("run -q golden_b_2000 -m v450 -o " + run).code, 0);
+  for (auto const& [command, kind] : std::map<std::string, std::string>{
+           {"predict " + (directory / "model.toml").string() + " monday.h5", "predictions"},
+           {"play " + run, "`play`"},
+           {"export " + run, "these channels"}}) {
+    auto const answer = program(command + " -o " + victim.string());
+    EXPECT_EQ(answer.code, 2) << command;
+    EXPECT_NE(answer.text.find("victim.csv: is no table of " + kind), std::string::npos) << answer.text;
+    EXPECT_EQ(read_text(victim), measured) << command;
+  }
+  fs::remove(victim);
+  for (std::string const groups : {"", " --truth", ""})
+    EXPECT_EQ(program("export " + run + groups + " -o " + victim.string()).code, 0) << "over its own";
 }
 
 TEST(BadInput, FoldersThatHoldSomethingAreNotWrittenInto) {
@@ -603,13 +614,14 @@ TEST(BadInput, OutputsInNoFolder) {
 TEST(BadInput, FullDiskLeavesTheOldFile) {
   tests::TemporaryDirectory const directory;
   fs::path const dataset = directory.path() / "run.h5";
-  write_text(dataset, "what the user had");
+  tests::put_earlier_run(dataset);
+  auto const before = read_text(dataset);
   std::string const command = "sh -c 'ulimit -f 64; trap \"\" XFSZ; " + std::string(THERMOTWIN_PROGRAM) +
                               " run -q golden_b_2000 -m v450 -o " + dataset.string() + "' 2>&1";
   auto const [code, text] = tests::run_command(command);
   EXPECT_EQ(code, 2) << text;
   EXPECT_NE(text.find("cannot write"), std::string::npos) << text;
-  EXPECT_TRUE(read_text(dataset) == "what the user had");
+  EXPECT_TRUE(read_text(dataset) == before);
 }
 
 TEST(BadInput, DataSetsThatAreNone) {

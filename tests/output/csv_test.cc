@@ -56,6 +56,17 @@ TEST(Csv, WritesTheGroupsThatAreWanted) {
             "time_s,truth.T1_degC,truth.A_urad,heat.bearing.front_W\n0,20,1,0\n0.1,21,2,120\n");
 }
 
+TEST(Csv, TellsItsTablesByTheirHeader) {
+  auto const data = small_dataset();
+  for (bool const truth : {false, true}) {
+    auto const table = as_csv(data, {.truth = truth, .heat = true});
+    EXPECT_TRUE(is_header_of(data, table.substr(0, table.find('\n')))) << truth;
+  }
+  EXPECT_TRUE(is_header_of(data, "time_s,spindle.speed_rpm,T1_degC,E_Z_um"));
+  for (std::string const other : {"T1;T2", "time_s,T1_degC", "time_s,spindle.speed_rpm,T1_degC,E_Z_um2"})
+    EXPECT_FALSE(is_header_of(data, other)) << other;
+}
+
 std::vector<std::string> names(std::vector<Channel> const& channels) {
   std::vector<std::string> found;
   for (auto const& channel : channels) found.push_back(channel.name + " [" + channel.unit + "]");

@@ -324,21 +324,13 @@ TEST_F(FitErrorModel, SaysThatTheFirstRowMayBeAnOutlier) {
                   "count, may be an outlier"));
 }
 
-TEST_F(FitErrorModel, ReplacesTablesOfPredictionsOnly) {
-  auto const run = put_run(warming(1.5), "monday.h5"), table = folder_ / "table.csv";
-  EXPECT_NO_THROW(refuse_to_replace_other_table(table));
-  put(table, "");
-  EXPECT_NO_THROW(refuse_to_replace_other_table(table));
+TEST_F(FitErrorModel, TellsTablesOfPredictionsByTheirHeader) {
+  auto const run = put_run(warming(1.5), "monday.h5");
   for (auto const* error : {"E_Z", "slope z"}) {
-    put(table, prediction_csv(predict_error(fitted({{run}, error, {"T1"}}), run)));
-    EXPECT_NO_THROW(refuse_to_replace_other_table(table)) << error;
+    auto const table = prediction_csv(predict_error(fitted({{run}, error, {"T1"}}), run));
+    EXPECT_TRUE(is_prediction_header(table.substr(0, table.find('\n')))) << error;
   }
-  for (auto const* other : {"time_s,T1_degC\n0,20\n", "time_s,error_um\n0,0\n", "notes\n"}) {
-    put(table, other);
-    EXPECT_THAT(refusal([&] { refuse_to_replace_other_table(table); }),
-                HasSubstr("table.csv: is no table of predictions"))
-        << other;
-  }
+  for (auto const* other : {"time_s,T1_degC", "time_s,error_um", "notes"}) EXPECT_FALSE(is_prediction_header(other));
 }
 
 /// A sensor of 1/16 K that shows one step up in the fit, and one down later.

@@ -112,7 +112,7 @@ void VirtualMachine::take(std::string_view payload) {
 }
 
 std::string played_csv(PlayedRun const& run) {
-  std::string text = "time_s,error_um,offset_um,compensated_um\n";
+  std::string text = fmt::format("{}\n", played_header);
   for (std::size_t i = 0; i < run.time.size(); ++i)
     text += fmt::format("{},{},{},{}\n", run.time[i], run.error[i], run.offset[i], run.error[i] + run.offset[i]);
   return text;

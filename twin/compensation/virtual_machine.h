@@ -65,7 +65,9 @@ class VirtualMachine {
   PlayedRun played_;
 };
 
-/// time_s, error_um, offset_um, compensated_um.
+constexpr std::string_view played_header = "time_s,error_um,offset_um,compensated_um";
+
+/// A table of these columns.
 [[nodiscard]] std::string played_csv(PlayedRun const& run);
 
 }  // namespace thermotwin::twin

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fstream>
 
 #include "output/display.h"
 #include "scenarios/recorded.h"
@@ -63,6 +64,23 @@ void refuse_to_overwrite(fs::path const& output, fs::path const& machine, std::v
             fmt::format("{}: that is one of the files to be read, which are never overwritten; "
                         "name another one",
                         output.string()));
+}
+
+void refuse_to_replace_other(fs::path const& output, std::string_view what,
+                             std::function<bool(fs::path const&)> const& is_one) {
+  if (!fs::is_regular_file(output) || fs::is_empty(output) || is_one(output)) return;
+  throw thermal::InputError(
+      fmt::format("{}: is no {}, whose place one does not take; name another output", output.string(), what));
+}
+
+void refuse_to_replace_other_table(fs::path const& output, std::string_view what,
+                                   std::function<bool(std::string const&)> const& is_header) {
+  refuse_to_replace_other(output, what, [&](fs::path const& there) {
+    std::string header;
+    std::ifstream file(there);
+    std::getline(file, header);
+    return is_header(header);
+  });
 }
 
 void check_suffix(fs::path const& output, std::string_view what, std::vector<std::string> const& suffixes) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,14 @@ namespace thermotwin::twin {
 /// not after it. Every command that writes a file asks this first. An empty path is no file.
 void refuse_to_overwrite(std::filesystem::path const& output, std::filesystem::path const& machine,
                          std::vector<std::filesystem::path> const& others, std::filesystem::path const& made = {});
+
+/// InputError where `what` ("table of predictions") would take the place of a file that is none; an empty one may go.
+void refuse_to_replace_other(std::filesystem::path const& output, std::string_view what,
+                             std::function<bool(std::filesystem::path const&)> const& is_one);
+
+/// The same of tables, which their header tells apart.
+void refuse_to_replace_other_table(std::filesystem::path const& output, std::string_view what,
+                                   std::function<bool(std::string const&)> const& is_header);
 
 /// InputError when a file's suffix says another format than `what` ("a data set") is written in; none says nothing.
 void check_suffix(std::filesystem::path const& output, std::string_view what, std::vector<std::string> const& suffixes);

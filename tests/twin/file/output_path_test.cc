@@ -27,6 +27,22 @@ TEST(OutputPath, IsInAFolderThatIsThere) {
   EXPECT_EQ(said(""), "accepted");
 }
 
+TEST(OutputPath, TakesThePlaceOfATableOfItsKindOnly) {
+  TemporaryDirectory const directory;
+  auto const table = directory / "table.csv";
+  auto const said = [&] {
+    return refusal(
+        [&] { refuse_to_replace_other_table(table, "table of play", [](auto const& line) { return line == "a,b"; }); });
+  };
+  EXPECT_EQ(said(), "accepted");
+  for (std::string const own : {"", "a,b\n1,2\n"}) {
+    thermotwin::tests::put(table, own);
+    EXPECT_EQ(said(), "accepted") << own;
+  }
+  thermotwin::tests::put(table, "T1;T2\n1,5;2,5\n");
+  EXPECT_EQ(said(), table.string() + ": is no table of play, whose place one does not take; name another output");
+}
+
 TEST(OutputPath, MayBeInAFolderThatTheCommandMakes) {
   auto const said = [](std::filesystem::path const& made) {
     return refusal([&] { refuse_to_overwrite("nodir/x.png", {}, {}, made); });
