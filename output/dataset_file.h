@@ -36,7 +36,7 @@ void write(Dataset const& dataset, std::filesystem::path const& path);
 [[nodiscard]] Dataset read(std::filesystem::path const& path);
 
 /// Without reading the rest; empty where that is no data set, or not there.
-[[nodiscard]] std::string title_in(std::filesystem::path const& path);
+[[nodiscard]] std::map<std::string, std::string> provenance_in(std::filesystem::path const& path);
 
 /// The file's bytes, before they are anywhere.
 [[nodiscard]] std::string to_hdf5(Dataset const& dataset);

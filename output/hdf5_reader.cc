@@ -167,10 +167,10 @@ Dataset read(std::filesystem::path const& path) {
   }
 }
 
-std::string title_in(std::filesystem::path const& path) {
+std::map<std::string, std::string> provenance_in(std::filesystem::path const& path) {
   hdf5::Silence const silence;
   try {
-    return text_attribute(open_file(path), "title");
+    return read_provenance(open_file(path));
   } catch (hdf5::Failure const&) {
     return {};
   }

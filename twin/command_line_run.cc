@@ -10,7 +10,6 @@
 #include "thermal/error.h"
 #include "twin/checkpoint.h"
 #include "twin/command_line_number.h"
-#include "twin/compensation/compensation_record.h"
 #include "twin/experiment_file.h"
 #include "twin/experiment_remarks.h"
 #include "twin/file/output_path.h"
@@ -72,7 +71,7 @@ void RunCommand::check_outputs(std::filesystem::path const& machine_path, std::f
   for (auto const& recording : programme.recorded)
     read.push_back(scenarios::resolved_path(recording.file, programme.directory));
   for (auto const& output : {dataset, picture}) refuse_to_overwrite(output, machine_path, read, fields);
-  refuse_to_replace_record(dataset);
+  refuse_to_replace_other_than_run(dataset);
   check_picture(picture);
   if (!fields.empty() && !resume) output::require_empty(fields);
 }
@@ -192,7 +191,7 @@ void add_replay_command(CLI::App& app, std::atomic<bool> const& stop) {
   command->callback([file, kept, &stop] {
     check_suffix(*kept, "a data set", {".h5"});
     refuse_to_overwrite(*kept, {}, {*file});
-    refuse_to_replace_record(*kept);
+    refuse_to_replace_other_than_run(*kept);
     std::optional<Progress> progress(*file);
     auto const made = replay(
         *file, *kept, [&](double share) { progress->show(share); }, &stop);

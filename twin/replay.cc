@@ -7,6 +7,7 @@
 #include "output/temporary_folder.h"
 #include "thermal/error.h"
 #include "twin/experiment_file.h"
+#include "twin/file/output_path.h"
 #include "twin/file/text_file.h"
 #include "twin/influence_file.h"
 #include "twin/needed_solution.h"
@@ -109,6 +110,13 @@ std::map<std::string, std::string> origin(fs::path const& machine, Value const& 
   for (std::size_t i = 0; i < nominal.recorded.size(); ++i)
     texts[recording_key(i)] = text_of_file(scenarios::resolved_path(nominal.recorded[i].file, nominal.directory));
   return texts;
+}
+
+void refuse_to_replace_other_than_run(fs::path const& output) {
+  if (output.empty()) return;
+  for (auto const& there : {output, output::partial_of(output)})
+    refuse_to_replace_other(
+        there, "run", [](fs::path const& file) { return output::provenance_in(file).contains("experiment.file"); });
 }
 
 Replay replay(fs::path const& dataset, fs::path const& output, std::function<void(double)> const& progress,

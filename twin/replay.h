@@ -18,6 +18,11 @@ namespace thermotwin::twin {
                                                         std::string const& settings,
                                                         scenarios::Experiment const& nominal);
 
+/// InputError where a run would take the place of any file that is none, or its partial file that of a `compensate`
+/// that was killed: what was measured cannot be made again. Every command that writes a run where the user says asks
+/// this before any work.
+void refuse_to_replace_other_than_run(std::filesystem::path const& output);
+
 /// A run made anew from its own output, and how that compares.
 struct Replay {
   bool same_bytes = false;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-#include "output/dataset_file.h"
+#include "tests/end_to_end/earlier_run.h"
 #include "tests/end_to_end/program.h"
 #include "tests/output/temporary_directory.h"
 
@@ -34,21 +34,34 @@ TEST(OutputPlace, OfAnotherKindIsKept) {
   EXPECT_NE(said.find("none.h5"), std::string::npos) << said;  // it went on to its data
 }
 
-TEST(OutputPlace, OfARecordIsKept) {
+TEST(OutputPlace, OfARunIsTakenByAnother) {
   tests::TemporaryDirectory const directory;
-  auto const run = (directory / "run.h5").string(), live = (directory / "live.h5").string();
+  auto const run = (directory / "run.h5").string();
   tests::answer(program + " run golden_b_2000 -q -o " + run);
-  tests::answer(program + " run golden_b_2000 -q -o " + run);  // over another run
+  fs::copy_file(run, directory / "again.h5");
+  for (std::string const command : {"run golden_b_2000 -q", "run golden_b_2000 -q --reduced", "replay again.h5"})
+    tests::answer("cd " + directory.path().string() + " && " + program + " " + command + " -o run.h5");
+}
+
+TEST(OutputPlace, OfOtherDataIsKept) {
+  tests::TemporaryDirectory const directory;
+  auto const run = (directory / "run.h5").string();
+  tests::put_earlier_run(run);
   output::Dataset record;
   record.title = "Compensation of X";
   record.time_s = Eigen::Vector2d(0.0, 10.0);
-  output::write(record, live);
-  auto const before = tests::contents(live);
-  for (auto const& command :
-       {std::string("run golden_b_2000"), std::string("run golden_b_2000 --reduced"), "replay " + run}) {
-    auto const said = tests::answer(program + " " + command + " -o " + live, 2);
-    EXPECT_NE(said.find("live.h5' is a record of `compensate`"), std::string::npos) << command << "\n" << said;
-    EXPECT_TRUE(tests::contents(live) == before) << command;
+  output::write(record, directory / "live.h5");
+  output::write(record, directory / "killed.h5.partial");
+  tests::put(directory / "foreign.h5", "what another program wrote");
+  for (std::string const name : {"live.h5", "killed.h5", "foreign.h5"}) {
+    auto const path = (directory / name).string(), there = name == "killed.h5" ? path + ".partial" : path;
+    auto const before = tests::contents(there);
+    for (auto const& command :
+         {std::string("run golden_b_2000"), std::string("run golden_b_2000 --reduced"), "replay " + run}) {
+      auto const said = tests::answer(program + " " + command + " -o " + path, 2);
+      EXPECT_NE(said.find(there + ": is no run, whose place one does not take"), std::string::npos) << command << said;
+      EXPECT_TRUE(tests::contents(there) == before) << command;
+    }
   }
 }
 

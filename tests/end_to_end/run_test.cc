@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "output/dataset_file.h"
+#include "tests/end_to_end/earlier_run.h"
 #include "tests/end_to_end/program.h"
 #include "tests/output/temporary_directory.h"
 
@@ -164,13 +165,14 @@ int stopped_when(std::function<bool()> const& holds, std::vector<std::string> wo
 
 TEST(Run, StoppedByTheUserKeepsThePartialFileAndTheOldOne) {
   TemporaryDirectory const directory;
-  std::ofstream(directory / "run.h5") << "what the user had";
+  tests::put_earlier_run(directory / "run.h5");
+  auto const before = tests::contents(directory / "run.h5");
   int const status = stopped_when([&] { return fs::exists(directory / "run.h5.partial"); },
                                   {program, "run", "etve", "-q", "-m", "v450", "--set", "experiment.sampling=0.1 s",
                                    "-o", (directory / "run.h5").string()});
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
-  EXPECT_TRUE(tests::contents(directory / "run.h5") == "what the user had");
+  EXPECT_TRUE(tests::contents(directory / "run.h5") == before);
   EXPECT_FALSE(output::read(directory / "run.h5.partial").complete);
 }
 

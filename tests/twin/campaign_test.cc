@@ -263,6 +263,20 @@ TEST(Campaign, SameBytesWhateverThreadsSharesAndRestarts) {
   EXPECT_EQ(failed_runs(directory / "one"), 0);
 }
 
+TEST(Campaign, TakesNothingElseForItsIndex) {
+  TemporaryDirectory const directory;
+  auto const campaign = read(directory, example);
+  auto const expected = made(campaign, directory / "many", 2);
+  auto const index = directory / "many" / "campaign.h5";
+  tests::put(index, "somebody else's");
+  auto const said = testing::HasSubstr(index.string() + "' is not what this campaign makes of its runs");
+  EXPECT_THAT(tests::refusal([&] { run_campaign(campaign, {directory / "many", {}, {}, nullptr}); }), said);
+  EXPECT_THAT(tests::refusal([&] { finish_campaign(campaign, directory / "many"); }), said);
+  EXPECT_EQ(contents(index), "somebody else's");
+  fs::remove(index);
+  EXPECT_TRUE(made(campaign, directory / "many", 2) == expected);
+}
+
 /// Stopped again and again: each time a few runs further.
 TEST(Campaign, StoppedItGoesOnWithNothingTwice) {
   TemporaryDirectory const directory;

@@ -13,6 +13,7 @@
 #include "output/campaign_file.h"
 #include "output/checksum.h"
 #include "output/csv.h"
+#include "output/dataset_file.h"
 #include "output/locked_file.h"
 #include "thermal/error.h"
 #include "thermal/modal_integration.h"
@@ -81,6 +82,15 @@ bool holds(fs::path const& folder, std::map<std::string, std::string> const& sou
           fmt::format("'{}' holds another campaign: '{}' is not the same; name another folder, or delete it",
                       folder.string(), key));
   return true;
+}
+
+/// InputError when something else has its name.
+bool has_index(Campaign const& campaign, fs::path const& folder) {
+  auto const path = folder / "campaign.h5";
+  if (!fs::exists(path)) return false;
+  if (output::provenance_in(path) == sources_of(campaign)) return true;
+  throw thermal::InputError(fmt::format(
+      "'{}' is not what this campaign makes of its runs; move it, and the same command makes it anew", path.string()));
 }
 
 /// The folder is this campaign's, or becomes it. Nothing is made in that of another one.
@@ -200,6 +210,7 @@ CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& opt
   auto const nominal = Machine::build(campaign.machine(campaign.nominal(0)));
   if (campaign.description.model == "modes") thermal::check_modes(nominal.network());
   claim(campaign, options.folder);
+  static_cast<void>(has_index(campaign, options.folder));
   CampaignForm const form(campaign, nominal);
   CampaignParts parts(campaign, form, options.folder, options.share);
   std::optional<ReducedMachine> reduced;
@@ -242,7 +253,7 @@ CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& opt
 
 bool finish_campaign(Campaign const& campaign, fs::path const& folder) {
   if (!fs::exists(folder / "manifest.json")) return false;
-  if (fs::exists(folder / "campaign.h5")) return true;
+  if (has_index(campaign, folder)) return true;
   output::LockedFile const lock(folder / "lock", output::LockedFile::Busy::wait);
   std::vector<output::CampaignPartFile> parts;
   for (std::int64_t part = 0; part < campaign.parts(); ++part) {
@@ -250,7 +261,7 @@ bool finish_campaign(Campaign const& campaign, fs::path const& folder) {
     parts.push_back({part_file(part).string(), first, std::min(campaign.runs_per_part(), campaign.runs() - first)});
     if (!fs::exists(folder / parts.back().file)) return false;
   }
-  if (fs::exists(folder / "campaign.h5")) return true;
+  if (has_index(campaign, folder)) return true;
   for (auto const* name : {"failures.csv", "campaign.h5"}) output::remove_leftovers(folder / name);
   std::string failures = "run,reason\n";
   for (auto const& part : parts)

@@ -36,7 +36,8 @@ struct CampaignReport {
 ///   parts/….journal      of parts in work
 ///
 /// A run that fails is recorded with its reason. Interrupted when `stop` is set; OutputError when the disk is full,
-/// another process makes the same share, or the folder is not empty and holds no campaign.
+/// another process makes the same share, or the folder is not empty and holds no campaign; InputError when its
+/// campaign.h5 is something else.
 CampaignReport run_campaign(Campaign const& campaign, CampaignOptions const& options);
 
 /// campaign.h5 and failures.csv, once every part is there; false as long as one is missing. Any process may do it, and

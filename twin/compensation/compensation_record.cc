@@ -3,7 +3,6 @@
 #include <exception>
 #include <fmt/format.h>
 #include <limits>
-#include <string_view>
 #include <utility>
 
 #include "thermal/error.h"
@@ -11,12 +10,9 @@
 namespace thermotwin::twin {
 namespace {
 
-constexpr std::string_view title_of_record = "Compensation of ";
-constexpr std::string_view irreplaceable = "what was measured cannot be made again; move it, or name another";
-
 output::Dataset head_of(std::vector<ModelInput> const& inputs, std::string const& axis) {
   output::Dataset head;
-  head.title = fmt::format("{}{}", title_of_record, axis);
+  head.title = "Compensation of " + axis;
   for (auto const& input : inputs)
     (input.sensor ? head.readings : head.inputs).push_back({input.name, input.unit, input.name, {}});
   head.inputs.push_back({"support", "1", "what the offset rests on: 1 good, 2 held, 3 fading, 4 off", {}});
@@ -27,7 +23,9 @@ output::Dataset head_of(std::vector<ModelInput> const& inputs, std::string const
 std::filesystem::path const& new_record(std::filesystem::path const& path) {
   for (auto const& there : {path, output::partial_of(path)})
     if (std::filesystem::exists(there))
-      throw thermal::InputError(fmt::format("'{}' is there already, and {} record", there.string(), irreplaceable));
+      throw thermal::InputError(fmt::format(
+          "'{}' is there already, and what was measured cannot be made again; move it, or name another record",
+          there.string()));
   return path;
 }
 
@@ -71,13 +69,6 @@ void CompensationRecord::add(Decision const& decision, Compensator const& compen
 
 void CompensationRecord::finish() {
   if (rows_ > 0 && !failed_) (void)writer_.finish({{"start_s", fmt::format("{}", first_)}});
-}
-
-void refuse_to_replace_record(std::filesystem::path const& output) {
-  for (auto const& there : {output, output::partial_of(output)})
-    if (output::title_in(there).starts_with(title_of_record))
-      throw thermal::InputError(
-          fmt::format("'{}' is a record of `compensate`, and {} output", there.string(), irreplaceable));
 }
 
 }  // namespace thermotwin::twin

@@ -42,8 +42,4 @@ class CompensationRecord {
   bool failed_ = false;
 };
 
-/// InputError where a data set would take the place of such a record, or of the partial one of a `compensate` that was
-/// killed. Every command that writes a data set where the user says asks this before any work.
-void refuse_to_replace_record(std::filesystem::path const& output);
-
 }  // namespace thermotwin::twin

@@ -5,7 +5,6 @@
 
 #include "tests/output/small_disk.h"
 #include "tests/output/temporary_directory.h"
-#include "tests/scenarios/refusal.h"
 #include "thermal/error.h"
 
 namespace thermotwin::twin {
@@ -60,23 +59,6 @@ TEST_F(Recorded, TakesThePlaceOfNoOtherRecordEvenOfAKilledOne) {
     ended.finish();
   }
   EXPECT_TRUE(said_.empty());
-}
-
-TEST_F(Recorded, IsNotReplacedByARun) {
-  auto const said = [&](std::string const& name) {
-    return thermotwin::tests::refusal([&] { refuse_to_replace_record(folder_ / name); });
-  };
-  for (std::string const place : {"live.h5.partial", "live.h5"}) {
-    EXPECT_EQ(said("live.h5"), "accepted");
-    auto writing = record();
-    decide(writing);
-    if (place == "live.h5") writing.finish();
-    EXPECT_THAT(said("live.h5"), HasSubstr(place + "' is a record of `compensate`, and what was measured cannot"));
-    EXPECT_EQ(said("other.h5"), "accepted");
-    std::filesystem::remove(folder_ / place);
-  }
-  thermotwin::tests::put(folder_ / "live.h5", "no data set");
-  EXPECT_EQ(said("live.h5"), "accepted");
 }
 
 /// As where an input does not come within --start.
