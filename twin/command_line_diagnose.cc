@@ -62,8 +62,10 @@ void add_calibrate_command(CLI::App& app) {
     files->machine = machine_file(*machine);
     check_machine_suffix(files->output);
     if (!*json) files->watch = told_by(std::make_shared<Narration>());
-    auto const calibration = calibrate_files(*files);
-    fmt::print("{}", *json ? calibration_json(calibration) : calibration_table(calibration));
+    files->show = [json](Calibration const& calibration) {
+      fmt::print("{}", *json ? calibration_json(calibration) : calibration_table(calibration));
+    };
+    static_cast<void>(calibrate_files(*files));
   });
 }
 
@@ -110,10 +112,12 @@ void add_diagnose_command(CLI::App& app) {
         if (told) told(what);
       };
     }
+    files->show = [&, json](DiagnosisReport const& report) {
+      onlookers.reset();
+      fmt::print("{}", *json ? report_json(report) : report_text(report));
+      std::fflush(stdout);  // whether or not there is room for what is written
+    };
     auto const report = diagnose_files(*files);
-    onlookers.reset();
-    fmt::print("{}", *json ? report_json(report) : report_text(report));
-    std::fflush(stdout);  // whether or not there is room for the page
     if (!folder->empty()) write_folder(*folder, *files, report);
   });
 }

@@ -207,6 +207,7 @@ Calibration calibrate_files(CalibrateFiles const& files) {
   calibration.doubts = found;
   if (calibration.friction) remarks.insert(remarks.begin(), calibration.friction->remark());
   calibration.remarks = remarks;
+  if (files.show) files.show(calibration);
   if (!files.output.empty())
     write_amended(files.machine, files.output,
                   with_last_words(with_values(text, changes_of(calibration)),

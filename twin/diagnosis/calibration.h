@@ -84,6 +84,7 @@ struct CalibrateFiles {
   std::vector<std::filesystem::path> data;
   std::filesystem::path output;  ///< of the calibrated machine; empty: none
   FitWatch watch{};
+  std::function<void(Calibration const&)> show{};  ///< before the machine is written: no lack of room takes it away
 };
 
 /// Reads machine and data, calibrates, and writes the user's file with the identified numbers in place. InputError for

@@ -95,6 +95,7 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   Machine const calibrated = Machine::build(report.diagnosis.calibrated_document);
   report.fitted = gaps(machine, amended_machine, fitted, &calibrated);
   report.held_out = gaps(machine, amended_machine, held_out, &calibrated);
+  if (files.show) files.show(report);
   if (!files.output.empty())
     write_amended(files.machine, files.output, amended(text_of_file(files.machine), report.diagnosis, files.data));
   return report;

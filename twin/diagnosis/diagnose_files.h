@@ -19,7 +19,8 @@ struct DiagnoseFiles {
   std::vector<std::string> without;
   std::function<void(std::string const&)> progress;
   FitWatch watch{};
-  std::optional<std::uint64_t> start = {};  ///< seed of where the search begins
+  std::optional<std::uint64_t> start = {};             ///< seed of where the search begins
+  std::function<void(DiagnosisReport const&)> show{};  ///< before the machine is written: no lack of room takes it away
 };
 
 /// Reads machine and data, diagnoses, and compares the machine before and after on both. InputError for files that

@@ -36,11 +36,16 @@ class CalibrationTest : public testing::Test {
     set_parameter(truth, "bearing.front.grease_factor", "0.7");
     set_parameter(truth, "film.motor.coefficient", "18 W/(m2 K)");
     output::write(run(Machine::build(truth), tests::two_speeds(), {}).dataset, *folder / "run.h5");
-    calibration = calibrate_files(
-        {*folder / "mine.toml", {*folder / "run.h5"}, *folder / "calibrated.toml", [](int step, double misfit) {
-           if (step == 1) told.emplace_back();
-           told.back().push_back(misfit);
-         }});
+    CalibrateFiles files{*folder / "mine.toml", {*folder / "run.h5"}, *folder / "calibrated.toml"};
+    files.watch = [](int step, double misfit) {
+      if (step == 1) told.emplace_back();
+      told.back().push_back(misfit);
+    };
+    files.show = [&](Calibration const& found) {
+      EXPECT_FALSE(std::filesystem::exists(files.output));  // what was found outlives that it cannot be written
+      shown = calibration_table(found);
+    };
+    calibration = calibrate_files(files);
   }
   static void TearDownTestSuite() { folder.reset(); }
 
@@ -53,11 +58,13 @@ class CalibrationTest : public testing::Test {
 
   static std::unique_ptr<TemporaryDirectory> folder;
   static Calibration calibration;
+  static std::string shown;
   static std::vector<std::vector<double>> told;  ///< misfits before each step, of each fit
 };
 
 std::unique_ptr<TemporaryDirectory> CalibrationTest::folder;
 Calibration CalibrationTest::calibration;
+std::string CalibrationTest::shown;
 std::vector<std::vector<double>> CalibrationTest::told;
 
 TEST_F(CalibrationTest, NumbersThatTheDataKnowAreFoundWithinTheirErrors) {
@@ -74,6 +81,8 @@ TEST_F(CalibrationTest, NumbersThatTheDataDoNotKnowAreNotIdentified) {
   EXPECT_FALSE(bed.identified);
   EXPECT_NEAR(bed.deviation, 0.10, 0.02);  // the prior's
 }
+
+TEST_F(CalibrationTest, IsShownAsItIsGivenBack) { EXPECT_EQ(shown, calibration_table(calibration)); }
 
 TEST_F(CalibrationTest, TellsHowItsFitsGo) {
   ASSERT_EQ(told.size(), 2u);  // of all numbers, then of those identified

@@ -47,17 +47,24 @@ class DiagnoseFilesTest : public testing::Test {
                   *folder / "run1.h5");
     output::write(made(truth, R"([{duration = "2 h", speed = "0 rpm"}, {duration = "6 h", speed = "3000 rpm"}])", "1"),
                   *folder / "unseen.h5");
-    report = diagnose_files(
-        {*folder / "mine.toml", {*folder / "run1.h5"}, {*folder / "unseen.h5"}, *folder / "amended.toml", {}, {}});
+    DiagnoseFiles files{
+        *folder / "mine.toml", {*folder / "run1.h5"}, {*folder / "unseen.h5"}, *folder / "amended.toml", {}, {}};
+    files.show = [&](DiagnosisReport const& found) {
+      EXPECT_FALSE(std::filesystem::exists(files.output));  // what was found outlives that it cannot be written
+      shown = report_text(found);
+    };
+    report = diagnose_files(files);
   }
   static void TearDownTestSuite() { folder.reset(); }
 
   static std::unique_ptr<TemporaryDirectory> folder;
   static DiagnosisReport report;
+  static std::string shown;
 };
 
 std::unique_ptr<TemporaryDirectory> DiagnoseFilesTest::folder;
 DiagnosisReport DiagnoseFilesTest::report;
+std::string DiagnoseFilesTest::shown;
 
 /// In eight hours it may as well be a neighbour that is always as hot.
 TEST_F(DiagnoseFilesTest, SteadyHeatOfTheColumnIsMissing) {
@@ -92,6 +99,8 @@ TEST_F(DiagnoseFilesTest, AmendedFileSaysWhatWasFoundAndWhere) {
     EXPECT_NEAR(written.sensors[s].description.lag.value(), meant.sensors[s].description.lag.value(), 1e-3);
   EXPECT_THAT(text, HasSubstr(" s\"  # ± "));
 }
+
+TEST_F(DiagnoseFilesTest, IsShownAsItIsGivenBack) { EXPECT_EQ(shown, report_text(report)); }
 
 TEST_F(DiagnoseFilesTest, DoubtsOfTheDataAreToldFirst) {
   EXPECT_TRUE(report.doubts.empty());
