@@ -201,7 +201,8 @@ void add_report_command(CLI::App& app) {
 /// Commands that go on for long end in good order when they are told to; the others end at once and have written
 /// nothing.
 void heed_signals(CLI::App& app) {
-  for (char const* name : {"run", "replay", "campaign", "place", "study", "compensate", "play", "view"})
+  for (char const* name :
+       {"run", "replay", "calibrate", "diagnose", "campaign", "place", "study", "compensate", "play", "view"})
     app.get_subcommand(name)->preparse_callback([](std::size_t) {
       std::signal(SIGINT, [](int) { stop_requested = true; });
       std::signal(SIGTERM, [](int) { stop_requested = true; });
@@ -302,8 +303,8 @@ int command_line(int argc, char** argv) {
   app.require_subcommand(1);
   add_run_command(app, stop_requested);
   add_other_commands(app);
-  add_calibrate_command(app);
-  add_diagnose_command(app);
+  add_calibrate_command(app, stop_requested);
+  add_diagnose_command(app, stop_requested);
   add_compare_command(app);
   add_replay_command(app, stop_requested);
   add_campaign_command(app, stop_requested);

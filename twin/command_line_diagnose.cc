@@ -20,16 +20,38 @@
 #include "twin/progress.h"
 #include "twin/progress_file.h"
 #include "twin/report/report_files.h"
+#include "twin/run.h"
 
 namespace thermotwin::twin {
 namespace {
 
-/// How a fit goes, for people.
-FitWatch told_by(std::shared_ptr<Narration> narration) {
-  return [narration = std::move(narration)](int step, double misfit) {
-    narration->go_on(fmt::format("step {} of a fit, misfit {:.3g}", step, misfit));
-  };
-}
+/// How a long search goes, for people (not with --json), who may stop it.
+class SearchWatch {
+ public:
+  SearchWatch(bool tells, std::atomic<bool> const& stop)
+      : narration_(tells ? std::make_shared<Narration>() : nullptr), stop_(&stop) {}
+
+  [[nodiscard]] std::function<void(std::string const&)> stages() const {
+    return [*this](std::string const& what) {
+      heed_stop();
+      if (narration_) narration_->begin(what);
+    };
+  }
+  [[nodiscard]] FitWatch steps() const {
+    return [*this](int step, double misfit) {
+      heed_stop();
+      if (narration_) narration_->go_on(fmt::format("step {} of a fit, misfit {:.3g}", step, misfit));
+    };
+  }
+
+ private:
+  void heed_stop() const {
+    if (*stop_) throw Interrupted("stopped; nothing was written");
+  }
+
+  std::shared_ptr<Narration> narration_;
+  std::atomic<bool> const* stop_;
+};
 
 void print_plan(DiagnoseFiles const& files, std::vector<std::string> const& experiments, bool json) {
   std::vector<Schedule> schedules;
@@ -49,7 +71,7 @@ void write_folder(std::filesystem::path const& folder, DiagnoseFiles const& file
 
 }  // namespace
 
-void add_calibrate_command(CLI::App& app) {
+void add_calibrate_command(CLI::App& app, std::atomic<bool> const& stop) {
   auto* command = app.add_subcommand("calibrate", "fit the uncertain numbers of a machine to measurements");
   auto files = std::make_shared<CalibrateFiles>();
   auto json = std::make_shared<bool>(false);
@@ -58,10 +80,10 @@ void add_calibrate_command(CLI::App& app) {
   command->add_option("data", files->data, "measured runs: .h5, .csv, or a measurement file .toml")->required();
   command->add_option("--output,-o", files->output, "machine file to write: the same with the numbers identified");
   command->add_flag("--json", *json, "print everything as JSON");
-  command->callback([files, json, machine] {
+  command->callback([files, json, machine, &stop] {
     files->machine = machine_file(*machine);
     check_machine_suffix(files->output);
-    if (!*json) files->watch = told_by(std::make_shared<Narration>());
+    files->watch = SearchWatch(!*json, stop).steps();
     files->show = [json](Calibration const& calibration) {
       fmt::print("{}", *json ? calibration_json(calibration) : calibration_table(calibration));
     };
@@ -69,7 +91,7 @@ void add_calibrate_command(CLI::App& app) {
   });
 }
 
-void add_diagnose_command(CLI::App& app) {
+void add_diagnose_command(CLI::App& app, std::atomic<bool> const& stop) {
   auto* command =
       app.add_subcommand("diagnose", "find where machine and measurement disagree, and name what is missing");
   auto files = std::make_shared<DiagnoseFiles>();
@@ -80,9 +102,12 @@ void add_diagnose_command(CLI::App& app) {
   auto* unseen = command->add_option("--hold-out", files->held_out, "runs that take no part in the fit");
   auto* amended =
       command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
-  command->add_option("--without", files->without, "effects that are not to be tried")->delimiter(',');
-  command->add_option("--start", files->start,
-                      "seed: begin the search from numbers drawn from their priors; the verdict must be the same");
+  command->add_option("--without", files->without, "effects that are not to be tried: heat,radiation")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  auto* start =
+      command->add_option("--start", files->start,
+                          "seed: begin the search from numbers drawn from their priors; the verdict must be the same");
   auto folder = std::make_shared<std::string>();
   auto* page =
       command->add_option("--report", *folder, "folder for a page to look at (report.html) and diagnosis.json");
@@ -92,24 +117,25 @@ void add_diagnose_command(CLI::App& app) {
       command->add_option("--plan", *planned,
                           "before any data: what these experiments (files or names) would show of each effect, "
                           "which could be taken for each other, and what would tell them apart");
-  for (auto* other : {data, unseen, amended, page}) plans->excludes(other);
-  command->callback([files, json, machine, planned, data, folder] {
+  for (auto* other : {data, unseen, amended, start, page}) plans->excludes(other);
+  command->callback([files, json, machine, planned, data, folder, &stop] {
     files->machine = machine_file(*machine);
     check_machine_suffix(files->output);
     for (auto const& name : files->without) static_cast<void>(effect(name));
-    if (!*json) {
-      auto const narration = std::make_shared<Narration>();
-      files->progress = [narration](std::string const& what) { narration->begin(what); };
-      files->watch = told_by(narration);
-    }
+    SearchWatch const watch(!*json, stop);
+    files->progress = watch.stages();
+    files->watch = watch.steps();
     if (!planned->empty()) return print_plan(*files, *planned, *json);
-    if (data->empty()) throw thermal::InputError("diagnose needs measured runs, or --plan with experiments");
+    if (data->empty())
+      throw thermal::InputError(files->held_out.empty() ? "diagnose needs measured runs, or --plan with experiments"
+                                                        : "diagnose needs measured runs, and --hold-out took all words "
+                                                          "up to the next option: name them before it");
     std::optional<ProgressFile> onlookers;
     if (!folder->empty()) {
       onlookers.emplace(*folder, fmt::format("Diagnosis of {}", files->machine.stem().string()));
       files->progress = [&onlookers, told = files->progress](std::string const& what) {
         onlookers->show(what);
-        if (told) told(what);
+        told(what);
       };
     }
     files->show = [&, json](DiagnosisReport const& report) {
@@ -117,7 +143,7 @@ void add_diagnose_command(CLI::App& app) {
       fmt::print("{}", *json ? report_json(report) : report_text(report));
       std::fflush(stdout);  // whether or not there is room for what is written
     };
-    auto const report = diagnose_files(*files);
+    auto const report = told_if_stopped(onlookers, [&] { return diagnose_files(*files); });
     if (!folder->empty()) write_folder(*folder, *files, report);
   });
 }

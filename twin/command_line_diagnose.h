@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 namespace CLI {
 class App;
 }
@@ -7,9 +9,9 @@ class App;
 namespace thermotwin::twin {
 
 /// `thermotwin calibrate`
-void add_calibrate_command(CLI::App& app);
+void add_calibrate_command(CLI::App& app, std::atomic<bool> const& stop);
 /// `thermotwin diagnose`
-void add_diagnose_command(CLI::App& app);
+void add_diagnose_command(CLI::App& app, std::atomic<bool> const& stop);
 /// `thermotwin compare`
 void add_compare_command(CLI::App& app);
 /// `thermotwin challenge`

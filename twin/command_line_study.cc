@@ -49,7 +49,7 @@ void StudyCommand::operator()(std::atomic<bool> const& stop) const {
     onlookers->show(what, share);
     if (!json) (*stages)(what, share);
   };
-  auto const report = run_study(read, options);
+  auto const report = told_if_stopped(onlookers, [&] { return run_study(read, options); });
   options.progress = {};
   stages.reset();
   onlookers.reset();

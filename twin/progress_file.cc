@@ -39,6 +39,7 @@ ProgressFile::ProgressFile(fs::path const& folder, std::string title)
 }
 
 ProgressFile::~ProgressFile() {
+  if (stopped_) return;
   std::error_code unimportant;
   std::filesystem::remove(path_, unimportant);
 }
@@ -53,8 +54,13 @@ void ProgressFile::show(std::string const& what, std::optional<double> share) {
   write();
 }
 
+void ProgressFile::stopped() {
+  stopped_ = true;
+  show("stopped");
+}
+
 void ProgressFile::write() const {
-  nlohmann::ordered_json json = {{"title", title_}, {"steps", nlohmann::ordered_json::array()}, {"done", false}};
+  nlohmann::ordered_json json = {{"title", title_}, {"steps", nlohmann::ordered_json::array()}, {"done", stopped_}};
   for (auto const& [what, at_s, share] : steps_) {
     json["steps"].push_back({{"what", what}, {"at_s", at_s}});
     if (share) json["steps"].back()["share"] = *share;

@@ -202,10 +202,11 @@ void Recorder::operator()(thermal::Sample const& sample) {
     if (options_.watch_ranges) watch_ranges(sample);
   }
   if (options_.progress) options_.progress(experiment_.duration > 0.0 ? sample.time / experiment_.duration : 1.0);
-  if (options_.stop && *options_.stop)
-    throw Interrupted(
-        fmt::format("stopped at t = {:.0f} s of {:.0f} s{}{}", sample.time, experiment_.duration, rows_so_far(),
-                    options_.checkpoint ? "; the same command with --resume goes on from the last checkpoint" : ""));
+  if (!options_.stop || !*options_.stop) return;
+  if (!options_.dataset && !options_.fields) throw Interrupted("stopped; nothing was written");
+  throw Interrupted(
+      fmt::format("stopped at t = {:.0f} s of {:.0f} s{}{}", sample.time, experiment_.duration, rows_so_far(),
+                  options_.checkpoint ? "; the same command with --resume goes on from the last checkpoint" : ""));
 }
 
 std::string Recorder::rows_so_far() const {

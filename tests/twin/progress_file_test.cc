@@ -13,6 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::ThrowsMessage;
+using thermotwin::tests::contents;
 using thermotwin::tests::put;
 using thermotwin::tests::TemporaryDirectory;
 
@@ -41,6 +42,18 @@ TEST(ProgressFile, TakesNoFolderThatAnotherJobFillsOrThatHoldsMore) {
   EXPECT_EQ(folder.files().size(), 2U);
   EXPECT_THAT([&] { ProgressFile(folder / "diagnosis.json", "Diagnosis"); },
               ThrowsMessage<output::OutputError>(HasSubstr("is not empty")));
+}
+
+TEST(ProgressFile, SaysWhenTheUserStoppedTheJob) {
+  TemporaryDirectory const folder;
+  std::optional<ProgressFile> going(std::in_place, folder.path(), "Diagnosis");
+  EXPECT_THROW(told_if_stopped(going, [] { throw Interrupted("stopped"); }), Interrupted);
+  going.reset();
+  auto const text = contents(folder / "progress.json");
+  EXPECT_THAT(text, HasSubstr(R"("what":"stopped")"));
+  EXPECT_THAT(text, HasSubstr(R"("done":true)"));
+  { ProgressFile const again(folder.path(), "Diagnosis"); }
+  EXPECT_THAT(folder.files(), IsEmpty());
 }
 
 /// A file name in Latin-1 is a title that no JSON can hold.

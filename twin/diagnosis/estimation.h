@@ -22,7 +22,7 @@
 namespace thermotwin::twin {
 
 /// Is told how far a fit is, from whatever thread: the step that it takes next, and the mean square of the whitened
-/// residuals before it, priors included.
+/// residuals before it, priors included. What it throws ends the fit.
 using FitWatch = std::function<void(int step, double misfit)>;
 
 /// Maximum a posteriori of a machine's uncertain numbers, its instruments' offsets and lags, and the amplitudes of

@@ -94,6 +94,13 @@ TEST_F(CalibrationTest, TellsHowItsFitsGo) {
   }
 }
 
+TEST_F(CalibrationTest, EndsWhenItIsStopped) {
+  auto const stop = [](int, double) { throw Interrupted("stopped"); };
+  EXPECT_THROW((void)calibrate_files({*folder / "mine.toml", {*folder / "run.h5"}, *folder / "stopped.toml", stop}),
+               Interrupted);
+  EXPECT_FALSE(std::filesystem::exists(*folder / "stopped.toml"));
+}
+
 TEST_F(CalibrationTest, DoubtsOfTheDataAreToldFirst) {
   EXPECT_TRUE(calibration.doubts.empty());
   Calibration doubted = calibration;
