@@ -24,7 +24,10 @@ Silence::Silence() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-Silence::~Silence() { H5Eset_auto2(H5E_DEFAULT, print_, client_); }
+Silence::~Silence() {
+  H5Eset_auto2(H5E_DEFAULT, print_, client_);
+  H5Eclear2(H5E_DEFAULT);
+}
 
 Handle fixed_text_type(std::size_t size) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "text type");

@@ -43,7 +43,8 @@ class Handle {
   int (*close_)(Id);
 };
 
-/// HDF5 prints its errors unless told otherwise; while this lives they only become exceptions.
+/// HDF5 prints its errors unless told otherwise; while this lives they only become exceptions. None stays on the stack
+/// of the thread, without which the library could not end.
 class Silence {
  public:
   Silence();

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <thread>
 
 #include "tests/output/example_dataset.h"
 #include "tests/output/temporary_directory.h"
@@ -235,6 +236,18 @@ TEST(DatasetFile, RefusesEveryTruncation) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   }
   EXPECT_THAT(reading(directory / "cut.h5"), ThrowsMessage<InputError>(HasSubstr("truncated file")));
+}
+
+/// As `view` does, which reads on a thread of its server.
+TEST(DatasetFile, DamagedOnAnotherThreadLetsTheLibraryEnd) {
+  TemporaryDirectory const directory;
+  write(example_dataset(), directory / "run.h5");
+  put(directory / "cut.h5", contents(directory / "run.h5").substr(0, 20'000));
+  auto const end = [&] {
+    std::thread([&] { EXPECT_ANY_THROW(static_cast<void>(read(directory / "cut.h5"))); }).join();
+    std::exit(0);
+  };
+  EXPECT_EXIT(end(), testing::ExitedWithCode(0), testing::Not(HasSubstr("HDF5")));
 }
 
 TEST(DatasetFile, RefusesDataThatDoNotFit) {
