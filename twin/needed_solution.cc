@@ -113,6 +113,10 @@ std::map<std::string, Solution> known_solutions(std::filesystem::path const& mac
 int write_weights(std::filesystem::path const& machine_file, std::ostream& progress) {
   Value const document = read_toml(machine_file);
   auto const needed = needed_solutions(document);
+  if (needed.empty()) {
+    progress << fmt::format("{}: no displacement rests on a block: nothing to compute\n", machine_file.string());
+    return 0;
+  }
   auto const path = weights_file(machine_file);
   auto solutions = known_solutions(machine_file, document);
   int const due = int(needed.size() - solutions.size());
@@ -124,7 +128,7 @@ int write_weights(std::filesystem::path const& machine_file, std::ostream& progr
     solutions[one.key] = {one.remark(), solve_unit_load(one.block, one.load)};
     write_solutions(path, solutions);
   }
-  if (!needed.empty()) write_solutions(path, solutions);
+  write_solutions(path, solutions);
   progress << fmt::format("{}: {} of {} solutions are new\n", path.string(), solved, needed.size());
   return solved;
 }

@@ -133,6 +133,15 @@ TEST(NeededSolution, UnknownBlockIsAnErrorWithItsLine) {
               AllOf(HasSubstr("mill.toml:12"), HasSubstr("'colum'"), HasSubstr("'column'")));
 }
 
+TEST(NeededSolution, NothingIsWrittenWhereNothingIsDue) {
+  tests::TemporaryDirectory const directory;
+  tests::put(directory / "mill.toml", "name = \"mill\"\n");
+  std::ostringstream progress;
+  EXPECT_EQ(write_weights(directory / "mill.toml", progress), 0);
+  EXPECT_THAT(progress.str(), HasSubstr("mill.toml: no displacement rests on a block: nothing to compute"));
+  EXPECT_EQ(directory.files(), std::vector<std::string>{"mill.toml"});
+}
+
 TEST(NeededSolution, WhatIsKnownIsNotSolvedAgain) {
   tests::TemporaryDirectory const directory;
   tests::put(directory / "mill.toml", machine);
