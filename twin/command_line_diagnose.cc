@@ -9,6 +9,7 @@
 #include "output/atomic_file.h"
 #include "thermal/error.h"
 #include "twin/challenge/challenge.h"
+#include "twin/command_line_list.h"
 #include "twin/diagnosis/calibration.h"
 #include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnose_files.h"
@@ -102,9 +103,7 @@ void add_diagnose_command(CLI::App& app, std::atomic<bool> const& stop) {
   auto* unseen = command->add_option("--hold-out", files->held_out, "runs that take no part in the fit");
   auto* amended =
       command->add_option("--output,-o", files->output, "machine file to write: the same with what was missing");
-  command->add_option("--without", files->without, "effects that are not to be tried: heat,radiation")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  take_list(*command->add_option("--without", files->without, "effects that are not to be tried: heat,radiation"));
   auto* start =
       command->add_option("--start", files->start,
                           "seed: begin the search from numbers drawn from their priors; the verdict must be the same");

@@ -1,6 +1,7 @@
 #include "twin/command_line_error_model.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "output/json_text.h"
 #include "thermal/error.h"
 #include "thermal/units.h"
+#include "twin/command_line_list.h"
 #include "twin/command_line_number.h"
 #include "twin/error_model_file.h"
 #include "twin/error_prediction.h"
@@ -38,8 +40,8 @@ void FitCommand::add_to(CLI::App& command) {
   command.add_option("runs", fit.runs, "data sets (.h5), tables (.csv) or measurement files (.toml)")->required();
   command.add_option("--error", fit.error, "displacement to explain, or \"slope z\" of axis z's error")
       ->capture_default_str();
-  command.add_option("--sensors", fit.sensors, "temperatures to explain it by; default: all that lack few readings")
-      ->delimiter(',');
+  take_list(*command.add_option("--sensors", fit.sensors,
+                                "temperatures to explain it by; default: all that lack few readings"));
   command
       .add_option("--method", fit.method,
                   "linear, ridge, \"twin observer\", …; the mean of several: \"twin & ridge\"; docs/study.md")
@@ -53,6 +55,9 @@ void FitCommand::add_to(CLI::App& command) {
 }
 
 void FitCommand::operator()() {
+  for (auto const& sensor : fit.sensors)
+    if (std::count(fit.sensors.begin(), fit.sensors.end(), sensor) > 1)
+      throw thermal::InputError(fmt::format("--sensors: '{}' is given twice", sensor));
   check_suffix(output, "an error model", {".toml"});
   if (!twin.empty()) fit.twin = machine_file(twin);
   refuse_to_overwrite(output, fit.twin.value_or(""), fit.runs);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "thermal/error.h"
+#include "twin/command_line_list.h"
 #include "twin/command_line_number.h"
 #include "twin/report/figure_files.h"
 
@@ -33,7 +34,7 @@ void add_figure_command(CLI::App& app) {
   auto* added = app.add_subcommand("figure", "one panel of the report page as SVG or PDF for a paper");
   added->add_option("data", files.data, "data sets and answers (.json), as for a report")->required();
   added->add_option("--panel,-p", files.panel, "by the name of its CSV on the page; default: list the panels");
-  added->add_option("--only", files.only, "curves of it: T1,T4")->delimiter(',');
+  take_list(*added->add_option("--only", files.only, "curves of it: T1,T4"));
   added->add_option("--output,-o", files.output, "file to write: .svg, or .pdf with its fonts embedded");
   auto* columns = added->add_option("--columns", command->columns, "width of one (84 mm) or two (174 mm) columns")
                       ->capture_default_str()

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <vector>
 
 #include "thermal/nearest_name.h"
@@ -57,6 +58,31 @@ std::string unexpected(CLI::App& app, std::vector<std::string> const& words) {
       option != words.end() ? unknown_option(command, *option) : fmt::format("'{}' is an argument too many", words[0]));
 }
 
+/// Of options of which one is due, where none is given, or more; else empty.
+std::string unmade_choice(CLI::App const& command) {
+  for (auto const* group : command.get_subcommands({})) {
+    if (group->get_require_option_min() != 1 || group->get_require_option_max() != 1) continue;
+    std::vector<std::string> names;
+    std::size_t given = 0;
+    for (auto const* option : group->get_options())
+      if (option != group->get_help_ptr()) {
+        names.push_back(option->get_name());
+        given += option->empty() ? 0 : 1;
+      }
+    if (given != 1) return fmt::format("one of {} is due, and no other", fmt::join(names, " and "));
+  }
+  return {};
+}
+
+/// What may have been meant for what is missing: the words of an option that takes all up to the next option.
+std::string greedy_option(CLI::App const& command) {
+  for (auto const* option : command.get_options())
+    if (!option->get_positional() && option->get_allow_extra_args() && option->count() > 1)
+      return fmt::format(", and {} took '{}', as all words up to the next option", option->get_name(),
+                         fmt::join(option->results(), "', '"));
+  return {};
+}
+
 }  // namespace
 
 std::string command_line_mistake(CLI::App& app, CLI::ParseError const& error) {
@@ -64,11 +90,12 @@ std::string command_line_mistake(CLI::App& app, CLI::ParseError const& error) {
   auto const commands = app.get_subcommands();
   if (commands.empty()) return "a command is due; thermotwin --help lists them";
   auto const& command = *commands[0];
-  std::string const name = fmt::format("{} {}", app.get_name(), command.get_name());
-  std::string usage = CLI::Formatter().make_usage(&command, name);
-  usage.erase(std::unique(usage.begin(), usage.end(), [](char a, char b) { return a == '\n' && b == '\n'; }),
-              usage.end());
-  return fmt::format("{}: {}\n{}{} --help tells more", command.get_name(), error.what(), usage, name);
+  std::string what = error.what();
+  if (dynamic_cast<CLI::RequiredError const*>(&error)) {
+    auto const choice = unmade_choice(command);
+    what = choice.empty() ? what + greedy_option(command) : choice;
+  }
+  return fmt::format("{0}: {1}; {2} {0} --help tells more", command.get_name(), what, app.get_name());
 }
 
 }  // namespace thermotwin::twin

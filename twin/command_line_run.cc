@@ -50,8 +50,10 @@ void RunCommand::add_to(CLI::App& command) {
                      "folder for the fields (VTK), empty or absent; one frame per --field-interval");
   command.add_option("--field-interval", field_interval, "time between two frames")->capture_default_str();
   command.add_option("--picture", picture, "PNG of the last frame; needs a display, or xvfb-run");
-  command.add_option("--set", settings,
-                     "change a parameter: bearing.front.grease_factor=0.8, experiment.duration=\"2 h\"");
+  command
+      .add_option("--set", settings,
+                  "change a parameter: bearing.front.grease_factor=0.8, experiment.duration=\"2 h\"; once for each")
+      ->allow_extra_args(false);
   command.add_option("--tolerance", tolerance, "relative tolerance of the integration; --reduced has its own")
       ->capture_default_str()
       ->check(number_between(finest_tolerance, coarsest_tolerance));

@@ -24,7 +24,9 @@ struct VolumetricArguments {
 void add_options(CLI::App& command, VolumetricArguments& arguments) {
   auto& options = arguments.files.options;
   command.add_option("machine", arguments.machine, "machine file or name, with a table [volumetric]")->required();
-  command.add_option("--set", arguments.settings, "change a parameter: volumetric.drawn.angular=\"5 urad\"");
+  command
+      .add_option("--set", arguments.settings, "change a parameter: volumetric.drawn.angular=\"5 urad\"; once for each")
+      ->allow_extra_args(false);
   command.add_option("--seed", options.seed, "of the measurement")->capture_default_str();
   command.add_option("--method", options.method, "of prediction: interpolation, ls_svm, ls_svm_chosen, network")
       ->capture_default_str();

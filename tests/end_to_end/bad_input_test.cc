@@ -310,6 +310,8 @@ TEST(BadInput, NamesThatDoNotExist) {
         Row{"run golden_b_2000 --tolernce=1e-5", "run: unknown option '--tolernce'; did you mean '--tolerance'?"},
         Row{"run golden_b_2000 v450", "run: 'v450' is an argument too many"},
         Row{"diagnose v450 a.h5 --without radiation,hot_neighbor", "did you mean 'hot_neighbour'?"},
+        Row{"diagnose v450 a.h5 --without 'radiation, hot_neighbor'", "'hot_neighbor'; did you mean 'hot_neighbour'?"},
+        Row{"fit a.h5 --sensors 'T1, T2,T1' -o m.toml", "--sensors: 'T1' is given twice"},
         Row{"effects bering", "did you mean 'bearing'?"},
         Row{"describe machin", "machine"},
         Row{"describe studdy", "did you mean 'study'?"},
@@ -329,15 +331,34 @@ TEST(BadInput, CommandsThatLackSomething) {
   };
   for (auto const& [arguments, message] :
        {Row{"", "a command is due; thermotwin --help lists them"},
-        Row{"run", "run: experiment is required\nUsage: thermotwin run [OPTIONS] experiment\n"},
-        Row{"describe", "Usage: thermotwin describe [OPTIONS] what\n"},
-        Row{"view", "Usage: thermotwin view [OPTIONS] data...\n"},
+        Row{"run", "run: experiment is required; thermotwin run --help tells more\n"},
+        Row{"describe", "describe: what is required; thermotwin describe --help tells more\n"},
+        Row{"view", "view: data is required; thermotwin view --help tells more\n"},
+        Row{"challenge", "challenge: one of --output and --key is due, and no other; thermotwin challenge --help"},
+        Row{"challenge --key -o x", "challenge: one of --output and --key is due, and no other; thermotwin"},
+        Row{"place --experiments golden_b_4000 v450 -k 3",
+            "place: machine is required, and --experiments took 'golden_b_4000', 'v450', as all words up to the next"},
+        Row{"diagnose v450 --hold-out b.h5 a.h5", "diagnose needs measured runs, and --hold-out took all words"},
         Row{"volumetric mill200 --at 600s", "volumetric: --at requires --run"},
         Row{"diagnose v450 --plan etve -o amended.toml", "diagnose: --output excludes --plan"},
+        Row{"diagnose v450 --plan etve --start 3", "diagnose: --start excludes --plan"},
         Row{"challenge --key --run etve", "challenge: --run excludes --key"}}) {
     auto const answer = program(arguments);
     EXPECT_EQ(answer.code, 2) << arguments;
     EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
+  }
+}
+
+/// What follows their value is not theirs.
+TEST(BadInput, OptionsThatTakeOneWord) {
+  for (std::string const arguments :
+       {"run --set experiment.seed=2 none", "volumetric --set volumetric.drawn.seed=2 none",
+        "diagnose --without heat,radiation none a.h5", "figure -p heat --only A none.h5 -o x.svg",
+        "fit --sensors T1,T2 none.h5 -o x.toml"}) {
+    auto const answer = program(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_NE(answer.text.find("none"), std::string::npos) << arguments << "\n" << answer.text;
+    EXPECT_EQ(answer.text.find("required"), std::string::npos) << arguments << "\n" << answer.text;
   }
 }
 
