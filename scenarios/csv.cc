@@ -184,10 +184,8 @@ void CsvFile::fail(std::size_t place, std::string const& why) const { throw Inpu
 void CsvFile::require_utf8() const {
   std::size_t const foreign = foreign_byte(line_);
   if (foreign == nowhere) return;
-  throw InputError(place_in_line(line_.substr(foreign)) +
-                   "the names of the columns are not written in UTF-8; convert the file, from Latin-1 for example: "
-                   "iconv -f latin1 -t utf8 " +
-                   path_.filename().string() + " > utf8.csv");
+  throw InputError(place_in_line(line_.substr(foreign)) + "the names of the columns are not written in UTF-8; " +
+                   conversion_to_utf8(path_));
 }
 
 std::size_t CsvFile::place_of(std::string const& column) const {
@@ -254,6 +252,11 @@ void CsvFile::check_decimals(std::size_t place) {
   fail(place, "'" + std::string(field) + "' has a " + name(field[mark] == ',') + ", '" + decimals_ + "' on line " +
                   std::to_string(decimals_line_) + " a " + name(field[mark] != ',') +
                   "; decimals follow the same sign in the whole file, and nothing sets thousands apart");
+}
+
+std::string conversion_to_utf8(std::filesystem::path const& file) {
+  return "convert the file, from Latin-1 for example: iconv -f latin1 -t utf8 " + file.filename().string() + " > utf8" +
+         file.extension().string();
 }
 
 std::vector<std::string> csv_header(std::filesystem::path const& file) {

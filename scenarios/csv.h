@@ -77,6 +77,9 @@ struct CsvTable {
   std::vector<std::size_t> lines;            ///< line of each row in the file
 };
 
+/// What is to be done about a file in another encoding than UTF-8.
+std::string conversion_to_utf8(std::filesystem::path const& file);
+
 /// Names of the columns, from the first line.
 std::vector<std::string> csv_header(std::filesystem::path const& file);
 

@@ -214,7 +214,7 @@ std::string words_of_inputs(std::vector<scenarios::SampledInput> const& inputs) 
 void FileChecker::read_record(std::filesystem::path const& file, std::size_t i) {
   auto const data = read_measured_data(file);
   auto remarks = data.remarks;
-  static_cast<void>(channels_of(data, remarks));
+  naming(file, [&] { static_cast<void>(channels_of(data, remarks)); });
   checks_[i].warnings = remarks_on(file, remarks);
   for (auto& remark : misspelt_inputs(data)) checks_[i].warnings.push_back(std::move(remark));
   CheckedRecord const record{file, data.machine, data.time[data.time.size() - 1]};

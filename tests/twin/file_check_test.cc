@@ -223,6 +223,13 @@ TEST(FileCheck, DoubtsTheUnitOfTimeOfAShortRecord) {
   EXPECT_THAT(checks("ms", {machine_file("v450")}).warnings, Contains(doubt));
 }
 
+TEST(FileCheck, NamesTheFileOfAnImpossibleSensor) {
+  TemporaryDirectory const folder;
+  put(folder / "run.csv", "time_s,T1_mK\n0,32000\n60,32001\n120,32002\n");
+  EXPECT_EQ(check_files({folder / "run.csv"})[0].mistake,
+            (folder / "run.csv").string() + ": sensor 'T1' reads 32001.0 mK most of the time; is its unit right?");
+}
+
 TEST(FileCheck, LooksAtRecordAndMachineTogether) {
   TemporaryDirectory const folder;
   std::string rows = "time_s,n,room,T1\n";

@@ -46,18 +46,6 @@ std::string without_fine(std::string name) {
   return name;
 }
 
-/// What a run of the twin, or of a controller, says about the place of a file.
-template <class Action>
-auto naming(std::filesystem::path const& path, Action action) {
-  try {
-    return action();
-  } catch (InputError const& error) {
-    std::string const message = error.what();
-    if (message.find(path.string()) != std::string::npos) throw;
-    throw InputError(fmt::format("{}: {}", path.string(), message));
-  }
-}
-
 }  // namespace
 
 Eigen::VectorXd MeasuredRun::input(std::string_view name, Eigen::VectorXd const& times) const {

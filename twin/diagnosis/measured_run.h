@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "output/dataset.h"
+#include "thermal/error.h"
 #include "thermal/operating_point.h"
 #include "twin/diagnosis/input_change.h"
 #include "twin/diagnosis/warm_start.h"
@@ -61,6 +62,18 @@ struct MeasuredRun {
 
 /// The median time between neighbours [s]; infinite for fewer than two.
 [[nodiscard]] double usual_interval(std::span<double const> times);
+
+/// What is wrong in a file, for whoever reads it is told its place.
+template <class Action>
+auto naming(std::filesystem::path const& path, Action action) {
+  try {
+    return action();
+  } catch (thermal::InputError const& error) {
+    std::string const message = error.what();
+    if (message.find(path.string()) != std::string::npos) throw;
+    throw thermal::InputError(path.string() + ": " + message);
+  }
+}
 
 /// A data set (`.h5` as `run -o` writes it, `.csv` as `export` does) or a measurement file (`.toml`), which maps the
 /// columns of a table to inputs and channels. InputError when the inputs that the machine needs are not in it, or none

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <toml++/toml.h>
 
+#include "scenarios/csv.h"
 #include "twin/file/text_file.h"
 #include "twin/file/value.h"
 
@@ -66,6 +67,8 @@ Value parse_toml(std::string_view text, std::string const& file_name) {
     return {{file_name, 1, 1}, convert_table(table, file_name)};
   } catch (toml::parse_error const& error) {
     std::string what(error.description());
+    if (what.find("utf-8") != std::string::npos)
+      what = "is not written in UTF-8; " + scenarios::conversion_to_utf8(file_name);
     if (what.find("control characters") != std::string::npos) what += "; is a quote missing at the end of the line?";
     if (what.find("parsing boolean") != std::string::npos || what.find("determine value type") != std::string::npos)
       what += "; a text needs straight quotes, for example \"bed\"; a flag is true or false";

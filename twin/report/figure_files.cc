@@ -93,6 +93,7 @@ void colour_by_run(FigurePanel& panel) {
 
 std::string write_figure_files(FigureFiles const& files) {
   auto const panels = figure_panels(files.data);
+  if (panels.empty()) throw thermal::InputError("these data have no panel that could be a figure; `report` shows them");
   if (files.output.empty()) return list_of(panels);
   refuse_to_overwrite(files.output, {}, files.data);
   auto panel = panel_of(panels, files.panel);

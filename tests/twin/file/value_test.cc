@@ -24,6 +24,12 @@ TEST(Value, OffersThePathOfATableWithoutName) {
             "parameter 'experiment.spindle.block[0].speed': there is no 'block[0]'; known: 'blocks'");
 }
 
+TEST(Value, IsReadFromUtf8Alone) {
+  EXPECT_THAT(refusal([] { static_cast<void>(parse_toml("name = \"Fr\xe4se\"\n", "a/mine.toml")); }),
+              testing::MatchesRegex("a/mine.toml:1:[0-9]+: is not written in UTF-8; convert the file, from Latin-1 for "
+                                    "example: iconv -f latin1 -t utf8 mine.toml > utf8.toml"));
+}
+
 TEST(Value, ATextNeedsStraightQuotes) {
   for (std::string const text : {"T3", "front", "\u201cT3\u201d"})
     EXPECT_THAT(

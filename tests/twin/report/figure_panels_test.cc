@@ -217,6 +217,9 @@ TEST_F(FigurePanels, AreChosenByNameAndTheirCurves) {
   EXPECT_THAT(refusal({{path}, "sensor_temperatures_degC", {"T1", "T22"}, folder / "x.svg"}),
               HasSubstr("no curve 'T22'; did you mean 'T2'?"));
   EXPECT_THAT(refusal({{path}, "heat", {}, path}), HasSubstr("a.h5"));
+  tests::put(folder / "progress.json", R"({"title": "Study", "steps": [], "done": false})");
+  for (auto const& [name, output] : {std::pair{"", ""}, {"heat", "x.svg"}})
+    EXPECT_THAT(refusal({{folder / "progress.json"}, name, {}, output}), HasSubstr("have no panel that could be"));
   EXPECT_FALSE(std::filesystem::exists(folder / "x.svg"));
 }
 
