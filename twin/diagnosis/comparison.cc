@@ -9,6 +9,7 @@
 #include "twin/diagnosis/gap.h"
 #include "twin/diagnosis/prediction.h"
 #include "twin/diagnosis/regimes.h"
+#include "twin/file/distinct_names.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -94,7 +95,11 @@ Comparison compare_files(std::filesystem::path const& before, std::filesystem::p
                          std::vector<std::filesystem::path> const& data) {
   Machine const was = Machine::read(before), is = Machine::read(after);
   std::vector<MeasuredRun> runs;
-  for (auto const& path : data) runs.push_back(common_run(path, was, is));
+  auto const names = distinct_names(data);
+  for (std::size_t r = 0; r < data.size(); ++r) {
+    runs.push_back(common_run(data[r], was, is));
+    runs.back().name = std::filesystem::path(names[r]).replace_extension().string();
+  }
   Comparison comparison = compare(was, is, runs);
   comparison.before = before.string();
   comparison.after = after.string();

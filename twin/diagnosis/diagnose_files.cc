@@ -73,8 +73,8 @@ DiagnosisReport diagnose_files(DiagnoseFiles const& files) {
   DiagnosisReport report;
   Value const document = read_toml(files.machine);
   Machine const machine = Machine::build(document);
-  auto const runs = read_runs(files.data, machine, report.remarks);
-  auto const unseen = read_runs(files.held_out, machine, report.remarks);
+  auto const runs = read_runs(files.data, machine, report.remarks, files.held_out);
+  auto const unseen = read_runs(files.held_out, machine, report.remarks, files.data);
   auto const fitted = binned(runs), held_out = binned(unseen);
   std::vector<BinnedRun> every_run = fitted;
   every_run.insert(every_run.end(), held_out.begin(), held_out.end());

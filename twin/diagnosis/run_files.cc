@@ -4,22 +4,32 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "twin/file/distinct_names.h"
+
 namespace thermotwin::twin {
 
 namespace fs = std::filesystem;
 
-std::vector<MeasuredRun> read_runs(RunFiles const& files, Machine const& machine, std::vector<std::string>& remarks) {
+std::vector<MeasuredRun> read_runs(RunFiles const& files, Machine const& machine, std::vector<std::string>& remarks,
+                                   RunFiles const& beside) {
+  RunFiles every = files;
+  every.insert(every.end(), beside.begin(), beside.end());
+  auto const names = distinct_names(every);
   std::vector<MeasuredRun> runs;
-  for (auto const& file : files) runs.push_back(read_measured_run(file, machine));
+  for (auto const& file : files) {
+    runs.push_back(read_measured_run(file, machine));
+    runs.back().name = fs::path(names[runs.size() - 1]).replace_extension().string();
+  }
   let_begin_alike(runs, machine);
-  std::vector<std::pair<std::string, RunFiles>> said;  // once, of whatever files
+  std::vector<std::pair<std::string, std::vector<std::string>>> said;  // once, of whatever files
   for (std::size_t r = 0; r < runs.size(); ++r)
     for (auto const& remark : runs[r].remarks) {
       auto const same =
           std::find_if(said.begin(), said.end(), [&](auto const& known) { return known.first == remark; });
-      (same == said.end() ? said.emplace_back(remark, RunFiles{}) : *same).second.push_back(files[r]);
+      (same == said.end() ? said.emplace_back(remark, std::vector<std::string>()) : *same)
+          .second.push_back(names[r].string());
     }
-  for (auto const& [remark, of] : said) remarks.push_back(names_of(of) + ": " + remark);
+  for (auto const& [remark, of] : said) remarks.push_back(fmt::format("{}: {}", fmt::join(of, ", "), remark));
   return runs;
 }
 
@@ -37,7 +47,7 @@ std::vector<BinnedRun> binned(std::vector<MeasuredRun> const& runs) {
 
 std::string names_of(RunFiles const& files) {
   std::vector<std::string> names;
-  for (auto const& file : files) names.push_back(file.filename().string());
+  for (auto const& name : distinct_names(files)) names.push_back(name.string());
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

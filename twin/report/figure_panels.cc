@@ -115,7 +115,7 @@ class CoursesOfRuns {
     auto const known = std::find(names_.begin(), names_.end(), channel);
     auto const i = std::size_t(known - names_.begin());
     if (known == names_.end()) names_.push_back(channel);
-    auto const name = several_ ? fmt::format("{}, {}", channel, run.path.stem().string()) : channel;
+    auto const name = several_ ? fmt::format("{}, {}", channel, run.stem()) : channel;
     auto& line = figure_.add(name, samples.time_s, samples.values);
     output::set_style(line, i);
     if (!several_) return;
@@ -252,7 +252,7 @@ void add_runs(std::vector<FigurePanel>& panels, std::vector<ShownRun> runs) {
   if (made) panels.push_back({"heat", heat.take()});
   for (auto const& run : runs)
     for (auto const& axis : run.data.positioning)
-      panels.push_back({fmt::format("positioning_{}_{}", run.path.stem().string(), axis.axis), positioning(axis)});
+      panels.push_back({fmt::format("positioning_{}_{}", run.stem(), axis.axis), positioning(axis)});
 }
 
 Eigen::VectorXd with_gaps(Json const& list) {
@@ -363,6 +363,7 @@ std::vector<FigurePanel> figure_panels(std::vector<std::filesystem::path> const&
       add_answer_panels(panels, file);
     else
       runs.push_back(read_shown_run(file));
+  name_distinctly(runs);
   if (!runs.empty()) add_runs(panels, std::move(runs));
   return panels;
 }

@@ -78,10 +78,10 @@ Json runs_json(std::vector<ShownRun> const& runs, fs::path const& machine_file, 
     json["sets"].back()["compared"] = compared;
     if (!compared)
       remarks.push_back(fmt::format("{} was driven otherwise than {}: there is no residual between them.",
-                                    run.path.filename().string(), reference.path.filename().string()));
+                                    run.name.string(), reference.name.string()));
     if (run.without_instruments)
-      remarks.push_back(fmt::format("{} has not ended: until then its channels are shown without their noise.",
-                                    run.path.filename().string()));
+      remarks.push_back(
+          fmt::format("{} has not ended: until then its channels are shown without their noise.", run.name.string()));
   }
   auto const* drawn = drawn_run(runs);
   if (auto const machine = machine_to_draw(drawn, machine_file, remarks)) {
@@ -109,6 +109,7 @@ BuiltReport build_report(ReportFiles const& files) {
       answers.push_back(add_answer(file, files.machine, report.page));
     else
       runs.push_back(read_shown_run(file));
+  name_distinctly(runs);
   report.page.set_title(title_of(files, runs, answers));
   if (runs.empty()) return report;
   Json const section = runs_json(runs, files.machine, report.page);

@@ -12,6 +12,7 @@
 #include "thermal/units.h"
 #include "twin/diagnosis/measurement_file.h"
 #include "twin/edge_unit.h"
+#include "twin/file/distinct_names.h"
 #include "twin/file/tables.h"
 
 namespace thermotwin::twin {
@@ -146,6 +147,7 @@ bool show_truth_for_now(output::Dataset& data) {
 
 ShownRun read_shown_run(std::filesystem::path const& path) {
   ShownRun run{path.extension() == ".partial" ? std::filesystem::path(path).replace_extension() : path, {}};
+  run.name = run.path.filename();
   double max_gap = MeasuredData().max_gap;
   if (path.extension() == ".csv") {
     run.data = output::import_csv(path);
@@ -168,6 +170,13 @@ ShownRun read_shown_run(std::filesystem::path const& path) {
   }
   if (!run.simulated) run.max_gap = max_gap;
   return run;
+}
+
+void name_distinctly(std::vector<ShownRun>& runs) {
+  std::vector<std::filesystem::path> paths;
+  for (auto const& run : runs) paths.push_back(run.path);
+  auto const names = distinct_names(paths);
+  for (std::size_t r = 0; r < runs.size(); ++r) runs[r].name = names[r];
 }
 
 Samples samples_of(ShownRun const& run, Eigen::VectorXd const& values) {
@@ -208,7 +217,7 @@ bool driven_alike(ShownRun const& reference, ShownRun const& other) {
 
 Json run_json(ShownRun const& run, ReportPage& page) {
   auto const& data = run.data;
-  return {{"name", run.path.stem().string()},
+  return {{"name", run.stem()},
           {"title", data.title},
           {"simulated", run.simulated},
           {"complete", data.complete},

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "output/dataset.h"
 #include "output/report_page.h"
@@ -21,11 +22,17 @@ struct ShownRun {
   std::filesystem::path machine_file{};  ///< where it names a file
   /// Samples farther apart than this, and than ten usual intervals of their channel, have nothing between them [s].
   double max_gap = std::numeric_limits<double>::infinity();
+  std::filesystem::path name{};  ///< of its file, as it is told from the others of its page
+
+  [[nodiscard]] std::string stem() const { return std::filesystem::path(name).replace_extension().string(); }
 };
 
 /// A data set (`.h5`, or `.h5.partial` of a run that has not ended, under the name that it will have), a table
 /// (`.csv`), or a measurement file (`.toml`). InputError names the file.
 [[nodiscard]] ShownRun read_shown_run(std::filesystem::path const& path);
+
+/// Gives the runs of a page names that tell them apart.
+void name_distinctly(std::vector<ShownRun>& runs);
 
 /// When a channel was read, and what it showed.
 struct Samples {

@@ -10,6 +10,7 @@
 #include "twin/diagnosis/comparison.h"
 #include "twin/diagnosis/diagnosis_json.h"
 #include "twin/diagnosis/linearised_run.h"
+#include "twin/diagnosis/run_files.h"
 
 /// The whole way of a user: files in, a verdict and an amended file out.
 namespace thermotwin::twin {
@@ -115,6 +116,21 @@ TEST_F(DiagnoseFilesTest, GapShrinksOnTheUnseenRun) {
   auto const kelvin = total(comparison, "K"), micrometres = total(comparison, "um");
   EXPECT_LT(kelvin.after, 0.5 * kelvin.before);
   EXPECT_LT(micrometres.after, 0.5 * micrometres.before);
+}
+
+TEST_F(DiagnoseFilesTest, RunsOfOneNameAreToldApart) {
+  std::vector<std::filesystem::path> files;
+  for (auto const* name : {"a", "b"}) {
+    std::filesystem::create_directory(*folder / name);
+    files.push_back(*folder / name / "run.h5");
+    std::filesystem::copy_file(*folder / "run1.h5", files.back());
+  }
+  auto const compared = compare_files(*folder / "mine.toml", *folder / "mine.toml", files).runs;
+  EXPECT_EQ(compared[0].name, "a/run");
+  EXPECT_EQ(compared[1].name, "b/run");
+  std::vector<std::string> remarks;
+  EXPECT_EQ(read_runs({files[0]}, Machine::read(*folder / "mine.toml"), remarks, {files[1]})[0].name, "a/run");
+  EXPECT_EQ(names_of(files), "a/run.h5, b/run.h5");
 }
 
 TEST_F(DiagnoseFilesTest, FilesThatAreReadAreNeverWritten) {

@@ -205,6 +205,12 @@ TEST_F(FigurePanels, RankingHasTheBestFirst) {
   EXPECT_EQ(rows[0].low, 0.5);
 }
 
+TEST_F(FigurePanels, TellFilesOfOneNameApart) {
+  for (auto const* name : {"a", "b"}) std::filesystem::create_directory(folder / name);
+  EXPECT_THAT(write_figure_files({{written("a/run.h5", 0.0), written("b/run.h5", 1.0)}, "", {}, ""}),
+              HasSubstr("T1, T2 (of a/run, b/run)\n"));
+}
+
 TEST_F(FigurePanels, AreChosenByNameAndTheirCurves) {
   auto const path = written("a.h5", 0.0);
   EXPECT_THAT(write_figure_files({{path}, "", {}, ""}), HasSubstr("sensor_temperatures_degC           T1, T2\n"));
