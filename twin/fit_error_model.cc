@@ -13,6 +13,7 @@
 #include "twin/compensation/observed_run.h"
 #include "twin/diagnosis/measured_run.h"
 #include "twin/error_model_run.h"
+#include "twin/file/distinct_names.h"
 #include "twin/study/judgement.h"
 #include "twin/study/study_file.h"
 #include "twin/version.h"
@@ -227,7 +228,11 @@ SavedErrorModel fit_error_model(ErrorModelFit const& fit, std::vector<std::strin
   auto const twin = beside ? std::optional(twin_of(*beside)) : std::nullopt;
   auto const observing = named_observer(models, fit, twin);
   std::vector<RecordedRun> recorded;
-  for (auto const& file : fit.runs) recorded.push_back(read_recorded_run(file, fit.sampling, twin ? &*twin : nullptr));
+  auto const names = distinct_names(fit.runs);
+  for (std::size_t r = 0; r < fit.runs.size(); ++r) {
+    recorded.push_back(read_recorded_run(fit.runs[r], fit.sampling, twin ? &*twin : nullptr));
+    recorded.back().file = names[r].string();
+  }
   if (observing)
     for (auto& run : recorded) run.admit_observer(twin->name);
   auto const sensors =

@@ -1,6 +1,7 @@
 #include "twin/run.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -90,6 +91,19 @@ TEST(Run, IsCalledByMachineAndExperiment) {
 }
 
 /// 100 kW in 26 kg of motor: 8 K/s. Seen at 15 s · 1.4^7 + 2 · 60 s (sampling.h).
+TEST(Run, StoppedSaysWhatThereIsOfIt) {
+  tests::TemporaryDirectory const directory;
+  auto const machine = Machine::read(machine_file("v450"));
+  auto const experiment = read_experiment(parse_toml("machine = \"v450\"\nduration = \"100 s\"\n", "some"), "some");
+  std::atomic<bool> const stop = true;
+  RunOptions options;
+  options.stop = &stop;
+  auto const stopped = [&] { (void)run(machine, experiment, options); };
+  EXPECT_THAT(stopped, testing::ThrowsMessage<Interrupted>("stopped; nothing was written"));
+  options.dataset = directory / "run.h5";
+  EXPECT_THAT(stopped, testing::ThrowsMessage<Interrupted>(testing::HasSubstr("run.h5.partial")));
+}
+
 TEST(Run, EndsWhereNothingIsSolid) {
   auto document = read_toml(machine_file("v450"));
   set_parameter(document, "motor_loss.stator.constant", "100 kW");

@@ -10,6 +10,7 @@
 #include "thermal/error.h"
 #include "thermal/growth_field.h"
 #include "twin/diagnosis/prediction.h"
+#include "twin/file/distinct_names.h"
 #include "twin/machine.h"
 #include "twin/report/carried_residual.h"
 #include "twin/report/machine_section.h"
@@ -35,7 +36,7 @@ struct KnownRun {
   ShownRun const& run;
   Machine machine;
 
-  [[nodiscard]] std::string name() const { return run.path.filename().string(); }
+  [[nodiscard]] std::string name() const { return run.name.string(); }
 };
 
 thermal::BodyGeometry const& body_of(KnownRun const& known, std::string const& name, KnownRun const& other) {
@@ -146,9 +147,8 @@ std::vector<Eigen::Index> placed_sensors(Machine const& machine) {
 output::FieldOptions options_for(DifferenceFiles const& files, Machine const& machine, output::FieldMeaning meaning) {
   output::FieldOptions options;
   options.meaning = meaning;
-  options.metadata = {{"first", files.first.filename().string()},
-                      {"second", std::filesystem::path(files.second).filename().string()},
-                      {"machine", machine.name}};
+  auto const names = distinct_names({files.first, files.second});
+  options.metadata = {{"first", names[0].string()}, {"second", names[1].string()}, {"machine", machine.name}};
   for (auto const s : placed_sensors(machine)) {
     auto const& sensor = machine.sensors[std::size_t(s)];
     options.sensors.push_back({sensor.description.name, sensor.position});
@@ -223,7 +223,11 @@ std::string write_difference(DifferenceFiles const& files) {
     auto const [times, values] = predicted(files.first, machine);
     return write_residual(files, machine, times, times, values);
   }
-  auto const first = read_shown_run(files.first), second = read_shown_run(files.second);
+  std::vector<ShownRun> runs;
+  for (std::filesystem::path const& file : {files.first, std::filesystem::path(files.second)})
+    runs.push_back(read_shown_run(file));
+  name_distinctly(runs);
+  auto const &first = runs[0], &second = runs[1];
   if (first.data.node_temperatures && second.data.node_temperatures && files.machine.empty()) {
     auto mine = machine_of(first), theirs = machine_of(second);
     if (mine && theirs) return write_fields(files, {first, *mine}, {second, *theirs});
