@@ -98,7 +98,7 @@ test('a placement shows its map in colours, and another beside the recommended s
 
 test('a campaign shows how its runs spread, against what was varied, and which failed', async () => {
   const {page, complaints} = await openReport('campaign');
-  assert.match((await page.locator('.verdict h2').textContent())!, /^Grease and speed: nine runs in ten end with E_Z between/);
+  assert.match((await page.locator('.verdict h2').textContent())!, /^Grease and speed: 4 of 84 runs failed; E_Z ends between [\d.]+ and [\d.]+ µm in nine of ten others$/);
   for (const panel of ['quantiles', 'last_values', 'against_spindle_maximum_speed', 'against_bearing_front_grease_factor'])
     assert.equal(await page.locator(`[data-panel="${panel}"] canvas`).count(), 1, panel);
   const failed = page.locator('[data-panel="failed_runs"] tbody tr');

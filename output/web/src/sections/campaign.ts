@@ -12,31 +12,36 @@ const failures_shown = 20;
 /** What the runs of a campaign have in common, and what makes them differ. */
 export function campaignSection(section: CampaignSection, numbers: Numbers, state: PageState): HTMLElement {
   const host = make('div', {class: 'flow'});
-  const chips = section.channels.map((channel, i) => make('button', {
+  const channels = section.channels.filter((c) => numbers.single(c.last).some(Number.isFinite));
+  const chips = channels.map((channel, i) => make('button', {
     class: 'chip', 'data-channel': channel.name, onclick: () => show(i),
   }, channel.name));
 
   function show(chosen: number): void {
     chips.forEach((chip, i) => chip.setAttribute('aria-pressed', String(i === chosen)));
-    const shown = new Shown(section, section.channels[chosen]!, numbers, state);
+    const shown = new Shown(section, channels[chosen]!, numbers, state);
     host.replaceChildren(...shown.panels());
   }
-  const first = section.channels.findIndex((c) => c.name === 'E_Z'), displacement = section.channels.findIndex((c) => c.group === 'displacements');
-  if (section.channels.length > 0) show(Math.max(0, first >= 0 ? first : displacement));
+  const first = channels.find((c) => c.name === 'E_Z') ?? channels.find((c) => c.group === 'displacements') ?? channels[0];
+  if (first) show(channels.indexOf(first));
   return make('section', {class: 'campaign', 'data-kind': 'campaign'},
-    card('Campaign', '', sentence(section, numbers, first), [
+    card('Campaign', '', `${section.title}: ${ends(section, numbers, first)}`, [
       ['runs', String(section.runs)], ['failed', String(section.failed)], ['varied', String(section.parameters.length)],
     ], ...section.remarks.map(remark)),
-    make('div', {class: 'chips', role: 'group', 'aria-label': 'Channel'}, ...chips), host,
+    first && make('div', {class: 'chips', role: 'group', 'aria-label': 'Channel'}, ...chips), host,
     section.failures.length > 0 && failuresPanel(section));
 }
 
-function sentence(section: CampaignSection, numbers: Numbers, axial: number): string {
-  const channel = section.channels[axial] ?? section.channels.find((c) => c.group === 'displacements') ?? section.channels[0];
-  const last = channel ? sorted(numbers.single(channel.last)) : [];
-  if (!channel || last.length === 0) return section.title;
+/** How many failed, and where the others end: nine in ten of them where there are enough to tell. */
+function ends({runs, failed}: CampaignSection, numbers: Numbers, channel: CampaignChannel | undefined): string {
+  if (failed === runs) return runs === 1 ? 'its one run failed' : `all ${runs} runs failed`;
+  const failures = failed > 0 ? `${failed} of ${runs} runs failed` : '';
+  if (!channel) return failures || `${runs} runs`;
+  const last = sorted(numbers.single(channel.last)), many = last.length >= 20;
   const at = (share: number): string => valueText(last[Math.round(share * (last.length - 1))]!, channel.unit);
-  return `${section.title}: nine runs in ten end with ${channel.name} between ${at(0.05)} and ${at(0.95)} ${unitText(channel.unit)}`;
+  const where = last.length === 1 ? `at ${at(0)}` : many ? `between ${at(0.05)} and ${at(0.95)}` : `between ${at(0)} and ${at(1)}`;
+  const which = failures ? (many ? 'in nine of ten others' : last.length > 1 ? 'in the others' : 'in the other') : many ? 'in nine runs of ten' : runs > 1 ? `in all ${runs} runs` : 'in its one run';
+  return `${failures && `${failures}; `}${channel.name} ends ${where} ${unitText(channel.unit)} ${which}`;
 }
 
 const quantityOf = (channel: CampaignChannel): string => (channel.group === 'readings' ? 'Temperature' : channel.unit === 'urad' ? 'Rotation' : 'Displacement');
@@ -89,12 +94,14 @@ class Shown {
     const low = ticks[0]!, high = ticks[ticks.length - 1]!, count = Math.max(5, Math.min(40, Math.ceil(Math.sqrt(values.length))));
     const edges = Array.from({length: count + 1}, (_, i) => low + (i / count) * (high - low)), heights = new Array<number>(count).fill(0);
     for (const value of values) ++heights[Math.min(count - 1, Math.floor(((value - low) / (high - low || 1)) * count))]!;
-    const {name, unit} = this.channel;
+    const {name, unit} = this.channel, difference = unit === 'degC' ? 'K' : unit, looked = this.last.length;
+    const counted = values.length < looked ? `${values.length} of ${looked} runs` : looked > 1 ? `${looked} runs` : 'One run';
+    const spread = values.length > 1 && `, standard deviation ${valueText(deviation(values), difference)} ${unitText(difference)}`;
     return panel(`${name} at the end`, 'last_values', () => this.table(), new Chart({
       x: {label: this.axis(), range: [low, high]}, y: {label: 'Runs', range: [0, 1.08 * Math.max(1, ...heights)]},
       lines: [], ground: columns(edges, heights, () => `${this.ink()}b0`),
       dark: this.state.dark, height: 200, describe: `How many runs end with ${name} where`,
-    }).element, make('p', {class: 'words'}, `${values.length} runs, mean ${valueText(mean(values), unit)} ${unitText(unit)}, standard deviation ${valueText(deviation(values), unit === 'degC' ? 'K' : unit)} ${unitText(unit === 'degC' ? 'K' : unit)}.`));
+    }).element, make('p', {class: 'words'}, `${counted}, mean ${valueText(mean(values), unit)} ${unitText(unit)}${spread || ''}.`));
   }
 
   /** A point per run: the channel's last value over what was varied. */
@@ -108,7 +115,7 @@ class Shown {
       x: {label: axisText(path, unit), range: [low - room, high + room]}, y: {label: this.axis()},
       lines: [{name, time: x, values: y, colour: () => this.ink(), scattered: true}],
       dark: this.state.dark, height: 220, describe: `${name} at the end over ${path}, a point per run`,
-    }).element, make('p', {class: 'words'}, `Rank correlation ${minus(rankCorrelation(x, y).toFixed(2))}.${words ? ` ${words}.` : ''}`));
+    }).element, make('p', {class: 'words'}, [x.length > 2 && `Rank correlation ${minus(rankCorrelation(x, y).toFixed(2))}.`, words && `${words}.`].filter(Boolean).join(' ')));
   }
 
   private table(): {name: string; values: ArrayLike<number>}[] {

@@ -1,8 +1,8 @@
 import {make} from '../dom';
 
-/** Long names may break after an underscore. */
+/** Long names may break after an underscore; E_Z is none. */
 const breakable = (text: string): (string | HTMLElement)[] =>
-  text.split(/(?<=_)/).flatMap((part, i) => (i > 0 ? [make('wbr'), part] : [part]));
+  text.split(/(?<=\w{3}_)/).flatMap((part, i) => (i > 0 ? [make('wbr'), part] : [part]));
 
 /** The first thing that is read of an answer: what kind it is, one sentence, and its figures in large. */
 export function card(kind: string, look: string, sentence: string, figures: [string, string][], ...below: HTMLElement[]): HTMLElement {
