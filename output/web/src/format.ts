@@ -23,12 +23,15 @@ export function decimalsFor(step: number): number {
   return Math.min(6, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
 }
 
-/** With digits that suit the unit: 0.01 for temperatures, 0.1 for micrometres. */
+/**
+ * With digits that suit the unit: 0.01 for temperatures, 0.1 for micrometres; two digits of what is smaller, down to a
+ * thousandth of that, where single precision ends.
+ */
 export function valueText(value: number, unit: string): string {
   if (!Number.isFinite(value)) return '–';
-  const decimals = unit === 'degC' || unit === 'K' ? 2 : unit === 'um' || unit === 'urad' || unit === 'W' ? 1 : 0;
-  const small = decimals === 0 && Math.abs(value) < 10 && value % 1 !== 0;
-  return minus(value.toFixed(small ? 2 : decimals));
+  const usual = unit === 'degC' || unit === 'K' ? 2 : unit === 'um' || unit === 'urad' || unit === 'W' ? 1 : 0;
+  const size = Math.abs(value), decimals = usual === 0 && size < 10 && value % 1 !== 0 ? 2 : usual, digit = 10 ** -decimals;
+  return minus(size < digit && size > 1e-3 * digit ? value.toPrecision(2) : value.toFixed(decimals));
 }
 
 /** As `write` has it; a dash where nobody knows the number, which JSON then has as null. */

@@ -26,7 +26,13 @@ test('values have the digits of their unit and a minus sign', () => {
   assert.equal(valueText(12.34, 'um'), '12.3');
   assert.equal(valueText(6000, 'rpm'), '6000');
   assert.equal(valueText(NaN, 'K'), '–');
-  assert.equal(valueText(-0.001, 'K'), '0.00');
+  assert.equal(valueText(-0.000001, 'K'), '0.00');
+});
+
+test('of a value below the digit of its unit two digits are told', () => {
+  assert.deepEqual([0.012, -0.025, 0.1].map((x) => valueText(x, 'urad')), ['0.012', '−0.025', '0.1']);
+  assert.deepEqual([0.0034, 0.01].map((x) => valueText(x, 'K')), ['0.0034', '0.01']);
+  assert.equal(valueText(0.5, 'rpm'), '0.50');
 });
 
 test('a title tells what the numbers of a state mean', () => {
