@@ -1,6 +1,7 @@
 import {dot, type Camera, type Vec} from './camera';
 import {css, viridisLines} from './colours';
 import {make} from './dom';
+import {keepFitted} from './sizes';
 import {turntable} from './turntable';
 
 /** Vectors at points, in the unit in which people read each. */
@@ -36,10 +37,10 @@ export class ArrowView {
       'aria-label': `${options.title}. Arrow keys turn it, plus and minus zoom, 0 fits it.`},
     this.canvas, make('p', {class: 'caption'}, options.title));
     turntable(this.element, options.camera, {changed: options.changed, fit: () => this.fit()});
-    new ResizeObserver(() => {
+    keepFitted(this.element, () => {
       this.fit();
-      this.draw();
-    }).observe(this.element);
+      this.paint();
+    });
   }
 
   draw(): void {

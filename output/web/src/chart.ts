@@ -3,6 +3,7 @@ import uPlot from 'uplot';
 import {interrupted, type Course} from './course';
 import {make} from './dom';
 import {minus} from './format';
+import {forgetSizes, keepFitted} from './sizes';
 import type {Signal} from './signal';
 
 export interface Line extends Course {
@@ -54,8 +55,9 @@ function roomFor(low: number, high: number): [number, number] {
 const pointer = new Set<(x: number | null) => void>();
 const charts = new Set<Chart>();
 
-/** Ends every chart of a page that is drawn anew: the window would keep those that wait, with all their numbers. */
+/** Ends every chart of a page that is drawn anew. */
 export function forgetCharts(): void {
+  forgetSizes();
   for (const chart of charts) chart.end();
   charts.clear();
   pointer.clear();
@@ -70,8 +72,6 @@ export function watchPointer(watcher: (x: number | null) => void): void {
 export class Chart {
   readonly element: HTMLElement;
   private plot: uPlot | null = null;
-  /** Ends its waiting, or the watch over its size. */
-  private release = (): void => {};
   private readonly host = make('div', {class: 'plot'});
   private readonly now = make('div', {class: 'now'});
 
@@ -79,13 +79,12 @@ export class Chart {
     this.element = make('div', {class: 'chart', role: 'img', 'aria-label': options.describe}, this.host);
     this.host.style.setProperty('--height', `${options.height ?? 190}px`);
     charts.add(this);
-    this.waitUntilNear();
+    keepFitted(this.host, () => this.resized());
     options.dark.watch(() => this.redraw());
     options.time?.watch(() => this.placeNow());
   }
 
   end(): void {
-    this.release();
     this.plot?.destroy();
   }
 
@@ -95,25 +94,6 @@ export class Chart {
       this.plot!.series[i + 1]!.width = line.width?.() ?? 1.5;
     });
     this.plot.redraw(false);
-  }
-
-  /** A chart that nobody has come near is not drawn: the page is there sooner. */
-  private waitUntilNear(): void {
-    const near = new IntersectionObserver((entries) => {
-      if (entries.some((entry) => entry.isIntersecting)) begin();
-    }, {rootMargin: '800px'});
-    const begin = (): void => {
-      this.release();
-      const size = new ResizeObserver(() => this.resized());
-      size.observe(this.host);
-      this.release = () => size.disconnect();
-    };
-    this.release = () => {
-      near.disconnect();
-      removeEventListener('beforeprint', begin);
-    };
-    near.observe(this.host);
-    addEventListener('beforeprint', begin);
   }
 
   private get xScale(): number {

@@ -8,6 +8,7 @@ import {grouped, roundDown, roundTicks} from './format';
 import {Scene} from './scene';
 import {SensorMarks} from './sensor_marks';
 import type {PageState} from './signal';
+import {keepFitted} from './sizes';
 import {turntable} from './turntable';
 import {visibleTriangles} from './visible';
 
@@ -26,6 +27,8 @@ export class MachineView {
   readonly element: HTMLElement;
   private readonly stage = make('div', {class: 'stage', tabindex: 0, role: 'application',
     'aria-label': 'The machine in space. Arrow keys turn it, plus and minus zoom, 0 fits it.'});
+  /** What is printed: of a picture in space that no screen has shown browsers print nothing. */
+  private readonly still = make('canvas', {class: 'still'});
   private readonly caption = make('p', {class: 'caption', 'aria-live': 'off'});
   private readonly rest: Float32Array;
   private readonly triangles: Int32Array;
@@ -60,7 +63,7 @@ export class MachineView {
     this.camera = new Camera(machine.up);
     if (state.view) Object.assign(this.camera, state.view);
     this.marks = new SensorMarks(machine.sensors, state);
-    this.stage.append(this.marks.element, this.caption);
+    this.stage.append(this.still, this.marks.element, this.caption);
     this.bar = colourBar(gradient(viridis), ticks, look.quantity);
     this.element = make('section', {class: 'machine', 'aria-label': machine.title},
       this.stage,
@@ -130,7 +133,7 @@ export class MachineView {
       this.refresh();
     });
     turntable(this.stage, this.camera, {changed: () => this.viewChanged(), fit: () => this.fit(), pick: (event) => this.pick(event)});
-    new ResizeObserver(() => this.resized()).observe(this.stage);
+    keepFitted(this.stage, () => this.resized());
   }
 
   private pick(event: PointerEvent): void {
@@ -170,6 +173,10 @@ export class MachineView {
     this.fineness = 1;
     if (this.size === '' && this.state.view) this.viewChanged();
     else this.fit();
+    cancelAnimationFrame(this.pending);
+    this.pending = 0;
+    this.draw();
+    this.scene.copyTo(this.still);
   }
 
   /** The picture's pixels; only before a drawing, because it empties the picture. */

@@ -4,6 +4,7 @@ import {make} from './dom';
 import {follow} from './live';
 import {drawSection} from './sections';
 import {PageState, Signal} from './signal';
+import {fitAll} from './sizes';
 
 const theme_key = 'thermotwin-theme';
 
@@ -34,6 +35,23 @@ function themeButton(dark: Signal<boolean>): HTMLElement {
     button.setAttribute('aria-label', on ? 'Switch to light' : 'Switch to dark');
   });
   return button;
+}
+
+/** On paper the page is light, as wide as a sheet, and drawn everywhere. */
+function followPrinter(dark: Signal<boolean>): void {
+  const {classList} = document.documentElement;
+  let kept = false;
+  addEventListener('beforeprint', () => {
+    if (classList.contains('paper')) return;
+    kept = dark.value;
+    dark.value = false;
+    classList.add('paper');
+    fitAll();
+  });
+  addEventListener('afterprint', () => {
+    classList.remove('paper');
+    dark.value = kept;
+  });
 }
 
 /** Graphics memory is scarce: a browser keeps few pictures in space at once. */
@@ -74,6 +92,7 @@ async function main(): Promise<void> {
   const packed = document.getElementById('numbers')!;
   const dark = new Signal(false), body = new Content(dark), button = themeButton(dark);
   dark.watch((on) => body.setDark(on));
+  followPrinter(dark);
   const title = make('h1', {}), footer = make('footer', {}, `${content.version}. The page is whole in this one file.`);
   const head = make('header', {class: 'masthead'}, make('div', {}, make('p', {class: 'brand'}, 'ThermoTwin'), title));
   const show = (now: PageDocument, numbers: string): Promise<void> => {

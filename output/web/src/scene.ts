@@ -120,6 +120,13 @@ export class Scene {
     this.view.setSize(Math.max(1, Math.round(width)), Math.max(1, Math.round(height)));
   }
 
+  /** What was drawn last; only right after it, before the browser has shown it. */
+  copyTo(still: HTMLCanvasElement): void {
+    const drawn = this.view.getCanvas()!;
+    [still.width, still.height] = [drawn.width, drawn.height];
+    still.getContext('2d')?.drawImage(drawn, 0, 0);
+  }
+
   draw(camera: Camera): void {
     const active = this.renderer.getActiveCamera(), far = 20 * camera.scale, towards = camera.towards;
     active.setParallelProjection(true);

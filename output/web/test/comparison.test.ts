@@ -53,6 +53,26 @@ test('two runs: the worst channel is chosen, with residual, map and table', asyn
   await page.close();
 });
 
+test('on paper every chart is drawn as wide as a sheet, and light', async () => {
+  const {page, complaints} = await openReport('two', 1440, 'dark');
+  const paper = await page.evaluate(async () => {
+    const charts = (): Element[] => [...document.querySelectorAll('.chart')];
+    const waiting = charts().filter((chart) => !chart.querySelector('canvas')).length;
+    dispatchEvent(new Event('beforeprint'));
+    await Promise.resolve();
+    const still = document.querySelector<HTMLCanvasElement>('.still')!, pixels = still.getContext('2d')!.getImageData(0, 0, still.width, still.height).data;
+    return {waiting, blank: charts().filter((chart) => !chart.querySelector('canvas')).length, theme: document.documentElement.dataset.theme,
+      widest: Math.max(...charts().map((chart) => chart.querySelector('.uplot')!.clientWidth)), ground: pixels[0], grey: pixels.some((x) => x < 200)};
+  });
+  assert.ok(paper.waiting > 0, 'nothing was left to be drawn');
+  assert.ok(paper.widest > 600 && paper.widest < 718, `${paper.widest} px`);
+  assert.deepEqual([paper.blank, paper.theme, paper.ground, paper.grey], [0, 'light', 255, true]);
+  await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
 test('a run and the same in K and mm are one', async () => {
   putMeasurement('same', false);
   thermotwin('report', 'same.toml', 'run.h5', '-o', 'same.html');
