@@ -42,14 +42,15 @@ export function residualMap(title: string, file: string, differences: Difference
   ], ...charts.filter((c) => c !== null), colourBar(gradient(cividis), ticks, axisText('RMS', unit)));
 }
 
-/** A sentence per pair: the RMS over the channels' RMS, as it is, and as `compare` counts it. */
+/** A sentence per pair: the RMS over the channels' RMS, as it is and without a constant; and what was subtracted. */
 export function misfitWords(differences: Difference[]): HTMLElement[] {
-  return differences.map(({name, channels}) => {
+  const pairs = differences.map(({name, channels}) => {
     const unit = channels[0]!.unit, misfits = channels.map((c) => misfit(c.name, c.unit, c.values));
     const whole = (of: 'rms' | 'spread'): string => `${valueText(rootMeanSquare(misfits.map((m) => m[of])), unit)} ${unitText(unit)}`;
     const subject = differences.length > 1 ? `${name}: RMS` : 'RMS';
-    return make('p', {class: 'words'}, `${subject} ${whole('rms')}; ${whole('spread')} with one constant per channel taken off, as compare does`);
+    return make('p', {class: 'words'}, `${subject} ${whole('rms')}; ${whole('spread')} with one constant per channel taken off`);
   });
+  return [...pairs, make('p', {class: 'words'}, 'Readings less readings, each with the noise of its own instruments; compare has a twin without.')];
 }
 
 /** RMS, with and without a constant, and largest residual per channel, a row each. */
