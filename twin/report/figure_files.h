@@ -25,8 +25,9 @@ struct FigurePanel {
 };
 
 /// All panels that these files have, in the page's order: `input_<unit>`, `sensor_temperatures_degC`,
-/// `displacements_um`, `tilt_urad`, `residual_…` of several data sets, `heat`, `positioning_<run>_<axis>`,
-/// `unknown_heat`, `unaccounted_heat`, `ranking_<world>`, `functions_<axis>`, `drift`. InputError names the file.
+/// `displacements_um`, `tilt_urad`, `residual_…` of several data sets, `heat` (`heat_<run>` where several differ),
+/// `positioning_<run>_<axis>`, `unknown_heat`, `unaccounted_heat`, `ranking_<world>`, `functions_<axis>`, `drift`.
+/// InputError names the file.
 [[nodiscard]] std::vector<FigurePanel> figure_panels(std::vector<std::filesystem::path> const& files);
 
 /// Writes the panel and says what it is, or lists the panels. InputError when the files have none of that name, or no

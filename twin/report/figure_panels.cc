@@ -200,56 +200,109 @@ bool is_held(output::Channel const& input) {
 }
 
 /// Each value until the next sample, where there is one.
-void add_held(TimeFigure& figure, std::string const& name, Samples const& samples) {
-  auto const& [time_s, held] = samples;
-  Eigen::Index const steps = time_s.size() - 1;
-  Eigen::VectorXd time(2 * steps + 1), values(2 * steps + 1);
-  for (Eigen::Index i = 0; i <= steps; ++i) {
-    time[2 * i] = time_s[i];
-    values[2 * i] = held[i];
+Samples held(Samples const& samples) {
+  auto const& [time_s, values] = samples;
+  Eigen::Index const steps = std::max(Eigen::Index(0), time_s.size() - 1);
+  Samples drawn{Eigen::VectorXd(time_s.size() + steps), Eigen::VectorXd(time_s.size() + steps)};
+  for (Eigen::Index i = 0; i < time_s.size(); ++i) {
+    drawn.time_s[2 * i] = time_s[i];
+    drawn.values[2 * i] = values[i];
     if (i == steps) break;
-    time[2 * i + 1] = time_s[i + 1];
-    values[2 * i + 1] = std::isnan(held[i + 1]) ? held[i + 1] : held[i];
+    drawn.time_s[2 * i + 1] = time_s[i + 1];
+    drawn.values[2 * i + 1] = std::isnan(values[i + 1]) ? values[i + 1] : values[i];
   }
-  figure.add(name, time, values);
+  return drawn;
 }
 
-/// All but counters, beside which flags and shares would be a line at 0.
-void add_inputs(std::vector<FigurePanel>& panels, ShownRun const& run) {
+/// Some channels of a run.
+struct Picked {
+  ShownRun const* run;
+  std::vector<Channel const*> channels{};
+};
+
+/// Whether one shows what the other does wherever it shows anything, to a thousandth of its largest value.
+bool shows(ShownRun const& run, Channel const& course, ShownRun const& other, Channel const& theirs) {
+  auto const known = samples_of(run, course.values);
+  Eigen::ArrayXd const mine = output::at_times(known.values, known.time_s, other.data.time_s);
+  auto const due = theirs.values.array().isFinite();
+  double const near = 1e-3 * due.select(theirs.values.array().abs(), 0.0).maxCoeff();
+  return (!due || (theirs.values.array() - mine).abs() <= near).all();
+}
+
+bool same_courses(Picked const& some, Picked const& others) {
+  auto const has = [&](Channel const* mine) {
+    return std::any_of(others.channels.begin(), others.channels.end(), [&](Channel const* theirs) {
+      return theirs->name == mine->name && shows(*some.run, *mine, *others.run, *theirs) &&
+             shows(*others.run, *theirs, *some.run, *mine);
+    });
+  };
+  return some.channels.size() == others.channels.size() && std::all_of(some.channels.begin(), some.channels.end(), has);
+}
+
+/// The runs with channels; the first alone where all have the same.
+std::vector<Picked> distinct(std::vector<Picked> runs) {
+  std::erase_if(runs, [](auto const& run) { return run.channels.empty(); });
+  bool const same = std::all_of(runs.begin(), runs.end(), [&](auto const& run) { return same_courses(runs[0], run); });
+  if (same && !runs.empty()) runs.erase(runs.begin() + 1, runs.end());
+  return runs;
+}
+
+/// All but counters, beside which flags and shares would be a line at 0; of each run where they were given otherwise.
+void add_inputs(std::vector<FigurePanel>& panels, std::vector<ShownRun> const& runs) {
+  auto const [start, end] = range_of(runs);
   for (auto const& unit : units_of(
-           {run}, [](auto const& d) -> auto const& { return d.inputs; })) {
-    TimeFigure figure(axis_text(quantity_of(unit), unit), start_of(run), end_of(run));
-    bool any = false;
-    for (auto const& input : run.data.inputs)
-      if (input.unit == unit && varies(input.values) && !input.name.ends_with(".revolutions")) {
-        auto const samples = samples_of(run, input.values);
-        if (is_held(input))
-          add_held(figure, input.name, samples);
-        else
-          figure.add(input.name, samples.time_s, samples.values);
-        any = true;
+           runs, [](auto const& d) -> auto const& { return d.inputs; })) {
+    std::set<std::string> names;
+    for (auto const& run : runs)
+      for (auto const& input : run.data.inputs)
+        if (input.unit == unit && varies(input.values) && !input.name.ends_with(".revolutions"))
+          names.insert(input.name);
+    if (names.empty()) continue;
+    std::vector<Picked> given;
+    for (auto const& run : runs) {
+      given.push_back({&run});
+      for (auto const& input : run.data.inputs)
+        if (input.unit == unit && names.contains(input.name)) given.back().channels.push_back(&input);
+    }
+    given = distinct(std::move(given));
+    CoursesOfRuns panel(TimeFigure(axis_text(quantity_of(unit), unit), start, end), given.size() > 1);
+    for (auto const& [run, inputs] : given)
+      for (auto const* input : inputs) {
+        auto const samples = samples_of(*run, input->values);
+        panel.add(input->name, *run, std::size_t(run - runs.data()), is_held(*input) ? held(samples) : samples);
       }
-    if (any) panels.push_back({"input_" + file_part(unit), figure.take()});
+    panels.push_back(panel.take("input_" + file_part(unit)));
+  }
+}
+
+/// A panel for each run that differs: over one another the sources of several were too many to tell apart.
+void add_heat(std::vector<FigurePanel>& panels, std::vector<ShownRun> const& runs) {
+  std::vector<Picked> made;
+  for (auto const& run : runs) {
+    made.push_back({&run});
+    for (auto const& source : run.data.heat)
+      if ((source.values.array() != 0.0).any()) made.back().channels.push_back(&source);
+  }
+  made = distinct(std::move(made));
+  for (auto const& [run, sources] : made) {
+    TimeFigure heat("Heat / W", start_of(*run), end_of(*run));
+    for (auto const* source : sources) {
+      auto const samples = samples_of(*run, source->values);
+      heat.add(source->name, samples.time_s, samples.values);
+    }
+    panels.push_back({made.size() > 1 ? "heat_" + run->path.stem().string() : "heat", heat.take()});
   }
 }
 
 void add_runs(std::vector<FigurePanel>& panels, std::vector<ShownRun> runs) {
   auto const measured = std::find_if(runs.begin(), runs.end(), [](auto const& run) { return !run.simulated; });
   if (measured != runs.end()) std::rotate(runs.begin(), measured, measured + 1);
-  add_inputs(panels, runs[0]);
+  add_inputs(panels, runs);
   add_group(
       panels, runs, "sensor_temperatures", [](auto const& d) -> auto const& { return d.readings; });
   add_group(
       panels, runs, "displacements", [](auto const& d) -> auto const& { return d.displacements; });
-  TimeFigure heat("Heat / W", start_of(runs[0]), end_of(runs[0]));
-  bool made = false;
-  for (auto const& channel : runs[0].data.heat)
-    if ((channel.values.array() != 0.0).any()) {
-      auto const samples = samples_of(runs[0], channel.values);
-      heat.add(channel.name, samples.time_s, samples.values);
-      made = true;
-    }
-  if (made) panels.push_back({"heat", heat.take()});
+  add_heat(panels, runs);
   for (auto const& run : runs)
     for (auto const& axis : run.data.positioning)
       panels.push_back({fmt::format("positioning_{}_{}", run.stem(), axis.axis), positioning(axis)});

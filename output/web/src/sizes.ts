@@ -2,26 +2,38 @@
  * What is drawn to the size of its element: once somebody has come near it, so that the page is there sooner, then
  * whenever that size changes, and all of it at once before the page is printed.
  */
-const drawings = new Map<Element, () => void>();
+class Drawings {
+  private readonly all = new Map<Element, () => void>();
+  private readonly size = new ResizeObserver((entries) => entries.forEach(({target}) => this.all.get(target)?.()));
+  private readonly near = new IntersectionObserver((entries) => entries.forEach(({target, isIntersecting}) => {
+    if (!isIntersecting) return;
+    this.near.unobserve(target);
+    this.size.observe(target);
+  }), {rootMargin: '800px'});
 
-const size = new ResizeObserver((entries) => entries.forEach(({target}) => drawings.get(target)?.()));
-const near = new IntersectionObserver((entries) => entries.forEach(({target, isIntersecting}) => {
-  if (!isIntersecting) return;
-  near.unobserve(target);
-  size.observe(target);
-}), {rootMargin: '800px'});
+  add(element: Element, draw: () => void): void {
+    this.all.set(element, draw);
+    this.near.observe(element);
+  }
 
-export function keepFitted(element: Element, draw: () => void): void {
-  drawings.set(element, draw);
-  near.observe(element);
+  draw(): void {
+    for (const draw of this.all.values()) draw();
+  }
+
+  end(): void {
+    this.size.disconnect();
+    this.near.disconnect();
+  }
 }
 
-export function fitAll(): void {
-  for (const draw of drawings.values()) draw();
-}
+let drawings: Drawings | null = null;
 
-/** Of a page that is drawn anew: they would be kept, with all their numbers. */
+export const keepFitted = (element: Element, draw: () => void): void => (drawings ??= new Drawings()).add(element, draw);
+
+export const fitAll = (): void => drawings?.draw();
+
+/** Of a page that is drawn anew: the window would keep what waits, with all its numbers. */
 export function forgetSizes(): void {
-  for (const observer of [size, near]) observer.disconnect();
-  drawings.clear();
+  drawings?.end();
+  drawings = null;
 }

@@ -102,6 +102,20 @@ TEST_F(FigurePanels, HoldTheNumbersOfTheDataSet) {
   EXPECT_EQ(panel(panels, "heat").lines.size(), 1U);
 }
 
+TEST_F(FigurePanels, ShowOfEveryDataSetWhatItWasGivenOtherwise) {
+  EXPECT_EQ(panel(figure_panels({written("a.h5", 0.0), written("b.h5", 1.0)}), "input_rpm").lines.size(), 1U);
+  auto data = warm_up(0.0);
+  data.inputs[0].values *= 1.5;
+  data.heat[0].values *= 1.2;
+  output::write(data, folder / "c.h5");
+  auto const panels = figure_panels({folder / "a.h5", folder / "b.h5", folder / "c.h5"});
+  auto const& speeds = panel(panels, "input_rpm").lines;
+  ASSERT_EQ(speeds.size(), 3U);
+  EXPECT_EQ(speeds[2].name, "spindle.speed, c");
+  EXPECT_DOUBLE_EQ(speeds[2].y.maxCoeff(), 6000.0);
+  EXPECT_NEAR(panel(panels, "heat_c").lines[0].y[180] / panel(panels, "heat_a").lines[0].y[180], 1.2, 1e-6);
+}
+
 TEST_F(FigurePanels, ResidualIsTheFirstLessTheOther) {
   auto const panels = figure_panels({written("a.h5", 0.0), written("b.h5", 1.5)});
   auto const& lines = panel(panels, "residual_sensor_temperatures_degC").lines;
@@ -115,7 +129,7 @@ TEST_F(FigurePanels, TheSameInOtherUnitsIsTheSame) {
   auto const panels = figure_panels({other, written("a.h5", 0.0)});
   EXPECT_THAT(names_of(panels),
               ElementsAre("input_rpm", "sensor_temperatures_degC", "residual_sensor_temperatures_degC",
-                          "displacements_um", "residual_displacements_um", "tilt_urad", "residual_tilt_urad"));
+                          "displacements_um", "residual_displacements_um", "tilt_urad", "residual_tilt_urad", "heat"));
   for (char const* name : {"residual_sensor_temperatures_degC", "residual_displacements_um", "residual_tilt_urad"}) {
     ASSERT_FALSE(panel(panels, name).lines.empty()) << name;
     for (auto const& line : panel(panels, name).lines) EXPECT_LT(line.y.cwiseAbs().maxCoeff(), 1e-9) << name;

@@ -50,7 +50,7 @@ export function coursesPanel(options: CoursesOptions): HTMLElement {
   const isChannel = (name: string | null): boolean => channels.some((c) => c.name === name);
   const styleOf = (i: number): LineStyle => courseStyles(channels.length, sets > 1, state.dark.value)[i]!;
   const colourOf = (i: number): string => styleOf(i).colour;
-  const byRun = (): boolean => sets > 1 && kind !== null && (channels.length === 1 || isChannel(chosen()));
+  const byRun = (): boolean => sets > 1 && (kind !== null || runs.length > 1) && (channels.length === 1 || isChannel(chosen()));
   const colourOfRun = (run: ShownRun): string => setColours(sets, state.dark.value)[run.index]!;
   /** Of a chip: the lines that its channel has. */
   const swatchOf = (i: number): string => {

@@ -1,4 +1,4 @@
-import {extent, rootMeanSquare, type Course} from '../course';
+import {extent, resampled, rootMeanSquare, type Course} from '../course';
 import {mean} from '../statistics';
 import type {Channel, Numbers, RunSet, RunsSection} from '../data';
 
@@ -42,6 +42,18 @@ export function runsOf(section: RunsSection, numbers: Numbers): Run[] {
     run.index = i;
   });
   return runs;
+}
+
+/** Whether one shows what the other does wherever it shows anything, to a thousandth of its largest value. */
+function shows(course: Course, other: Course): boolean {
+  const theirs = resampled(course, other.time), near = 1e-3 * Math.max(...extent([other.values]).map(Math.abs));
+  return Array.prototype.every.call(other.values, (value: number, i) => !Number.isFinite(value) || Math.abs(value - theirs[i]!) <= near);
+}
+
+/** Whether two lists have the same channels with the same courses. */
+export function sameCourses(some: NamedCourse[], others: NamedCourse[]): boolean {
+  return some.length === others.length && some.every((mine) => others.some((theirs) =>
+    theirs.name === mine.name && shows(mine, theirs) && shows(theirs, mine)));
 }
 
 export function timeRange(runs: Run[]): [number, number] {

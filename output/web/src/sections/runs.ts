@@ -6,10 +6,10 @@ import {MachineView} from '../machine_view';
 import type {PageState} from '../signal';
 import {timeBar} from '../time_bar';
 import {bodyPanel} from './body';
-import {coursesPanel, residualRuns} from './courses';
+import {coursesPanel, residualRuns, type ShownRun} from './courses';
 import {positioningPanels} from './positioning';
 import {misfitTable, misfitWords, residualMap} from './residuals';
-import {misfit, runsOf, shownInputs, tellingTime, timeRange, worst, type NamedCourse, type Run} from './run_data';
+import {misfit, runsOf, sameCourses, shownInputs, tellingTime, timeRange, worst, type NamedCourse, type Run} from './run_data';
 
 /** A unit in the name of a panel and of its file, as `figure` has it. */
 const filePart = (unit: string): string => unit.replace(/\W/g, '_');
@@ -18,12 +18,6 @@ const quantities: Record<string, string> = {
   rpm: 'Speed', 'mm/min': 'Feed', degC: 'Temperature', K: 'Temperature', W: 'Heat', um: 'Displacement', urad: 'Tilt',
   mm: 'Position', 'K/m': 'Gradient', '1': 'Setting',
 };
-
-function byUnit(channels: NamedCourse[]): Map<string, NamedCourse[]> {
-  const groups = new Map<string, NamedCourse[]>();
-  for (const channel of channels) groups.set(channel.unit, [...(groups.get(channel.unit) ?? []), channel]);
-  return groups;
-}
 
 /** Angles after lengths, whatever the file's order. */
 const order = (unit: string): number => Number(unit === 'urad');
@@ -34,22 +28,14 @@ function inputTitle(unit: string, channels: NamedCourse[]): string {
   return titles[unit] ?? channels[0]!.name;
 }
 
-/** Which data set a panel shows, where there are several. */
-export const ofRun = (run: Run, runs: Run[]): string => (runs.length > 1 ? `, ${run.name}` : '');
-
 /** One or several runs: the machine on one side, all courses on the other, one time for both. */
 export function runsSection(section: RunsSection, numbers: Numbers, state: PageState): HTMLElement {
-  const runs = runsOf(section, numbers), range = timeRange(runs), reference = runs[0]!;
+  const runs = runsOf(section, numbers), range = timeRange(runs);
   state.time.value = tellingTime(runs);
 
-  const inputs = [...byUnit(shownInputs(reference, numbers))].map(([unit, channels]) => coursesPanel({
-    title: `${inputTitle(unit, channels)}${ofRun(reference, runs)}`, file: `input_${filePart(unit)}`,
-    quantity: quantities[unit] ?? 'Value', runs: [{...reference, channels}], sets: runs.length, kind: null, state, range,
-    height: 152,
-  }));
   const machine = machineParts(section, numbers, runs, state);
-  const courses = make('div', {class: 'courses'}, ...inputs,
-    ...channelPanels(runs, state, range), ...heatPanel(reference, runs, state, range));
+  const courses = make('div', {class: 'courses'}, ...inputPanels(runs, numbers, state, range),
+    ...channelPanels(runs, state, range), ...heatPanels(runs, state, range));
   const below = [...positioningPanels(runs, numbers, state, range), factsPanel(runs)];
   if (runs.length > 1) chooseWorst(runs, state);
   return make('section', {class: 'runs', 'data-kind': 'runs'},
@@ -101,11 +87,31 @@ function channelPanels(runs: Run[], state: PageState, range: [number, number]): 
   return panels;
 }
 
-function heatPanel(run: Run, runs: Run[], state: PageState, range: [number, number]): HTMLElement[] {
-  const made = run.heat.filter((course) => Array.prototype.some.call(course.values, (v: number) => v !== 0));
-  if (made.length === 0) return [];
-  return [coursesPanel({title: `Heat given to the bodies${ofRun(run, runs)}`, file: 'heat', quantity: 'Heat',
-    runs: [{...run, channels: made}], sets: runs.length, kind: null, state, range, height: 220})];
+/** What the machine was given: once where all data sets were given the same, else of each, over one another. */
+function inputPanels(runs: Run[], numbers: Numbers, state: PageState, range: [number, number]): HTMLElement[] {
+  const given = runs.map((run) => ({...run, channels: shownInputs(run, numbers)}));
+  const units = [...new Set(given.flatMap((run) => run.channels.map((c) => c.unit)))];
+  return units.map((unit) => {
+    const [which, drawn] = distinct(given.map((run) => ({...run, channels: run.channels.filter((c) => c.unit === unit)})));
+    return coursesPanel({title: `${inputTitle(unit, drawn[0]!.channels)}${which}`, file: `input_${filePart(unit)}`,
+      quantity: quantities[unit] ?? 'Value', runs: drawn, sets: drawn.length > 1 ? runs.length : 1, kind: null, state, range, height: 152});
+  });
+}
+
+/** A panel for each data set that differs: over one another the sources of several were too many to tell apart. */
+function heatPanels(runs: Run[], state: PageState, range: [number, number]): HTMLElement[] {
+  const made = runs.map((run) => ({...run, channels: run.heat.filter((course) => Array.prototype.some.call(course.values, (v: number) => v !== 0))}));
+  const [which, drawn] = distinct(made);
+  return drawn.map((run) => coursesPanel({title: `Heat given to the bodies${drawn.length > 1 ? `, ${run.name}` : which}`,
+    file: drawn.length > 1 ? `heat_${run.name}` : 'heat', quantity: 'Heat', runs: [run], sets: 1, kind: null, state, range, height: 220}));
+}
+
+/** Of data sets those with channels, the first alone where all have the same; and whose they are, where one of several has any. */
+function distinct<R extends ShownRun>(runs: R[]): [string, R[]] {
+  const [first, ...others] = runs.filter((run) => run.channels.length > 0);
+  if (!first) return ['', []];
+  if (others.some((run) => !sameCourses(first.channels, run.channels))) return ['', [first, ...others]];
+  return [others.length === 0 && runs.length > 1 ? `, ${first.name}` : '', [first]];
 }
 
 /** With several data sets, the channel that disagrees most is chosen to begin with. */
