@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "output/dataset_file.h"
 #include "output/report_page.h"
@@ -45,6 +46,19 @@ LivePage::Paths files_of(fs::path const& folder) {
   });
   answers.insert(answers.end(), data.begin(), data.end());
   return answers;
+}
+
+/// InputError for what can never be shown, however long one waits.
+void refuse_never(fs::path const& path) {
+  static std::set<std::string> const shown = {".h5", ".partial", ".csv", ".toml", ".json"};
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return;
+  if (auto const folder = path.parent_path(); !folder.empty() && !fs::is_directory(folder, ignored))
+    throw thermal::InputError(fmt::format("{}: there is no folder {}", path.string(), folder.string()));
+  bool const may_become_folder = path.extension().empty() && !fs::exists(path, ignored);
+  if (!may_become_folder && !shown.contains(path.extension().string()))
+    throw thermal::InputError(
+        fmt::format("{} is neither a data set (.h5, .csv, .toml) nor an answer (.json) nor a folder", path.string()));
 }
 
 struct Found {
@@ -103,7 +117,9 @@ output::ReportPage page_of(Found const& found, fs::path const& machine) {
 
 }  // namespace
 
-LivePage::LivePage(Paths watched, fs::path machine) : watched_(std::move(watched)), machine_(std::move(machine)) {}
+LivePage::LivePage(Paths watched, fs::path machine) : watched_(std::move(watched)), machine_(std::move(machine)) {
+  for (auto const& path : watched_) refuse_never(path);
+}
 
 void LivePage::renew() {
   auto const found = look(watched_);

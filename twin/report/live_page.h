@@ -23,6 +23,7 @@ class LivePage {
  public:
   using Paths = std::vector<std::filesystem::path>;
 
+  /// InputError for what can never be shown: a file of another kind, one in a folder that is not there.
   explicit LivePage(Paths watched, std::filesystem::path machine = {});
 
   /// The page as it is now, HTML.

@@ -11,6 +11,7 @@
 #include "tests/output/page_reader.h"
 #include "tests/output/temporary_directory.h"
 #include "tests/twin/report/example_campaign.h"
+#include "thermal/error.h"
 #include "twin/progress_file.h"
 
 namespace thermotwin::twin {
@@ -53,6 +54,22 @@ TEST_F(Live, WaitsForWhatIsNotThereYet) {
   EXPECT_THAT(read.document["sections"][0]["title"].get<std::string>(), HasSubstr("run.h5 yet"));
   EXPECT_EQ(read.document["revision"], 1);
   EXPECT_FALSE(page.news(1));
+}
+
+TEST_F(Live, RefusesWhatCanNeverBeShown) {
+  auto const refusal = [](fs::path const& path) {
+    try {
+      LivePage const page({path});
+    } catch (thermal::InputError const& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  EXPECT_THAT(refusal(folder / "nope.txt"), HasSubstr("nope.txt is neither a data set (.h5, .csv, .toml) nor"));
+  EXPECT_THAT(refusal(folder / "nowhere" / "run.h5"), testing::EndsWith("nowhere"));
+  tests::put(folder / "notes", "");
+  EXPECT_THAT(refusal(folder / "notes"), HasSubstr("notes is neither"));
+  for (char const* name : {"run.h5", "study", "found.json"}) EXPECT_EQ(refusal(folder / name), "nothing");
 }
 
 TEST_F(Live, FollowsARunFromItsFirstRowToItsEnd) {

@@ -8,7 +8,6 @@ export function progressSection(section: ProgressSection): HTMLElement {
   return make('section', {class: 'progress', 'data-kind': 'progress'},
     make('section', {class: 'panel', 'data-panel': 'progress', 'aria-live': 'polite'},
       make('header', {}, make('h3', {}, section.title)),
-      steps.length === 0 && make('p', {class: 'words'}, 'It has begun.'),
       make('ol', {class: 'steps'}, ...steps.map((step, i) => {
         const strip = make('i', {class: 'bar'});
         strip.style.width = `${100 * (step.share ?? 0)}%`;
