@@ -81,15 +81,19 @@ std::string_view name_of_kind(std::filesystem::path const& file) {
 
 FileKind file_kind(Value const& document) { return most_likely_kind(document).kind; }
 
-void refuse_other_kind(Value const& document, FileKind due) {
+bool may_be(Value const& document, FileKind kind) {
   auto const& kinds = kinds_of_file();
-  auto const& kind = most_likely_kind(document);
-  auto const most = known_keys_in(document, kind);
-  auto const as_many = std::count_if(kinds.begin(), kinds.end(),
-                                     [&](auto const& other) { return known_keys_in(document, other) == most; });
-  if (kind.kind == due || as_many > 1) return;
-  throw FileError({document.where.file, 0, 0},
-                  fmt::format("is {}; {} is due", kind.name, kinds[std::size_t(due)].name));
+  auto const& likely = most_likely_kind(document);
+  auto const most = known_keys_in(document, likely);
+  return likely.kind == kind || std::count_if(kinds.begin(), kinds.end(), [&](auto const& other) {
+                                  return known_keys_in(document, other) == most;
+                                }) > 1;
+}
+
+void refuse_other_kind(Value const& document, FileKind due) {
+  if (may_be(document, due)) return;
+  throw FileError({document.where.file, 0, 0}, fmt::format("is {}; {} is due", most_likely_kind(document).name,
+                                                           kinds_of_file()[std::size_t(due)].name));
 }
 
 void refuse_to_replace(std::filesystem::path const& output, FileKind written) {

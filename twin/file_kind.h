@@ -14,8 +14,10 @@ enum class FileKind { experiment, campaign, error_model, study, measurement, can
 /// knows any.
 [[nodiscard]] FileKind file_kind(Value const& document);
 
-/// FileError "is a machine file; an experiment is due" where one other kind knows more of the document's keys than all
-/// the rest.
+/// Whether no other kind knows more of the document's keys than all the rest.
+[[nodiscard]] bool may_be(Value const& document, FileKind kind);
+
+/// FileError "is a machine file; an experiment is due" where it may not be one.
 void refuse_other_kind(Value const& document, FileKind due);
 
 /// InputError where a file of kind `written` would take the place of one of another kind, or of any other text; an

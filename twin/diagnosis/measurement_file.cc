@@ -13,6 +13,7 @@
 #include "twin/file/document.h"
 #include "twin/file/tables.h"
 #include "twin/file/temperature_limits.h"
+#include "twin/file_kind.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -207,11 +208,20 @@ void add_clocks(MeasurementFile const& file, MeasuredData& data) {
         data.clocks[reading.sensor] = std::filesystem::path(file.tables[t].file).filename().string();
 }
 
-/// Where it is named; empty: it is a name alone.
+bool may_be_machine(std::filesystem::path const& file) {
+  try {
+    return may_be(read_toml(file), FileKind::machine);
+  } catch (InputError const&) {  // told where the machine is read
+    return true;
+  }
+}
+
+/// Where it is named; empty: it is a name alone. What bears that name and is of another kind hides no shipped machine.
 std::filesystem::path file_of_machine(std::string const& named, std::filesystem::path const& directory) {
-  for (auto const& file : {directory / named, directory / (named + ".toml")})
-    if (!named.empty() && file.extension() == ".toml" && std::filesystem::is_regular_file(file)) return file;
-  return {};
+  if (named.empty()) return {};
+  auto const file = directory / named, beside = directory / (named + ".toml");
+  if (file.extension() == ".toml" && std::filesystem::is_regular_file(file)) return file;
+  return std::filesystem::is_regular_file(beside) && may_be_machine(beside) ? beside : std::filesystem::path();
 }
 
 /// As it calls itself, where its file is named.

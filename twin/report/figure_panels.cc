@@ -82,17 +82,25 @@ class TimeFigure {
   Figure figure_;
 };
 
-double start_of(ShownRun const& run) { return run.data.time_s.size() > 0 ? run.data.time_s[0] : 0.0; }
+bool varies(Eigen::VectorXd const& values) {
+  return values.size() > 0 && !(values.array() == values[0]).all() && values.array().isFinite().any();
+}
+
+/// The first row in which anything is shown: a measurement may begin long after its run.
+double start_of(ShownRun const& run) {
+  auto const& data = run.data;
+  for (Eigen::Index row = 0; row < data.time_s.size(); ++row)
+    for (auto const* channels : {&data.inputs, &data.readings, &data.displacements})
+      for (auto const& channel : *channels)
+        if (std::isfinite(channel.values[row]) && varies(channel.values)) return data.time_s[row];
+  return data.time_s.size() > 0 ? data.time_s[0] : 0.0;
+}
 double end_of(ShownRun const& run) { return run.data.time_s.size() > 0 ? run.data.time_s.tail(1)[0] : 1.0; }
 
 std::pair<double, double> range_of(std::vector<ShownRun> const& runs) {
   std::pair range{start_of(runs[0]), end_of(runs[0])};
   for (auto const& run : runs) range = {std::min(range.first, start_of(run)), std::max(range.second, end_of(run))};
   return range;
-}
-
-bool varies(Eigen::VectorXd const& values) {
-  return values.size() > 0 && !(values.array() == values[0]).all() && values.array().isFinite().any();
 }
 
 /// Units in order of appearance, angles last.

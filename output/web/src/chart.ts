@@ -195,6 +195,9 @@ export function cells(xEdges: number[], yEdges: number[], colour: (column: numbe
   return (u) => {
     const at = (value: number, scale: string): number => Math.round(u.valToPos(value, scale, true));
     u.ctx.save();
+    u.ctx.beginPath();
+    u.ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
+    u.ctx.clip();
     for (let i = 0; i + 1 < xEdges.length; ++i)
       for (let j = 0; j + 1 < yEdges.length; ++j) {
         const fill = colour(i, j);

@@ -8,6 +8,7 @@
 #include "tests/scenarios/refusal.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "twin/diagnosis/measured_data.h"
+#include "twin/diagnosis/measurement_file.h"
 
 /// What a measurement file makes of the tables that it names.
 namespace thermotwin::twin {
@@ -338,6 +339,16 @@ TEST_F(MeasurementFileTest, TheMachineIsNamedAsItCallsItself) {
               Contains(HasSubstr("it is a run of 'g200'")));
   EXPECT_THAT(read(with(whole, "machine = \"tclab\"", "machine = \"lathe.toml\"")).remarks,
               Contains("it is a run of 'lathe.toml', but there is no such file beside it"));
+}
+
+/// "g200.toml" beside it may be the measurement of that machine.
+TEST_F(MeasurementFileTest, AFileOfAnotherKindHidesNoShippedMachine) {
+  write_tables();
+  put(folder / "g200.toml", whole);
+  put(folder / "run.toml", with(whole, "machine = \"tclab\"", "machine = \"g200\""));
+  EXPECT_EQ(read_measurement_file(folder / "run.toml").machine_file, std::filesystem::path());
+  put(folder / "g200.toml", "name = \"board\"\n");
+  EXPECT_EQ(read_measurement_file(folder / "run.toml").machine_file, folder / "g200.toml");
 }
 
 TEST_F(MeasurementFileTest, TimeMayNotRunBackwards) {

@@ -56,8 +56,13 @@ export function sameCourses(some: NamedCourse[], others: NamedCourse[]): boolean
     theirs.name === mine.name && shows(mine, theirs) && shows(theirs, mine)));
 }
 
-export function timeRange(runs: Run[]): [number, number] {
-  return extent(runs.map((run) => [run.time[0] ?? 0, run.time[run.time.length - 1] ?? 1]));
+/** From the first row in which anything is shown: a measurement may begin long after its run. */
+export function timeRange(runs: Run[], numbers: Numbers): [number, number] {
+  return extent(runs.map((run) => {
+    const shown = [...run.readings, ...run.displacements, ...shownInputs(run, numbers).filter((c) => c.time === run.time)];
+    const first = run.time.findIndex((_, row) => shown.some((c) => Number.isFinite(c.values[row])));
+    return [run.time[Math.max(0, first)] ?? 0, run.time[run.time.length - 1] ?? 1];
+  }));
 }
 
 const derived = /\.(running|time_running|revolutions)$|^time_of_day$|^clock\.|\.stroke_|reference_height|^(?!spindle)\w+\.(speed|duty)$/;

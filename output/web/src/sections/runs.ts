@@ -30,7 +30,7 @@ function inputTitle(unit: string, channels: NamedCourse[]): string {
 
 /** One or several runs: the machine on one side, all courses on the other, one time for both. */
 export function runsSection(section: RunsSection, numbers: Numbers, state: PageState): HTMLElement {
-  const runs = runsOf(section, numbers), range = timeRange(runs);
+  const runs = runsOf(section, numbers), range = timeRange(runs, numbers);
   state.time.value = tellingTime(runs);
 
   const machine = machineParts(section, numbers, runs, state);
@@ -54,7 +54,7 @@ function machineParts(section: RunsSection, numbers: Numbers, runs: Run[], state
     quantity: 'Temperature / °C', caption: (t) => `${runs.length > 1 ? `${drawn.name}, ` : ''}t = ${timeText(t)}`,
   });
   const bodies = machine.field
-    ? bodyPanel(machine, bodyCourses(machine.field, numbers, drawn.time, machine.bodies.length), state, timeRange(runs))
+    ? bodyPanel(machine, bodyCourses(machine.field, numbers, drawn.time, machine.bodies.length), state, timeRange(runs, numbers))
     : null;
   return [view.element, bodies, ...remarks];
 }
