@@ -1,3 +1,5 @@
+#include "twin/diagnosis/measurement_file.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
