@@ -119,6 +119,8 @@ test('where and when the twin disagrees is told by regime, by speed and over tim
       assert.equal(rows[i]![heads.indexOf(name)], +part[name]!.toPrecision(7), `${name}, row ${i}`);
     assert.equal(rows[i]![heads.indexOf('significant')], Number(part.significant));
   });
+  await host.locator('.cell').first().click();
+  assert.equal(await host.locator('.told').textContent(), await host.locator('.cell').first().getAttribute('title'));
   assert.deepEqual(complaints, []);
   await page.close();
 });

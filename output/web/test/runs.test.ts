@@ -23,6 +23,20 @@ test('the machine is drawn, in many colours', async () => {
   await page.close();
 });
 
+test('every sensor on the machine has its name, on a narrow screen too, and no two names lie on one another', async () => {
+  for (const width of [1440, 390]) {
+    const {page} = await openReport('run', width);
+    const names = await page.locator('.sensor .name').evaluateAll((all) => all.map((name) => {
+      const {left, right, top, bottom} = name.getBoundingClientRect();
+      return {left, right, top, bottom};
+    }));
+    assert.ok(names.length > 5 && names.every(({left, right}) => right > left), `a name is missing at ${width} px`);
+    names.forEach((a, i) => names.slice(i + 1).forEach((b) =>
+      assert.ok(a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top, `two names are one at ${width} px`)));
+    await page.close();
+  }
+});
+
 test('the slider changes time, colours and values', async () => {
   const {page, complaints} = await openReport('run');
   const value = page.locator('[data-panel="sensor_temperatures_degC"] [data-channel="T1"] .value');

@@ -13,9 +13,13 @@ const key = (d: Disagreement): string => `${d.run} ${d.channel} ${d.cut} ${d.par
 export function disagreementPanel(before: Disagreement[], after: Disagreement[]): HTMLElement {
   const left = new Map(after.map((d) => [key(d), d]));
   const shown = Object.keys(cuts).filter((cut) => before.some((d) => d.cut === cut));
-  const host = make('div', {class: 'scroll'});
+  const told = make('p', {class: 'words told', 'aria-live': 'polite'});
+  const host = make('div', {class: 'scroll', onclick: (event) => {
+    told.textContent = (event.target as Element).closest<HTMLElement>('.cell')?.title ?? '';
+  }});
   const chips = shown.map((cut) => make('button', {class: 'chip', 'data-cut': cut, onclick: () => show(cut)}, cuts[cut]!));
   const show = (cut: string): void => {
+    told.textContent = '';
     shown.forEach((c, i) => chips[i]!.setAttribute('aria-pressed', String(c === cut)));
     const parts = before.filter((d) => d.cut === cut), runs = [...new Set(parts.map((d) => d.run))];
     host.replaceChildren(...(cut === 'time' ? runs.map((run) => table(parts.filter((d) => d.run === run), left)) : [table(parts, left)]));
@@ -28,9 +32,9 @@ export function disagreementPanel(before: Disagreement[], after: Disagreement[])
     {name: 'rms', values: before.map((d) => d.rms)}, {name: 'power', values: before.map((d) => d.power)},
     {name: 'p_value', values: before.map((d) => d.p_value)}, {name: 'significant', values: before.map((d) => Number(d.significant))},
     {name: 'power_after', values: before.map((d) => left.get(key(d))?.power ?? NaN)},
-  ], make('div', {class: 'chips'}, ...chips), host,
+  ], make('div', {class: 'chips'}, ...chips), host, told,
   colourBar(gradient(cividis), [0, 0.5, 1, 1.5, 2], 'log₁₀ of the power of the residual; noise alone: 0'),
-  make('p', {class: 'words'}, 'Mean of measured minus twin, before any effect was added. Bold: significant at a rate of false discoveries of 1 %. Point at a number for its power, before and after.'));
+  make('p', {class: 'words'}, 'Mean of measured minus twin, before any effect was added. Bold: significant at a rate of false discoveries of 1 %. Point at a number or touch it for its power, before and after.'));
 }
 
 function table(all: Disagreement[], left: Map<string, Disagreement>): HTMLElement {

@@ -75,6 +75,6 @@ export function misfitTable(runs: {name: string; misfits: Misfit[]}[], state: Pa
       {name: 'largest', values: all.map((m) => m.largest)}, {name: 'offset', values: all.map((m) => m.offset)},
       {name: 'rms_offset_taken_off', values: all.map((m) => m.spread)}];
   }, make('div', {class: 'scroll'}, make('table', {}, make('tr', {}, runs.length > 1 && make('th', {}, 'pair'),
-    make('th', {}, 'channel'), make('th', {}),
+    make('th', {}, 'channel'), make('th', {class: 'wide'}),
     ...['RMS', 'largest', 'offset', 'RMS, offset taken off'].map((head) => make('th', {class: 'number'}, head))), ...rows)));
 }
