@@ -202,7 +202,9 @@ class Drawing {
   FigureFrame draw() {
     draw_grid();
     cairo_save(pen_);
-    cairo_rectangle(pen_, frame_.left, frame_.top, frame_.right - frame_.left, frame_.bottom - frame_.top);
+    double const edge = half_of_widest();
+    cairo_rectangle(pen_, frame_.left, frame_.top - edge, frame_.right - frame_.left,
+                    frame_.bottom - frame_.top + 2.0 * edge);
     cairo_clip(pen_);
     for (auto const& band : figure_.bands) draw_band(band);
     for (auto const& line : figure_.lines) draw_line(line);
@@ -265,6 +267,13 @@ class Drawing {
     ink(line.colour);
     cairo_set_line_width(pen_, line.width);
     cairo_set_dash(pen_, line.dashes.data(), int(line.dashes.size()), 0.0);
+  }
+
+  /// A curve along the edge of the frame is as wide as any other.
+  [[nodiscard]] double half_of_widest() const {
+    double widest = 0.0;
+    for (auto const& line : figure_.lines) widest = std::max(widest, line.width);
+    return 0.5 * widest;
   }
 
   void draw_line(FigureLine const& line) {

@@ -118,12 +118,13 @@ class CoursesOfRuns {
  public:
   CoursesOfRuns(TimeFigure figure, bool several) : figure_(std::move(figure)), several_(several) {}
 
-  void add(std::string const& channel, ShownRun const& run, std::size_t r, Samples const& samples) {
+  /// `of`: what bears the channel, where there are several.
+  void add(std::string const& channel, std::string const& of, std::size_t r, Samples const& samples) {
     static std::vector<std::vector<double>> const dashes = {{}, {4.0, 2.0}, {1.0, 1.5}, {6.0, 2.0, 1.0, 2.0}};
     auto const known = std::find(names_.begin(), names_.end(), channel);
     auto const i = std::size_t(known - names_.begin());
     if (known == names_.end()) names_.push_back(channel);
-    auto const name = several_ ? fmt::format("{}, {}", channel, run.stem()) : channel;
+    auto const name = several_ ? fmt::format("{}, {}", channel, of) : channel;
     auto& line = figure_.add(name, samples.time_s, samples.values);
     output::set_style(line, i);
     if (!several_) return;
@@ -148,7 +149,7 @@ FigurePanel courses(std::vector<ShownRun> const& runs, Channels channels, std::s
   CoursesOfRuns panel(TimeFigure(axis_text(quantity_of(unit), unit), start, end), runs.size() > 1);
   for (std::size_t r = 0; r < runs.size(); ++r)
     for (auto const& channel : channels(runs[r].data))
-      if (channel.unit == unit) panel.add(channel.name, runs[r], r, samples_of(runs[r], channel.values));
+      if (channel.unit == unit) panel.add(channel.name, runs[r].stem(), r, samples_of(runs[r], channel.values));
   return panel.take(name);
 }
 
@@ -156,9 +157,11 @@ FigurePanel courses(std::vector<ShownRun> const& runs, Channels channels, std::s
 FigurePanel residuals(std::vector<ShownRun> const& runs, Channels channels, std::string const& unit,
                       std::string const& name) {
   auto const& reference = runs[0].data;
-  CoursesOfRuns panel(
-      TimeFigure(axis_text("Residual", unit == "degC" ? "K" : unit), start_of(runs[0]), end_of(runs[0])),
-      runs.size() > 2);
+  auto const difference = [&](std::size_t r) { return fmt::format("{} − {}", runs[0].stem(), runs[r].stem()); };
+  bool const pair = runs.size() == 2;
+  CoursesOfRuns panel(TimeFigure(axis_text(pair ? difference(1) : "Residual", unit == "degC" ? "K" : unit),
+                                 start_of(runs[0]), end_of(runs[0])),
+                      !pair);
   for (std::size_t r = 1; r < runs.size(); ++r) {
     if (!driven_alike(runs[0], runs[r])) continue;
     for (auto const& mine : channels(reference))
@@ -166,7 +169,7 @@ FigurePanel residuals(std::vector<ShownRun> const& runs, Channels channels, std:
         if (mine.unit != unit || other.unit != unit || other.name != mine.name) continue;
         auto const theirs = samples_of(runs[r], other.values);
         Eigen::VectorXd const left = mine.values - output::at_times(theirs.values, theirs.time_s, reference.time_s);
-        panel.add(mine.name, runs[r], r, samples_of(runs[0], left));
+        panel.add(mine.name, difference(r), r, samples_of(runs[0], left));
       }
   }
   return panel.take(name);
@@ -277,7 +280,8 @@ void add_inputs(std::vector<FigurePanel>& panels, std::vector<ShownRun> const& r
     for (auto const& [run, inputs] : given)
       for (auto const* input : inputs) {
         auto const samples = samples_of(*run, input->values);
-        panel.add(input->name, *run, std::size_t(run - runs.data()), is_held(*input) ? held(samples) : samples);
+        panel.add(input->name, run->stem(), std::size_t(run - runs.data()),
+                  is_held(*input) ? held(samples) : samples);
       }
     panels.push_back(panel.take("input_" + file_part(unit)));
   }
@@ -298,7 +302,7 @@ void add_heat(std::vector<FigurePanel>& panels, std::vector<ShownRun> const& run
       auto const samples = samples_of(*run, source->values);
       heat.add(source->name, samples.time_s, samples.values);
     }
-    panels.push_back({made.size() > 1 ? "heat_" + run->path.stem().string() : "heat", heat.take()});
+    panels.push_back({made.size() > 1 ? "heat_" + run->stem() : "heat", heat.take()});
   }
 }
 

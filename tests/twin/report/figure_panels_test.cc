@@ -118,6 +118,7 @@ TEST_F(FigurePanels, ShowOfEveryDataSetWhatItWasGivenOtherwise) {
 
 TEST_F(FigurePanels, ResidualIsTheFirstLessTheOther) {
   auto const panels = figure_panels({written("a.h5", 0.0), written("b.h5", 1.5)});
+  EXPECT_EQ(panel(panels, "residual_sensor_temperatures_degC").y_label, "a − b / K");
   auto const& lines = panel(panels, "residual_sensor_temperatures_degC").lines;
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_TRUE((lines[0].y.array() + 1.5).abs().maxCoeff() < 1e-9);
@@ -163,8 +164,8 @@ TEST_F(FigurePanels, RunsHaveTheirDashesAndOfOneChannelTheirColours) {
   auto const panels = figure_panels(files);
   auto const& lines = panel(panels, "residual_sensor_temperatures_degC").lines;
   ASSERT_EQ(lines.size(), 4U);
-  EXPECT_EQ(lines[0].name, "T1, b");
-  EXPECT_EQ(lines[2].name, "T1, c");
+  EXPECT_EQ(lines[0].name, "T1, a − b");
+  EXPECT_EQ(lines[2].name, "T1, a − c");
   EXPECT_EQ(lines[0].colour, lines[2].colour);
   EXPECT_NE(lines[0].dashes, lines[2].dashes);
   EXPECT_EQ(lines[0].dashes, panel(panels, "sensor_temperatures_degC").lines[2].dashes);
