@@ -280,8 +280,7 @@ void add_inputs(std::vector<FigurePanel>& panels, std::vector<ShownRun> const& r
     for (auto const& [run, inputs] : given)
       for (auto const* input : inputs) {
         auto const samples = samples_of(*run, input->values);
-        panel.add(input->name, run->stem(), std::size_t(run - runs.data()),
-                  is_held(*input) ? held(samples) : samples);
+        panel.add(input->name, run->stem(), std::size_t(run - runs.data()), is_held(*input) ? held(samples) : samples);
       }
     panels.push_back(panel.take("input_" + file_part(unit)));
   }
