@@ -199,20 +199,23 @@ TEST(Run, AReducedRunIsStoppedAtOnce) {
   EXPECT_FALSE(fs::exists(directory / "run.h5"));
 }
 
-/// What reads measurements writes nothing before its end, and may be stopped at any time.
+/// What reads measurements writes nothing before its end: at a step of a fit it says so, before the first one it just
+/// ends.
 TEST(Commands, DiagnosisIsStoppedAtOnce) {
   TemporaryDirectory const directory;
   auto const data = (directory / "run.h5").string(), amended = (directory / "amended.toml").string();
   answer(program + " run golden_b_4000 -q -o " + data);
+  auto const is_stopped = [](int status) {
+    return WIFEXITED(status) ? WEXITSTATUS(status) == 130 : WTERMSIG(status) == SIGINT;
+  };
   int status = 0;
-  for (int wait = 200; wait > 0 && !WIFSIGNALED(status); wait /= 2) {  // on a machine that is faster, earlier
+  for (int wait = 200; wait > 0 && !is_stopped(status); wait /= 2) {  // on a machine that is faster, earlier
     auto const soon = std::chrono::steady_clock::now() + std::chrono::milliseconds(wait);
     fs::remove(amended);
     status = stopped_when([&] { return std::chrono::steady_clock::now() > soon; },
                           {program, "diagnose", "v450", data, "-o", amended});
   }
-  ASSERT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(WTERMSIG(status), SIGINT);
+  EXPECT_TRUE(is_stopped(status));
   EXPECT_FALSE(fs::exists(amended));
 }
 
