@@ -20,7 +20,6 @@ constexpr int most_effects = 8;
 constexpr double open_loop = 0.2;          // share of free growth
 constexpr double closed_law = 0.25;        // of the prior that laws have where they are open
 constexpr double number_comes_back = 2.0;  // strictness with an effect, where one had left the file without
-constexpr double error_of_form = 0.02;     // of a signature
 constexpr std::size_t most_refits = 24, most_rivals = 3, whitened_at_once = 32;
 // What a fit in full may yet make enough, of a threshold: of a score's evidence, and of that after a few steps.
 constexpr double hopeful_score = 0.3, hopeful_refit = 0.5;
@@ -54,11 +53,6 @@ bool has_closed_laws(std::vector<UncertainNumber> const& numbers) {
   return has_drawings(numbers) &&
          std::any_of(numbers.begin(), numbers.end(), [](auto const& number) { return number.of_law; });
 }
-
-/// How many times too large 2 ln of one name against another is where both explain about that much: a signature s,
-/// |s|² = strength, is what the machine does but for a share ε, which adds ε² |s|² to the whitened noise's variance of 1
-/// along what the two differ by.
-double scatter_of(double strength) { return 1.0 + error_of_form * error_of_form * strength; }
 
 Eigen::VectorXd shorter(Eigen::VectorXd const& x, Eigen::Index gone) {
   Eigen::VectorXd rest(x.size() - 1);
@@ -371,7 +365,7 @@ std::vector<EffectSearch::Refit> EffectSearch::refits_in_place_of(std::size_t ef
 
 Explanation EffectSearch::explanation_of(std::vector<Refit> const& refits) const {
   Explanation explanation;
-  double const too_large = std::sqrt(strictness_of_name()) * scatter_of(refits.front().strength);
+  double const too_large = std::sqrt(strictness_of_name());
   for (auto const& refit : refits) {
     Finding finding{.hypothesis = refit.hypothesis, .strength = refit.strength};
     finding.take(refit.amplitude, refit.standard_error, geometry_);

@@ -10,8 +10,9 @@ namespace {
 
 constexpr double credible = 0.95;
 constexpr std::size_t most_alternatives = 3;
-constexpr double lump_limit = 0.1;     // Biot number
-constexpr double conductivity = 20.0;  // of a body of several parts [W/(m K)]
+constexpr double error_of_form = 0.02;  // of a signature
+constexpr double lump_limit = 0.1;      // Biot number
+constexpr double conductivity = 20.0;   // of a body of several parts [W/(m K)]
 
 /// h at the Biot number up to which a body is a lump [W/(m² K)]; without end for one that is cut into cells.
 double strongest_film(std::string const& body, thermal::Geometry const& geometry) {
@@ -19,6 +20,11 @@ double strongest_film(std::string const& body, thermal::Geometry const& geometry
   if (found == geometry.end() || found->cells.size() != 1) return INFINITY;
   return lump_limit * conductivity / (std::cbrt(thermal::volume(found->cells[0])) / 6.0);
 }
+
+/// How many times too large 2 ln of one name against another is where both explain about that much: a signature s,
+/// |s|² = strength, is what the machine does but for a share ε, which adds ε² |s|² to the whitened noise's variance of 1
+/// along what the two differ by.
+double scatter_of(double strength) { return 1.0 + error_of_form * error_of_form * std::max(0.0, strength); }
 
 }  // namespace
 
@@ -58,7 +64,7 @@ std::string Finding::interval_text(std::string const& unit) const {
 
 void Explanation::add(Finding const& finding, double too_large) {
   double const first = alternatives.empty() ? finding.strength : alternatives[0].strength;
-  double const weight = std::exp(0.5 * std::min(0.0, finding.strength - first) / too_large);
+  double const weight = std::exp(0.5 * std::min(0.0, finding.strength - first) / (too_large * scatter_of(first)));
   auto const same = std::find_if(alternatives.begin(), alternatives.end(), [&](Finding const& other) {
     return other.hypothesis.effect == finding.hypothesis.effect;
   });

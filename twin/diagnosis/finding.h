@@ -49,8 +49,9 @@ struct Explanation {
   std::vector<Finding> alternatives;
 
   /// One more place of an effect. Its weight against the first, exp of half of what their strengths differ by and no
-  /// more than 1, goes to the name: the most evident place, to be added first, speaks for it. `too_large`: how many
-  /// times too large their 2 ln are taken to be.
+  /// more than 1, goes to the name: the most evident place, to be added first, speaks for it. What they differ by is
+  /// divided by 1 + 0.02² S, S the first's strength, for no signature is known to better than 2 %; and by `too_large`,
+  /// how many times too large their 2 ln are taken to be.
   void add(Finding const& finding, double too_large);
   /// Weights add up to 1, and no more names are kept than hold what is missing with a probability of 95 %; three at
   /// most.
