@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <string>
 
 #include "tests/output/temporary_directory.h"
@@ -19,5 +20,12 @@ inline std::string recorded(std::string const& channel) {
 
 /// The lumped machine with one thing more.
 inline std::string machine_with(std::string const& table) { return contents(twin::machine_file("v450")) + table; }
+
+/// A shipped machine with one text in place of another, its first.
+inline std::string machine_changed(std::string const& name, std::string const& old, std::string const& fresh) {
+  auto text = contents(twin::machine_file(name));
+  EXPECT_NE(text.find(old), std::string::npos) << old;
+  return text.replace(text.find(old), old.size(), fresh);
+}
 
 }  // namespace thermotwin::tests

@@ -16,6 +16,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 using thermotwin::tests::contents;
+using thermotwin::tests::machine_changed;
 using thermotwin::tests::machine_with;
 using thermotwin::tests::put;
 using thermotwin::tests::TemporaryDirectory;
@@ -105,10 +106,7 @@ TEST(MachineMistakes, AFilmLeadsToAFluid) {
 /// A shaft cannot be its own outer ring.
 TEST(MachineMistakes, RefusesABearingOnOneBody) {
   TemporaryDirectory const folder;
-  auto text = contents(machine_file("v450"));
-  std::string const ring = "outer = \"front_ring\"";
-  text.replace(text.find(ring), ring.size(), "outer = \"shaft[300 mm .. 320 mm]\"");
-  put(folder / "mine.toml", text);
+  put(folder / "mine.toml", machine_changed("v450", "outer = \"front_ring\"", "outer = \"shaft[300 mm .. 320 mm]\""));
   EXPECT_THAT(
       check_files({folder / "mine.toml"})[0].mistake,
       MatchesRegex(".*mine.toml:225:9: 'shaft.*' and 'shaft\\[300 mm .. 320 mm\\]' are on one body; 'inner' and "
@@ -211,10 +209,8 @@ TEST(MachineMistakes, RefusesPlacesThatNoSensorCanHave) {
               HasSubstr("sensor 'both': one in the room, 'ambient', has no other place"));
 }
 
-/// vmc850 with one text in place of another, its first.
 std::string milling_centre(std::string const& old, std::string const& fresh) {
-  auto text = contents(machine_file("vmc850"));
-  return text.replace(text.find(old), old.size(), fresh);
+  return machine_changed("vmc850", old, fresh);
 }
 
 TEST(MachineMistakes, RefusesASupportBearingThatDrivesTwice) {
@@ -271,10 +267,7 @@ TEST(MachineMistakes, RefusesAnAxisThatTheMachineHasNot) {
               HasSubstr("mine.toml:369:8: the machine has no axis 'Z'; did you mean 'z'?"));
   EXPECT_THAT(mistake(milling_centre("[[ball_nut]]", "[[ball_nut]]\naxis = \"w\"")),
               HasSubstr("mine.toml:159:8: the machine has no axis 'w'; known: 'z'"));
-  auto text = contents(machine_file("mill200"));
-  std::string const with_axis = "screw = \"x_screw\"\naxis = \"x\"\n";
-  text.replace(text.find(with_axis), with_axis.size(), "screw = \"x_screw\"\n");
-  EXPECT_THAT(mistake(text),
+  EXPECT_THAT(mistake(machine_changed("mill200", "screw = \"x_screw\"\naxis = \"x\"\n", "screw = \"x_screw\"\n")),
               HasSubstr("mine.toml:178:1: 'axis' is not given: the machine has no axis 'z'; known: 'x'"));
   EXPECT_THAT(mistake(milling_centre("speed = \"z.speed\"", "speed = \"Z.speed\"")),
               HasSubstr("mine.toml:294:9: 'Z.speed': the machine has no axis 'Z'; did you mean 'z'?"));

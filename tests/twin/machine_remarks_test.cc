@@ -17,16 +17,14 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::SizeIs;
 using thermotwin::tests::contents;
+using thermotwin::tests::machine_changed;
 using thermotwin::tests::machine_with;
 using thermotwin::tests::put;
 using thermotwin::tests::TemporaryDirectory;
 
 TEST(MachineRemarks, WarnsOfWhatIsNotPlausible) {
   TemporaryDirectory const folder;
-  auto text = contents(machine_file("v450"));
-  std::string const factor = "grease_factor = 0.55";
-  text.replace(text.find(factor), factor.size(), "grease_factor = 55");
-  put(folder / "machine.toml", text);
+  put(folder / "machine.toml", machine_changed("v450", "grease_factor = 0.55", "grease_factor = 55"));
   auto const check = check_files({folder / "machine.toml"})[0];
   EXPECT_EQ(check.mistake, "");
   EXPECT_THAT(check.warnings,
@@ -37,9 +35,7 @@ TEST(MachineRemarks, WarnsOfWhatIsNotPlausible) {
 TEST(MachineRemarks, WarnsOfUnitsThatSlipped) {
   TemporaryDirectory const folder;
   auto const warnings = [&](std::string const& from, std::string const& to) {
-    auto text = contents(machine_file("v450"));
-    EXPECT_NE(text.find(from), std::string::npos) << from;
-    put(folder / "mine.toml", text.replace(text.find(from), from.size(), to));
+    put(folder / "mine.toml", machine_changed("v450", from, to));
     auto const check = check_files({folder / "mine.toml"})[0];
     EXPECT_EQ(check.mistake, "") << to;
     return check.warnings;
@@ -64,10 +60,7 @@ TEST(MachineRemarks, WarnsOfUnitsThatSlipped) {
 
 TEST(MachineRemarks, WarnsOfAnInputThatNearlyHasAKnownName) {
   TemporaryDirectory const folder;
-  auto text = contents(machine_file("vmc850"));
-  std::string const speed = "speed = \"z.speed\"";
-  text.replace(text.find(speed), speed.size(), "speed = \"zspeed\"");
-  put(folder / "machine.toml", text);
+  put(folder / "machine.toml", machine_changed("vmc850", "speed = \"z.speed\"", "speed = \"zspeed\""));
   auto const check = check_files({folder / "machine.toml"})[0];
   EXPECT_EQ(check.mistake, "");
   EXPECT_THAT(check.warnings,
@@ -125,9 +118,7 @@ TEST(MachineRemarks, DoubtsANutWithAnotherLeadThanItsAxis) {
 
 TEST(MachineRemarks, CountsInWholeNumbers) {
   TemporaryDirectory const folder;
-  auto text = contents(machine_file("v450"));
-  text.replace(text.find("count = 2"), 9, "count = 2.5");
-  put(folder / "machine.toml", text);
+  put(folder / "machine.toml", machine_changed("v450", "count = 2", "count = 2.5"));
   EXPECT_THAT(check_files({folder / "machine.toml"})[0].mistake,
               MatchesRegex(".*machine.toml:[0-9]+:[0-9]+: 'count' is 2.5; a whole number is due"));
 }

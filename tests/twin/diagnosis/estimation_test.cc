@@ -264,6 +264,28 @@ TEST(Estimation, FindsThatTheRoomsRecordIsLate) {
   EXPECT_GT(literal.fit(literal.prior_mean()).cost, fit.cost + 100.0);
 }
 
+/// A v450 that felt this air [K] through 20 h, while the room's sensor recorded another.
+MeasuredRun in_another_air(VectorXd const& time, VectorXd const& felt, VectorXd const& recorded) {
+  auto experiment = tests::experiment(R"(
+    duration = "20 h"
+    [spindle]
+    blocks = [{duration = "6 h", speed = "3000 rpm"}, {duration = "5 h", speed = "0 rpm"},
+              {duration = "9 h", speed = "2000 rpm"}])");
+  experiment.driven.push_back(
+      {{"ambient.temperature", "K", "felt"},
+       scenarios::Signal({time.begin(), time.end()}, {felt.begin(), felt.end()}, scenarios::Interpolation::linear)});
+  Machine machine = Machine::build(v450());
+  for (auto& sensor : machine.sensors) sensor.description.lag = 30.0;
+  auto dataset = run(machine, experiment, {}).dataset;
+  FirstOrderLag const record(time, recorded, 0.0);
+  for (auto& input : dataset.inputs)
+    if (input.name == "ambient.temperature")
+      input.values = dataset.time_s.unaryExpr([&](double t) { return record.at(t) - 273.15; });
+  auto measured = measured_run(dataset, machine, "in a hall");
+  tests::add_noise(measured, kelvin, metres, 5);
+  return measured;
+}
+
 /// Half of what painted surfaces exchange with a room is radiation, and walls are not as warm as the air. This machine
 /// feels 0.6 of the air and 0.4 of walls that follow it by six hours; recorded is the air.
 TEST(Estimation, FindsThatSurfacesSeeWallsThatFollowTheAirSlowly) {
@@ -273,24 +295,8 @@ TEST(Estimation, FindsThatSurfacesSeeWallsThatFollowTheAirSlowly) {
   auto const angle = 2.0 * std::numbers::pi * time.array();
   Eigen::VectorXd const air = 294.15 + 2.0 * (angle / day).sin() + (angle / door).sin();
   FirstOrderLag const walls(time, air, 6.0 * 3600.0);
-  std::vector<double> felt(std::size_t(rows), 0.0);
-  for (Index i = 0; i < rows; ++i) felt[std::size_t(i)] = 0.6 * air[i] + 0.4 * walls.at(time[i]);
-  auto experiment = tests::experiment(R"(
-    duration = "20 h"
-    [spindle]
-    blocks = [{duration = "6 h", speed = "3000 rpm"}, {duration = "5 h", speed = "0 rpm"},
-              {duration = "9 h", speed = "2000 rpm"}])");
-  experiment.driven.push_back({{"ambient.temperature", "K", "felt"},
-                               scenarios::Signal({time.begin(), time.end()}, felt, scenarios::Interpolation::linear)});
-  Machine machine = Machine::build(v450());
-  for (auto& sensor : machine.sensors) sensor.description.lag = 30.0;
-  auto dataset = run(machine, experiment, {}).dataset;
-  FirstOrderLag const recorded(time, air, 0.0);
-  for (auto& input : dataset.inputs)
-    if (input.name == "ambient.temperature")
-      input.values = dataset.time_s.unaryExpr([&](double t) { return recorded.at(t) - 273.15; });
-  auto measured = measured_run(dataset, machine, "in a hall");
-  tests::add_noise(measured, kelvin, metres, 5);
+  VectorXd const felt = 0.6 * air + 0.4 * time.unaryExpr([&](double t) { return walls.at(t); });
+  auto measured = in_another_air(time, felt, air);
   auto const noise = tests::noise_of(measured, kelvin, metres);
   std::vector<BinnedRun> const data = {bin(measured, 300.0)};
   Estimation const estimation(v450(), data, tests::channels_of(measured), noise);
@@ -313,23 +319,7 @@ TEST(Estimation, FindsADailyCycleOfTheAirThatTheRoomsSensorDoesNotTell) {
   auto const angle = 2.0 * std::numbers::pi * time.array();
   Eigen::VectorXd const air = 294.15 + (angle / day).sin() + (angle / door).sin();
   Eigen::VectorXd const felt = air.array() + 0.25 * (angle / day).cos();
-  auto experiment = tests::experiment(R"(
-    duration = "20 h"
-    [spindle]
-    blocks = [{duration = "6 h", speed = "3000 rpm"}, {duration = "5 h", speed = "0 rpm"},
-              {duration = "9 h", speed = "2000 rpm"}])");
-  experiment.driven.push_back(
-      {{"ambient.temperature", "K", "felt"},
-       scenarios::Signal({time.begin(), time.end()}, {felt.begin(), felt.end()}, scenarios::Interpolation::linear)});
-  Machine machine = Machine::build(v450());
-  for (auto& sensor : machine.sensors) sensor.description.lag = 30.0;
-  auto dataset = run(machine, experiment, {}).dataset;
-  FirstOrderLag const recorded(time, air, 0.0);
-  for (auto& input : dataset.inputs)
-    if (input.name == "ambient.temperature")
-      input.values = dataset.time_s.unaryExpr([&](double t) { return recorded.at(t) - 273.15; });
-  auto measured = measured_run(dataset, machine, "at another wall");
-  tests::add_noise(measured, kelvin, metres, 5);
+  auto const measured = in_another_air(time, felt, air);
   auto const noise = tests::noise_of(measured, kelvin, metres);
   std::vector<BinnedRun> const data = {bin(measured, 300.0)};
   Estimation const estimation(v450(), data, tests::channels_of(measured), noise);
