@@ -9,7 +9,7 @@
 namespace thermotwin::twin {
 
 /// Standard error of an estimate, from the one that the fit states: 1.2 of that, and a tenth of the estimate, which is
-/// what a machine of some ten nodes gets wrong by its form, however clear the data are (docs/diagnosis.md).
+/// what a machine of some ten nodes gets wrong by its form, however clear the data are (docs/diagnosis_record.md).
 [[nodiscard]] double whole_error(double of_fit, double estimate);
 
 /// Whether an amplitude, in units of its largest, is as much as is plausible: the fit would have more.
