@@ -75,14 +75,6 @@ std::string fingerprint_of(ErrorModelRun const& run) {
   return print.text();
 }
 
-MeasuredRun without_machine(MeasuredData const& data) {
-  MeasuredRun run;
-  run.time = data.time;
-  run.remarks = data.remarks;
-  run.channels = channels_of(data, run.remarks);
-  return run;
-}
-
 /// Which of these rows lack a value, counted in them.
 std::vector<Index> lacking(output::Channel const& channel, std::vector<Index> const& rows) {
   std::vector<Index> without;
@@ -178,7 +170,7 @@ RecordedRun read_recorded_run(std::filesystem::path const& path, std::optional<d
   auto const file = whole ? output::read(path) : output::Dataset();
   auto const data = whole ? measured_data(file) : read_measured_data(path);
   try {
-    auto run = twin ? measured_run(data, *twin, result.file) : without_machine(data);
+    auto run = twin ? measured_run(data, *twin, result.file) : measured_run(data, result.file);
     result.remarks = run.remarks;
     double const own = usual_interval({run.time.data(), std::size_t(run.time.size())});
     if (sampling && *sampling < own * (1.0 - 1e-6))

@@ -32,7 +32,7 @@ struct RecordedRun {
   void believe_still(std::vector<std::string> const& sensors);
 
   /// Of a run that an observer of this machine follows: InputError where it is of another one, whatever the names of
-  /// sensors and inputs; a remark where it begins warm, and the observer with the room.
+  /// sensors and inputs; a remark where it begins warm, and an observer of few sensors with the room.
   void admit_observer(std::string const& observed);
 };
 

@@ -619,7 +619,7 @@ TEST_F(FitObserver, IsOfItsMachineOnly) {
 
 TEST_F(FitObserver, SaysThatItBeginsWithTheRoom) {
   auto const file = put_run(tests::without_first(20, train_), "late.csv");
-  auto const remark = HasSubstr("late.csv: the observer is not told how warm it was: it begins with the room");
+  auto const remark = HasSubstr("late.csv: it begins warm: an observer of fewer than four sensors is not told how warm");
   auto const saved = observing(file, "twin observer", {"T1"});
   EXPECT_THAT(remarks_, Contains(remark));
   EXPECT_THAT(predict_error(saved, file).remarks, Contains(remark));

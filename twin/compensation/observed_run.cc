@@ -115,7 +115,10 @@ Eigen::VectorXd observed_error(TwinObserver const& observer, MeasuredRun const& 
 }
 
 std::string observer_remark(MeasuredRun const& run) {
-  return run.warm_start ? "the observer is not told how warm it was: it begins with the room" : std::string();
+  return run.warm_start
+             ? "it begins warm: an observer of fewer than four sensors is not told how warm, and begins with the "
+               "room"
+             : std::string();
 }
 
 }  // namespace thermotwin::twin

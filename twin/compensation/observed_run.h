@@ -31,7 +31,8 @@ namespace thermotwin::twin {
 [[nodiscard]] Eigen::VectorXd observed_error(TwinObserver const& observer, MeasuredRun const& run,
                                              std::optional<double> sampling);
 
-/// What is to be said of a measured run that an observer follows: that it begins with the room, where the run does not.
+/// What is to be said of a measured run that an observer follows: that one of few sensors begins with the room, where
+/// the run does not.
 /// Empty otherwise.
 [[nodiscard]] std::string observer_remark(MeasuredRun const& run);
 

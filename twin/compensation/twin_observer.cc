@@ -168,11 +168,57 @@ void TwinObserver::start_in_air(std::span<double const> values) {
     state_[i] = network.state_of_temperature(i, network.signals()[std::size_t(i)] ? 0.0 : temperatures[i]);
 }
 
+/// What is known of a machine that is as warm as the air around it, and what its sensors show beyond that.
+RunBegin TwinObserver::begin(std::span<double const> readings) const {
+  auto const& network = machine_.network();
+  RunBegin begin;
+  for (int i = 0; i < network.nodes(); ++i) begin.rest.push_back(network.temperature_of_state(i, state_[i]));
+  begin.given.assign(std::size_t(network.given_channels()), 0.0);
+  begin.standing = begin.given;
+  for (std::size_t i = 0; i < std::size_t(network.external_channels()); ++i) {
+    auto const& channel = channels_[i];
+    auto const input =
+        std::find_if(inputs_.begin(), inputs_.end(), [&](auto const& one) { return one.name == channel.name; });
+    bool const is_temperature = input != inputs_.end() && input->unit == "degC";
+    begin.given[i] = channel.value;
+    if (is_temperature || channel.name.starts_with("ambient.") || channel.name == "machine.on")
+      begin.standing[i] = channel.value;
+  }
+  auto& [names, weights, rise] = begin.first;
+  weights.setZero(Index(sensors_.size()), network.nodes());
+  rise.resize(Index(sensors_.size()));
+  for (std::size_t j = 0; j < sensors_.size(); ++j) {
+    auto const& sensor = machine_.sensors[sensors_[j]];
+    if (std::isnan(readings[j])) continue;
+    auto const row = Index(names.size());
+    names.push_back(sensor.description.name);
+    for (auto const& [node, weight] : sensor.weights) weights(row, node) += weight;
+    rise[row] = readings[j] + thermal::zero_celsius - seen(sensor.weights);
+  }
+  weights.conservativeResize(Index(names.size()), Eigen::NoChange);
+  rise.conservativeResize(Index(names.size()));
+  return begin;
+}
+
+/// From a start in the air.
+void TwinObserver::start_warm(std::span<double const> values) {
+  auto const begun = begin(values.last(sensors_.size()));
+  auto const warmth = warm_start(machine_, begun);
+  if (!warmth) return;
+  auto const& network = machine_.network();
+  VectorXd const warmer = warmth->fields * warmth->likely;
+  for (int i = 0; i < network.nodes(); ++i)
+    if (!network.signals()[std::size_t(i)])
+      state_[i] = network.state_of_temperature(i, begun.rest[std::size_t(i)] + warmer[i]);
+  covariance_ = warmth->fields * warmth->spread * warmth->fields.transpose();
+}
+
 void TwinObserver::start(double time, std::span<double const> values) {
   set_channels(values);
   for (auto& channel : channels_) channel.first = channel.value;
   start_in_air(values);
   covariance_ = MatrixXd::Zero(state_.size(), state_.size());
+  start_warm(values);
   zero_readings_ = VectorXd::Map(values.data(), Index(values.size())).tail(Index(sensors_.size()));
   for (std::size_t const s : sensors_) zero_seen_.push_back(seen(machine_.sensors[s].weights));
   zero_displaced_ = displaced();

@@ -9,6 +9,7 @@
 
 #include "thermal/evaluation.h"
 #include "twin/compensation/model_input.h"
+#include "twin/diagnosis/warm_start.h"
 #include "twin/machine.h"
 
 namespace thermotwin::twin {
@@ -30,8 +31,10 @@ struct ObserverOptions {
 /// order 2), its sensors taken one by one. The error is what a displacement channel makes of its nodes, or a ball screw
 /// of them at one of its positions.
 ///
-/// The machine is at the temperature of the air around it when the first readings come; readings count as changes since
-/// then, so that constant offsets of the sensors do not matter. A sensor that is first heard later is taken to have
+/// The machine is at the temperature of the air around it when the first readings come, unless four of them or more say
+/// that it is not: one that was switched on again while warm begins with what its sensors tell of every node, and how
+/// well (warm_start.h). Readings count as changes since then, so that constant offsets of the sensors do not matter. A
+/// sensor that is first heard later is taken to have
 /// changed by what the twin says its place has. One that is not believed is left out, and the twin goes on; an input
 /// that is missing leaves it without an estimate.
 class TwinObserver {
@@ -65,6 +68,8 @@ class TwinObserver {
   void list_sensors(std::optional<std::vector<std::string>> const& names);
   void start(double time, std::span<double const> values);
   void start_in_air(std::span<double const> values);
+  void start_warm(std::span<double const> values);
+  [[nodiscard]] RunBegin begin(std::span<double const> readings) const;
   void set_channels(std::span<double const> values);
   [[nodiscard]] double given(std::string const& name, std::span<double const> values, double otherwise) const;
   [[nodiscard]] double floor_air(std::span<double const> values) const;  ///< at the machine's zero [K]

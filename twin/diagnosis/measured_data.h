@@ -64,14 +64,20 @@ struct RecordGap {
   bool operator==(RecordGap const&) const = default;
 };
 
+/// What drives a machine, and cannot be supposed, is not in the data.
+class MissingInputs : public thermal::InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// Adds the inputs as a course: what is not recorded follows from the rest (scenarios/course.h), axes without a record
 /// stand still, machine and drives are on, the coolant is off; remarks say so. And what may have been given instead in
 /// gaps (input_gap.h).
 ///
-/// InputError that lists the inputs that the machine needs and that cannot be supposed: the spindle's speed, the air's
-/// temperature, and whatever has a name of the machine's own; for a speed beyond the machine's; for a unit that
-/// contradicts the channel. Of a measurement file with its place; and there for a channel whose name is nearly one that
-/// is read and not given. Others that nothing reads are told.
+/// MissingInputs that lists the inputs that the machine needs and that cannot be supposed: the spindle's speed, the
+/// air's temperature, and whatever has a name of the machine's own. InputError for a speed beyond the machine's; for a
+/// unit that contradicts the channel. Of a measurement file with its place; and there for a channel whose name is
+/// nearly one that is read and not given. Others that nothing reads are told.
 void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine);
 
 /// The machine's channels that the data have, in SI and in the machine's order. A value that no sensor shows (below
@@ -90,6 +96,9 @@ void add_courses(MeasuredRun& run, MeasuredData data, Machine const& machine);
 
 /// What they tell of a channel that is dead since all its readings are one value.
 [[nodiscard]] std::string remark_of_still(std::string const& channel);
+
+/// A run of no machine: what its channels showed, without what drove it.
+[[nodiscard]] MeasuredRun measured_run(MeasuredData const& data, std::string const& name);
 
 /// Both together. InputError when the run has less than ten rows.
 [[nodiscard]] MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string const& name);

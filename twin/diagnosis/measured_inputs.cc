@@ -154,9 +154,9 @@ void check_needs(MeasuredData const& data, Machine const& machine) {
     auto const hint = thermal::meant_name(name, own ? given : known);
     if (!hint.empty()) hints += fmt::format("; '{}': {} '{}'?", name, own ? "is it" : "did you mean", hint);
   }
-  throw InputError(fmt::format("the machine '{}' needs inputs that the data lack: {}; the data have {}{}", machine.name,
-                               fmt::join(missing, ", "),
-                               given.empty() ? "none" : fmt::format("{}", fmt::join(given, ", ")), hints));
+  throw MissingInputs(fmt::format("the machine '{}' needs inputs that the data lack: {}; the data have {}{}",
+                                  machine.name, fmt::join(missing, ", "),
+                                  given.empty() ? "none" : fmt::format("{}", fmt::join(given, ", ")), hints));
 }
 
 void check_motion(MeasuredData const& data, Machine const& machine) {

@@ -75,6 +75,15 @@ double usual_interval(std::span<double const> times) {
   return models::upper_median(std::move(intervals));
 }
 
+MeasuredRun measured_run(MeasuredData const& data, std::string const& name) {
+  MeasuredRun run;
+  run.name = name;
+  run.time = data.time;
+  run.remarks = data.remarks;
+  run.channels = channels_of(data, run.remarks);
+  return run;
+}
+
 MeasuredRun measured_run(MeasuredData data, Machine const& machine, std::string const& name) {
   Eigen::Index const rows = data.time.size();
   if (rows < fewest_rows)

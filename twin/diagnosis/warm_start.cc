@@ -38,13 +38,6 @@ std::vector<double> at_rest(Machine const& machine, MeasuredRun const& run) {
   return initial_temperatures(machine, start, *run.course);
 }
 
-/// What first readings differ by from those at rest, and what they show of a field.
-struct FirstReadings {
-  std::vector<std::string> sensors;
-  MatrixXd weights;  ///< H, sensor × node
-  VectorXd rise;     ///< d [K]
-};
-
 FirstReadings first_readings(Machine const& machine, MeasuredRun const& run, std::vector<double> const& rest) {
   auto const readings = readings_of(machine, run);
   std::vector<double> inputs(run.course->channels().size());
@@ -96,11 +89,12 @@ std::vector<double> input_at_begin(thermal::Network const& network, MeasuredRun 
 }
 
 /// t: how much warmer the machine is than at rest when it has stood for long [K]. Nothing where it does not settle.
-VectorXd rise_of_standing(Machine const& machine, MeasuredRun const& run, std::vector<double> const& rest) {
+VectorXd rise_of_standing(Machine const& machine, RunBegin const& begin) {
   auto const& network = machine.network();
+  auto const& rest = begin.rest;
   VectorXd rise = VectorXd::Zero(network.nodes());
   try {
-    auto const steady = thermal::steady_state(network, input_at_begin(network, run, true), rest);
+    auto const steady = thermal::steady_state(network, begin.standing, rest);
     for (Index i = 0; i < rise.size(); ++i)
       if (!network.signals()[std::size_t(i)]) rise[i] = steady[std::size_t(i)] - rest[std::size_t(i)];
   } catch (thermal::IntegrationError const&) {
@@ -110,12 +104,11 @@ VectorXd rise_of_standing(Machine const& machine, MeasuredRun const& run, std::v
 }
 
 /// K, at rest with what the run is given where it begins.
-MatrixXd conductances(Machine const& machine, MeasuredRun const& run, std::vector<double> const& rest) {
+MatrixXd conductances(Machine const& machine, RunBegin const& begin) {
   auto const& network = machine.network();
-  auto const input = input_at_begin(network, run, false);
-  auto const state = thermal::start_of_run(network, rest, 0.0).state;
+  auto const state = thermal::start_of_run(network, begin.rest, 0.0).state;
   auto const capacity = VectorXd::Map(network.capacity().data(), network.nodes());
-  MatrixXd const jacobian = thermal::Evaluation(network).jacobian(state.data(), input.data());
+  MatrixXd const jacobian = thermal::Evaluation(network).jacobian(state.data(), begin.given.data());
   MatrixXd const K = -(capacity.asDiagonal() * jacobian);
   return 0.5 * (K + K.transpose());
 }
@@ -223,15 +216,14 @@ MatrixXd WarmStart::fields_in(thermal::Network const& network) const {
   return result;
 }
 
-std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run, bool another_has_past) {
+std::optional<WarmStart> warm_start(Machine const& machine, RunBegin const& begin, bool another_has_past) {
   auto const& network = machine.network();
   if (network.nodes() > most_nodes) return {};
-  auto const rest = at_rest(machine, run);
-  auto const first = first_readings(machine, run, rest);
+  auto const& first = begin.first;
   MatrixXd cov = covariance_of_rest(first.rise.size());
   double const asked = another_has_past ? 0.0 : evident_gain;
   if (first.rise.size() < fewest_sensors || most_gain(cov, first.rise) < asked) return {};
-  VectorXd standing = rise_of_standing(machine, run, rest);
+  VectorXd standing = rise_of_standing(machine, begin);
   VectorXd const seen = first.weights * standing;
   bool const stood =
       seen.cwiseAbs().maxCoeff() >= least_field && credible_root(cov, seen, first.rise, another_has_past) > 0.0;
@@ -239,7 +231,7 @@ std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& r
     cov += seen * seen.transpose();
   else
     standing.setZero();
-  MatrixXd const F = root_of_inverse(conductances(machine, run, rest), network.signals());
+  MatrixXd const F = root_of_inverse(conductances(machine, begin), network.signals());
   MatrixXd const past = credible_root(cov, first.weights * F, first.rise, stood || another_has_past) * F;
   MatrixXd fields(network.nodes(), past.cols() + 1);
   fields << past, standing;
@@ -248,13 +240,25 @@ std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& r
     if (fields.col(k).cwiseAbs().maxCoeff() > least_field) kept.push_back(k);
   if (kept.empty()) return {};
   MatrixXd const shown = first.weights * past;
-  VectorXd const unlikely = Eigen::LLT<MatrixXd>(cov + shown * shown.transpose()).solve(first.rise);
+  Eigen::LLT<MatrixXd> const factor(cov + shown * shown.transpose());
   WarmStart result;
   for (int i = 0; i < network.nodes(); ++i) result.nodes.push_back(network.node_name(i));
   result.fields = fields(Eigen::all, kept);
-  result.likely = result.fields.transpose() * first.weights.transpose() * unlikely;
+  MatrixXd const seen_fields = first.weights * result.fields;
+  result.likely = seen_fields.transpose() * factor.solve(first.rise);
+  result.spread = -seen_fields.transpose() * factor.solve(seen_fields);
+  result.spread.diagonal().array() += 1.0;
   result.farthest = farthest(first);
   return result;
+}
+
+std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run, bool another_has_past) {
+  auto const& network = machine.network();
+  auto const rest = at_rest(machine, run);
+  return warm_start(machine,
+                    {rest, input_at_begin(network, run, false), input_at_begin(network, run, true),
+                     first_readings(machine, run, rest)},
+                    another_has_past);
 }
 
 std::vector<double> start_of(Machine const& machine, MeasuredRun const& run) {

@@ -32,6 +32,7 @@ struct WarmStart {
   std::vector<std::string> nodes;
   Eigen::MatrixXd fields;  ///< node × field, √κ F and t, the columns that are more than next to nothing [K]
   Eigen::VectorXd likely;  ///< E[b | d]
+  Eigen::MatrixXd spread;  ///< cov[b | d]
   std::string farthest;    ///< of d, for people: "T1 +6.4 K, T2 +6.3 K, T5 +6.0 K"
 
   /// The fields in a machine that has these nodes and perhaps more, as a mass that was left out: what else it has is as
@@ -39,9 +40,28 @@ struct WarmStart {
   [[nodiscard]] Eigen::MatrixXd fields_in(thermal::Network const& network) const;
 };
 
-/// Nothing where a run has a past before its readings, or where its machine may have been at rest: unless t or some κ
-/// gains 11 of 2 ln of the likelihood over none, whichever sensor is left out. Where another run of the machine does
-/// not begin at rest, any gain suffices, and of κ where this one has stood. `run` has its course and channels.
+/// What a machine's sensors on bodies read where a run begins.
+struct FirstReadings {
+  std::vector<std::string> sensors;
+  Eigen::MatrixXd weights;  ///< H, sensor × node: what they show of a field
+  Eigen::VectorXd rise;     ///< d [K]
+};
+
+/// What is known where a run begins.
+struct RunBegin {
+  std::vector<double> rest;      ///< of every node, at rest with its room [K]
+  std::vector<double> given;     ///< to the network [SI]
+  std::vector<double> standing;  ///< of that, what a machine that stands is given: temperatures and the room
+  FirstReadings first;
+};
+
+/// Nothing where the machine may have been at rest: unless t or some κ gains 11 of 2 ln of the likelihood over none,
+/// whichever sensor is left out. Where `another_has_past`, another run of the machine that does not begin at rest, any
+/// gain suffices, and of κ where this one has stood.
+[[nodiscard]] std::optional<WarmStart> warm_start(Machine const& machine, RunBegin const& begin,
+                                                  bool another_has_past = false);
+
+/// The same of a run, which has its course and channels. Nothing where it has a past before its readings.
 [[nodiscard]] std::optional<WarmStart> warm_start(Machine const& machine, MeasuredRun const& run,
                                                   bool another_has_past = false);
 

@@ -64,12 +64,13 @@ class WorldReader {
 
 std::vector<std::string> WorldReader::candidates() const {
   std::vector<std::string> known;
-  for (auto const& sensor : runs_.machine.sensors) known.push_back(sensor.description.name);
+  for (auto const& sensor : runs_.sensors) known.push_back(sensor.name);
   if (world_.sensors.empty()) return known;
   for (auto const& name : world_.sensors)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw thermal::InputError(
-          fmt::format("the machine has no sensor '{}'; {}", name, thermal::did_you_mean(name, known)));
+      throw thermal::InputError(fmt::format("{} has no sensor '{}'; {}",
+                                            runs_.machine ? "the machine" : world_.train.front(), name,
+                                            thermal::did_you_mean(name, known)));
   return world_.sensors;
 }
 
@@ -188,8 +189,8 @@ void WorldReader::check_instants() const {
 std::vector<std::string> WorldReader::components() const {
   std::vector<std::string> result;
   for (auto const& name : data_.sensors)
-    for (auto const& sensor : runs_.machine.sensors)
-      if (sensor.description.name == name) result.push_back(sensor.description.component);
+    for (auto const& sensor : runs_.sensors)
+      if (sensor.name == name) result.push_back(sensor.component);
   return result;
 }
 
@@ -250,8 +251,7 @@ StudyRun WorldReader::run_of(output::Dataset const& data, std::string const& nam
 WorldData WorldReader::read() {
   data_.sensors = candidates();
   check_sensors();
-  auto const displacements = displacement_channels(runs_.machine);
-  data_.unit = world_.slope() ? "um/m" : find_channel(displacements, world_.error)->unit;
+  data_.unit = runs_.unit;
   auto const names = run_names();
   for (auto const& repetition : runs_.runs) {
     bool const first = data_.train.empty();

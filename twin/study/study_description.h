@@ -48,7 +48,8 @@ struct StudyWorld {
   static void fields(Fields& f) {
     namespace dimension = thermal::dimension;
     f.name("name", &StudyWorld::name, "as the table shall call it");
-    f.name("machine", &StudyWorld::machine, "name of a machine, or its file");
+    f("machine", &StudyWorld::machine,
+      "name of a machine, or its file; left out: measured runs alone, without twins, thermal modes and experiments");
     f("set", &StudyWorld::changes,
       "parameters of the machine to change, as run --set: \"bearing.front.grease_factor=2\"");
     f("add", &StudyWorld::added, "tables to add to the machine, as they would stand in its file");
@@ -58,7 +59,7 @@ struct StudyWorld {
       Range{0.0});
     f.name("error", &StudyWorld::error,
            "displacement channel, or \"slope x\" for the slope of axis x's position error in the laser's passes");
-    f("sensors", &StudyWorld::sensors, "candidates; default: all of the machine");
+    f("sensors", &StudyWorld::sensors, "candidates; default: all of the machine, or of the first run in 'train'");
     f("sampling", &StudyWorld::sampling, dimension::time,
       "interval of the readings, more than 0; measured ones are averaged over it, which must not be finer than the "
       "record's own; default: the experiment's, 1 min",

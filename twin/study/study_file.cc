@@ -42,6 +42,9 @@ void check_items(Value const& table, std::string const& key, std::vector<std::st
 void check_world(Value const& table, StudyWorld const& world) {
   check_items(table, "train", world.train, [](auto const&) {});
   if (!world.sensors.empty()) check_items(table, "sensors", world.sensors, [](auto const&) {});
+  for (auto const* key : {"set", "add"})
+    if (world.machine.empty() && table.find(key))
+      throw FileError(where_of(table, key), fmt::format("'{}' changes a machine; give 'machine', too", key));
   if (world.split && (world.train.size() != 1 || !world.test.empty()))
     throw FileError(where_of(table, "split"),
                     fmt::format("'split' cuts one run; here are {} in 'train' and {} in 'test'", world.train.size(),

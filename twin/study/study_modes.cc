@@ -26,7 +26,7 @@ std::vector<double> within(std::vector<RunPart> const& parts, Eigen::VectorXd co
 }
 
 OperatingState state_of(StudyWorld const& world, WorldData const& data, std::vector<RunPart> const& parts) {
-  auto const& machine = data.runs->machine;
+  auto const& machine = *data.runs->machine;
   auto const run = parts.front().run;
   auto const& rows = data.train.front()[run].seen.time;
   if (auto const& measured = data.runs->measured[run]) {
@@ -52,7 +52,8 @@ std::vector<RunPart> of_first_run(std::vector<RunPart> const& parts) {
 }
 
 ModeShapes mode_shapes(StudyWorld const& world, WorldData const& data, std::vector<RunPart> const& parts) {
-  auto const& machine = data.runs->machine;
+  if (!data.runs->machine) return {{}, std::string(no_machine)};
+  auto const& machine = *data.runs->machine;
   std::vector<Index> rows;
   for (auto const& name : data.sensors)
     for (std::size_t s = 0; s < machine.sensors.size(); ++s)

@@ -250,9 +250,10 @@ std::string study_text(StudyReport const& report) {
   std::string text = report.description.title + "\n";
   for (std::size_t w = 0; w < report.units.size(); ++w) {
     auto const& world = report.description.worlds[w];
-    text += fmt::format("\n{}: {} of {} [{}], {} run{} to train on{}, {} to test on, {}\n\n", world.name, world.error,
-                        world.machine, report.units[w], world.train.size(), world.train.size() == 1 ? "" : "s",
-                        world.fit == "each" ? ", one model each" : "", world.split ? 1 : world.test.size(),
+    text += fmt::format("\n{}: {}{} [{}], {} run{} to train on{}, {} to test on, {}\n\n", world.name, world.error,
+                        world.machine.empty() ? "" : " of " + world.machine, report.units[w], world.train.size(),
+                        world.train.size() == 1 ? "" : "s", world.fit == "each" ? ", one model each" : "",
+                        world.split ? 1 : world.test.size(),
                         report.repetitions[w] == 1 ? "measured once" : fmt::format("{} seeds", report.repetitions[w]));
     auto const rows = of_world(report.rows, world.name);
     text += selection_table(report, world.name) + "\n" + combination_table(rows);

@@ -10,6 +10,7 @@
 #include "thermal/course_inputs.h"
 #include "thermal/nearest_name.h"
 #include "thermal/physical_constant.h"
+#include "twin/diagnosis/measured_data.h"
 #include "twin/diagnosis/measured_run.h"
 #include "twin/experiment_file.h"
 #include "twin/file/document.h"
@@ -68,12 +69,14 @@ Value changed_machine(StudyWorld const& world, Value document) {
   return document;
 }
 
-/// What a world asks for: the machine and the runs, by file.
+/// What a world asks for: the machine, if it names one, and the runs, by file.
 struct Order {
   StudyWorld const* world;
-  Value nominal;
-  Machine machine;
   std::vector<Source> sources;
+  Value nominal{};
+  std::optional<Machine> machine{};
+  std::vector<WorldSensor> sensors{};
+  std::string unit{};
 };
 
 template <class Action>
@@ -108,12 +111,14 @@ std::vector<Source> sources_of(StudyWorld const& world, fs::path const& director
 }
 
 /// Before hours of runs.
-void check_error(StudyWorld const& world, Machine const& machine) {
-  if (world.slope()) return;
-  auto const known = names_of(displacement_channels(machine));
-  if (std::find(known.begin(), known.end(), world.error) == known.end())
-    throw thermal::InputError(fmt::format("the machine has no displacement '{}'; {}", world.error,
-                                          thermal::did_you_mean(world.error, known)));
+std::string unit_of_error(StudyWorld const& world, std::vector<output::Channel> const& displacements,
+                          std::string const& whose) {
+  if (world.slope()) return "um/m";
+  auto const* channel = find_channel(displacements, world.error);
+  if (!channel)
+    throw thermal::InputError(fmt::format("{} has no displacement '{}'; {}", whose, world.error,
+                                          thermal::did_you_mean(world.error, names_of(displacements))));
+  return thermal::dimension_of(channel->unit) == thermal::dimension::angle ? "urad" : "um";
 }
 
 scenarios::Experiment experiment_of(Order const& order, Source const& source) {
@@ -128,9 +133,9 @@ void check_experiments(Order const& order) {
     if (source.measured) continue;
     try {
       auto const experiment = experiment_of(order, source);
-      check_laser(order.machine, experiment);
-      scenarios::ExperimentCourse const course(experiment, order.machine.limits);
-      thermal::CourseInputs const inputs(order.machine.network(), course);
+      check_laser(*order.machine, experiment);
+      scenarios::ExperimentCourse const course(experiment, order.machine->limits);
+      thermal::CourseInputs const inputs(order.machine->network(), course);
     } catch (thermal::InputError const& error) {
       auto const complaint = located_in(read_toml(source.file), error);
       throw about(*order.world, fmt::format("'{}': {}", source.file.filename().string(), complaint.what()));
@@ -138,16 +143,41 @@ void check_experiments(Order const& order) {
   }
 }
 
-Order order_of(StudyWorld const& world, fs::path const& directory) {
+void take_machine(Order& order, fs::path const& directory) {
+  auto const& world = *order.world;
   Value const nominal = in_world(world, [&] { return nominal_machine(world, directory); });
-  Order order{&world, nominal, machine_of(world, nominal), {}};
+  order.machine = machine_of(world, nominal);
+  for (auto const& sensor : order.machine->sensors)
+    order.sensors.push_back({sensor.description.name, sensor.description.component});
   in_world(world, [&] {
-    check_error(world, order.machine);
-    order.sources = sources_of(world, directory);
-    if (std::all_of(order.sources.begin(), order.sources.end(), [](auto& source) { return source.measured; }))
-      order.nominal = changed_machine(world, nominal);
+    order.unit = unit_of_error(world, displacement_channels(*order.machine), "the machine");
+    bool const simulated = std::any_of(order.sources.begin(), order.sources.end(), [](auto& s) { return !s.measured; });
+    order.nominal = simulated ? nominal : changed_machine(world, nominal);
   });
   check_experiments(order);
+}
+
+/// A world that names no machine knows what its first run shows.
+void take_first_run(Order& order) {
+  auto const& world = *order.world;
+  for (auto const& source : order.sources)
+    if (!source.measured)
+      throw FileError(world.table.is_table() ? source.named : Location{},
+                      fmt::format("world '{}': '{}' is an experiment; give the 'machine' that is put through it",
+                                  world.name, source.file.stem().string()));
+  in_world(world, [&] {
+    auto const data = read_measured_data(order.sources.front().file);
+    for (auto const& sensor : data.readings) order.sensors.push_back({sensor.name, sensor.name});
+    order.unit = unit_of_error(world, data.displacements, world.train.front());
+  });
+}
+
+Order order_of(StudyWorld const& world, fs::path const& directory) {
+  Order order{&world, in_world(world, [&] { return sources_of(world, directory); })};
+  if (world.machine.empty())
+    take_first_run(order);
+  else
+    take_machine(order, directory);
   return order;
 }
 
@@ -166,10 +196,22 @@ std::string key_of(Order const& order, Source const& source, int seed) {
                      seed);
 }
 
+/// What lacks the machine's inputs can be studied without it.
+MeasuredRun run_on(std::optional<Machine> const& machine, fs::path const& file) {
+  auto const data = read_measured_data(file);
+  auto const name = file.stem().string();
+  if (!machine) return measured_run(data, name);
+  try {
+    return measured_run(data, *machine, name);
+  } catch (MissingInputs const& error) {
+    throw thermal::InputError(fmt::format("{}; without 'machine' the world is its readings alone", error.what()));
+  }
+}
+
 /// A complaint about what the run lacks stands where the study names it.
 MeasuredRun read_run(Order const& order, Source const& source) {
   try {
-    return read_measured_run(source.file, order.machine);
+    return naming(source.file, [&] { return run_on(order.machine, source.file); });
   } catch (FileError const&) {
     throw;
   } catch (thermal::InputError const& error) {
@@ -194,7 +236,7 @@ output::Dataset simulated(Job const& job, std::atomic<bool> const* stop) {
   RunOptions options;
   options.integration.relative_tolerance = options.integration.absolute_tolerance = tolerance;
   options.stop = stop;
-  return run(job.order->machine, experiment, options).dataset;
+  return run(*job.order->machine, experiment, options).dataset;
 }
 
 /// What no world has, nobody can choose. What only some have, the others refuse.
@@ -202,10 +244,9 @@ void check_selections(Study const& study, std::vector<Order> const& orders) {
   std::vector<std::string> known;
   std::size_t most = 0;
   for (auto const& order : orders) {
-    most = std::max(most, order.machine.sensors.size());
-    for (auto const& sensor : order.machine.sensors)
-      if (std::find(known.begin(), known.end(), sensor.description.name) == known.end())
-        known.push_back(sensor.description.name);
+    most = std::max(most, order.sensors.size());
+    for (auto const& sensor : order.sensors)
+      if (std::find(known.begin(), known.end(), sensor.name) == known.end()) known.push_back(sensor.name);
   }
   std::vector<std::pair<std::string, NamedSelection>> written;
   for (auto const& text : study.description.selections) written.emplace_back(text, named_selection(text));
@@ -214,10 +255,10 @@ void check_selections(Study const& study, std::vector<Order> const& orders) {
   for (auto const& [text, selection] : written) {
     for (auto const& name : selection.sensors)
       if (std::find(known.begin(), known.end(), name) == known.end())
-        throw about(study.document, fmt::format("'{}': no machine of the study has a sensor '{}'; {}", text, name,
+        throw about(study.document, fmt::format("'{}': no world of the study has a sensor '{}'; {}", text, name,
                                                 thermal::did_you_mean(name, known)));
     if (selection.count && std::size_t(*selection.count) > most)
-      throw about(study.document, fmt::format("'{}': the machines of the study have {} sensors at most", text, most));
+      throw about(study.document, fmt::format("'{}': the worlds of the study have {} sensors at most", text, most));
   }
 }
 
@@ -274,7 +315,7 @@ std::vector<WorldRuns> study_runs(Study const& study, std::function<void(double)
 
   std::vector<WorldRuns> worlds;
   for (std::size_t w = 0; w < orders.size(); ++w) {
-    WorldRuns runs{orders[w].machine, {}, orders[w].nominal, {}, {}, made_for[w]};
+    WorldRuns runs{orders[w].machine, orders[w].sensors, orders[w].unit, {}, orders[w].nominal, {}, {}, made_for[w]};
     for (auto const& source : orders[w].sources)
       runs.experiments.push_back(source.measured ? std::nullopt : std::optional(experiment_of(orders[w], source)));
     for (auto const& repetition : used[w]) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "output/dataset.h"
@@ -16,9 +17,16 @@
 
 namespace thermotwin::twin {
 
+/// A thermometer that models may see.
+struct WorldSensor {
+  std::string name, component;
+};
+
 /// The data sets of one world, in memory: readings in °C, displacements in µm, truth where simulated.
 struct WorldRuns {
-  Machine machine;
+  std::optional<Machine> machine;                  ///< none: the world names none, and all runs were measured
+  std::vector<WorldSensor> sensors;                ///< of the machine, or of the first run
+  std::string unit;                                ///< of the error
   std::vector<std::vector<output::Dataset>> runs;  ///< per repetition: those of 'train', then those of 'test'
   Value nominal;  ///< the document of a user's machine: without the changes, where these are what was simulated
   std::vector<std::optional<scenarios::Experiment>> experiments;  ///< of each run; none where it was measured
@@ -26,9 +34,12 @@ struct WorldRuns {
   std::size_t made = 0;  ///< data sets that were simulated or read for this world, and for none before it
 };
 
+/// Why a world without a machine has no twin and no thermal modes.
+inline constexpr std::string_view no_machine = "the world names no machine";
+
 /// FileError where a world names a machine, a run or an error that is not there, an experiment that the machine cannot
-/// be put through, or a measured run that cannot be read on it (the shipped ones, whose data may be elsewhere, are not
-/// read); simulates nothing.
+/// be put through, one without a machine, or a measured run that cannot be read on it (the shipped ones, whose data may
+/// be elsewhere, are not read); simulates nothing.
 void check_worlds(Study const& study);
 
 /// Simulates and reads, in parallel; see study_data().

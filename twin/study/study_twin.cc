@@ -139,7 +139,7 @@ VectorXd followed(StudyWorld const& world, WorldData const& data, int repetition
                   TwinObserver const& observer) {
   auto const& runs = *data.runs;
   if (runs.measured[run]) return observed_error(observer, *runs.measured[run], world.sampling);
-  scenarios::ExperimentCourse const programmed(*runs.experiments[run], runs.machine.limits);
+  scenarios::ExperimentCourse const programmed(*runs.experiments[run], runs.machine->limits);
   return observed_error(observer, runs.runs[std::size_t(repetition)][run], programmed, 0.0);
 }
 
@@ -165,6 +165,7 @@ double missed(Question const& question, std::map<std::size_t, VectorXd> const& s
 
 TwinRuns twin_runs(StudyWorld const& world, WorldData const& data, int repetition, Question const& question) {
   auto const& runs = *data.runs;
+  if (!runs.machine) return {{}, std::string(no_machine), {}};
   try {
     TwinRuns result;
     result.machine = std::make_shared<Machine const>(Machine::build(calibrated(data, repetition, question)));

@@ -45,7 +45,7 @@ struct TwinRuns {
 /// The calibrated twin with its state corrected by these sensors (columns of the world's), an extended Kalman filter
 /// (twin_observer.h), through every run that a question asks about. Each reading errs by 0.1 K; what each node errs by
 /// is the one of three values with which the displacement of the training rows is met best. A measured run has no past
-/// here: the twin begins with the first reading, as warm as the air.
+/// here: the twin begins with the first readings, as warm as the air or as they tell.
 [[nodiscard]] FittedModel observed(StudyWorld const& world, WorldData const& data, int repetition,
                                    Question const& question, Machine const& twin,
                                    std::vector<Eigen::Index> const& columns);

@@ -66,6 +66,34 @@ void measure_with_faults(SmallStudy const& study) {
   });
 }
 
+/// Without a machine and without what drove it, models on readings are the same, bit for bit; those that need physics
+/// are refused.
+TEST(StudyRuns, MayBeOfNoMachine) {
+  auto const with = [](std::string const& machine, auto spoil) {
+    auto text = measured_world("3 min");
+    text.replace(text.find("machine = \"v450\"\n"), 17, machine);
+    text.replace(text.find("\"forward 2\""), 11, "\"forward 2\", \"thermal_modes 2\"");
+    text.replace(text.find("\"ridge\""), 7, "\"ridge\", \"twin\"");
+    SmallStudy const study(text);
+    record(study, "fast", spoil);
+    record(study, "slow", spoil);
+    return study.report();
+  };
+  auto const whole = with("machine = \"v450\"\n", [](output::Dataset&) {});
+  auto const bare = with("", [](output::Dataset& data) { data.inputs.clear(); });
+  for (std::string const name : {"all + linear", "all + ridge", "forward 2 + linear", "forward 2 + ridge"}) {
+    auto const figures = row(bare, name).figures;
+    EXPECT_EQ(row(bare, name).refused, "") << name;
+    EXPECT_GT(figures.at("cross.rmse").front(), 0.0) << name;
+    EXPECT_EQ(figures.at("cross.rmse"), row(whole, name).figures.at("cross.rmse")) << name;
+  }
+  EXPECT_EQ(bare.units.front(), "um");
+  for (std::string const name : {"all + twin", "thermal_modes 2 + linear"}) {
+    EXPECT_EQ(row(whole, name).refused, "") << name;
+    EXPECT_THAT(row(bare, name).refused, HasSubstr("the world names no machine")) << name;
+  }
+}
+
 /// A measured run's inputs give the state at which the machine is linearised: the modes of a run are those of the
 /// experiment that made it.
 TEST(StudyModes, OfAMeasuredRunAreThoseOfItsExperiment) {

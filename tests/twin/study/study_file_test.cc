@@ -129,7 +129,18 @@ TEST(Study, ChecksThatTheMachineHasItsMeasuredRuns) {
   } catch (FileError const& error) {
     EXPECT_THAT(error.what(), HasSubstr("small.toml:12:10: world 'v450': "));
     EXPECT_THAT(error.what(), HasSubstr("fast.csv: the machine 'v450' needs inputs that the data lack: "));
+    EXPECT_THAT(error.what(), testing::EndsWith("; without 'machine' the world is its readings alone"));
   }
+}
+
+TEST(Study, OfNoMachineSimulatesAndChangesNothing) {
+  auto text = head + world;
+  text.replace(text.find("machine = \"v450\"\n"), 17, "");
+  EXPECT_THAT(SmallStudy(text).complaint(),
+              HasSubstr("small.toml:10:10: world 'v450': 'fast' is an experiment; give the 'machine' that is put "
+                        "through it"));
+  EXPECT_THAT(SmallStudy(text + "set = [\"bearing.front.grease_factor=2\"]\n").complaint(),
+              HasSubstr("small.toml:12:1: 'set' changes a machine; give 'machine', too"));
 }
 
 TEST(Study, SaysOnceWhereAChangeIsWrong) {
@@ -163,7 +174,7 @@ TEST(Study, MistakesOfSingleCombinationsAreNamedWhereTheyStand) {
               HasSubstr("small.toml:1:34: 'forward 2 + ridge' is there already, of 'selections' and 'models'"));
   EXPECT_THAT(complaint("all + distributed_lag"), HasSubstr("small.toml:1:34: 'all + distributed_lag' is given twice"));
   EXPECT_THAT(complaint("sensors T1, T18 + linear"),
-              HasSubstr("small.toml:1:34: 'sensors T1, T18 + linear': no machine of the study has a sensor 'T18'"));
+              HasSubstr("small.toml:1:34: 'sensors T1, T18 + linear': no world of the study has a sensor 'T18'"));
   EXPECT_THAT(SmallStudy("also = [\"all + twin\"]\nreference = \"all + twn\"\n" + head + world).complaint(),
               HasSubstr("small.toml:2:13: the study has no combination 'all + twn'; did you mean 'all + twin'?"));
 }

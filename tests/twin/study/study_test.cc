@@ -102,12 +102,10 @@ TEST(Study, JudgesTheSensorsThatItIsGiven) {
   EXPECT_EQ(row(report, "sensors T1, T4 + linear").refused,
             "there is no sensor 'T4' here, or it is left out; known: T1, T8, T9");
   text.replace(text.find("T1, T4\""), 6, "T1, T18");
-  EXPECT_THAT(SmallStudy(text).complaint(),
-              HasSubstr("small.toml:4:40: 'sensors T1, T18': no machine of the study has a "
-                        "sensor 'T18'; did you mean 'T10'?"));
+  EXPECT_THAT(SmallStudy(text).complaint(), HasSubstr("small.toml:4:40: 'sensors T1, T18': no world of the study has a "
+                                                      "sensor 'T18'; did you mean 'T10'?"));
   text.replace(text.find("sensors T1, T18"), 15, "forward 11");
-  EXPECT_THAT(SmallStudy(text).complaint(),
-              HasSubstr("'forward 11': the machines of the study have 10 sensors at most"));
+  EXPECT_THAT(SmallStudy(text).complaint(), HasSubstr("'forward 11': the worlds of the study have 10 sensors at most"));
 }
 
 TEST(Study, MayCutOneRunInTwo) {
