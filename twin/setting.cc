@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sstream>
+#include <utility>
 
 #include "scenarios/programmed_channels.h"
 #include "thermal/error.h"

@@ -5,6 +5,7 @@
 // Four hours with a jump of the heat every half hour, rtol 1e-6, films that depend on temperature.
 #include <benchmark/benchmark.h>
 #include <cmath>
+#include <string>
 
 #include "thermal/bar.h"
 #include "thermal/block.h"

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <span>
 
 #include "tests/thermal/function_course.h"
 #include "thermal/block.h"

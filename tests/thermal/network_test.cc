@@ -1,5 +1,6 @@
 #include "thermal/network.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <string>
 
 #include "thermal/block.h"
 #include "thermal/error.h"
