@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 

@@ -3,6 +3,7 @@
 #include <hdf5.h>
 #include <hdf5_hl.h>
 #include <map>
+#include <utility>
 
 #include "output/atomic_file.h"
 #include "output/campaign_file.h"

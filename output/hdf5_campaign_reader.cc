@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>
+#include <utility>
 
 #include "output/campaign_file.h"
 #include "output/hdf5_handle.h"

@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <vtkActor.h>
 #include <vtkActor2D.h>
 #include <vtkBillboardTextActor3D.h>

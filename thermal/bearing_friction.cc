@@ -3,6 +3,8 @@
 #include <array>
 #include <numbers>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cmath>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "thermal/smooth.h"
 #include "thermal/validity.h"

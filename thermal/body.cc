@@ -1,5 +1,6 @@
 #include "thermal/body.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 #include "thermal/error.h"

@@ -1,6 +1,7 @@
 #include "thermal/grid.h"
 
 #include <map>
+#include <vector>
 
 namespace thermotwin::thermal {
 namespace {

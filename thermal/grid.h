@@ -2,7 +2,6 @@
 
 #include <Eigen/SparseCore>
 #include <array>
-#include <vector>
 
 namespace thermotwin::thermal {
 

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "thermal/body.h"

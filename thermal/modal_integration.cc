@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <fmt/format.h>
+#include <span>
 
 #include "thermal/course_inputs.h"
 #include "thermal/error.h"

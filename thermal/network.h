@@ -2,7 +2,6 @@
 
 #include <Eigen/SparseCore>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "thermal/shaft_deformation.h"
 
 #include <initializer_list>
+#include <numbers>
 
 namespace thermotwin::thermal {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
 #include "thermal/ball_bearing.h"
 #include "thermal/preload.h"

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <iostream>
 #include <optional>
+#include <string_view>
 
 #include "output/csv.h"
 #include "output/dataset_file.h"

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "thermal/error.h"
 #include "twin/campaign/campaign.h"

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <memory>
+#include <string>
 
 #include "thermal/units.h"
 #include "twin/command_line_number.h"

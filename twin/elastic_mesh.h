@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <map>
-#include <string>
 #include <vector>
 
 #include "twin/elastic_block.h"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "thermal/error.h"
 #include "twin/calculix.h"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <limits>
+#include <string_view>
 
 #include "thermal/error.h"
 #include "twin/axis_record.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <optional>
+#include <utility>
 
 #include "scenarios/course.h"
 #include "thermal/course_inputs.h"

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "scenarios/experiment.h"
 #include "thermal/error.h"

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <numeric>
-#include <set>
 #include <utility>
 
-#include "scenarios/course.h"
 #include "thermal/error.h"
 #include "thermal/nearest_name.h"
 #include "twin/bodies.h"
 #include "twin/carried_bodies.h"
 #include "twin/channel_flow.h"
+#include "twin/channel_names.h"
 #include "twin/file/document.h"
 #include "twin/file/shipped_file.h"
 #include "twin/file/tables.h"
@@ -21,6 +19,7 @@
 #include "twin/instruments/temperature_specimen.h"
 #include "twin/machine_tables.h"
 #include "twin/stated_axes.h"
+#include "twin/stated_places.h"
 #include "twin/uncertain_range.h"
 #include "twin/volumetric/volumetric_machine.h"
 
@@ -61,22 +60,6 @@ void check_machine_name(Value const& document, std::string const& name) {
                                 name));
 }
 
-/// Data sets and their CSV files hold each channel by its name.
-void check_channel_name(Value const& table, std::string const& name) {
-  if (!name.empty() && name != "." && name != "time" && name.find('/') == std::string::npos) return;
-  throw FileError(
-      where_of(table, "name"),
-      fmt::format("'{}' cannot be the name of a channel: no '/', nor the whole '.', 'time' or empty", name));
-}
-
-/// Keys of the two places between which a part carries heat.
-struct Ends {
-  char const *one, *other;
-  bool of_two_bodies = true;
-};
-constexpr Ends ends[] = {{"from", "to", false}, {"inner", "outer"},  {"shaft", "ring"},
-                         {"nut", "screw"},      {"rotor", "stator"}, {"first", "second", false}};
-
 /// InputError for a sensor without a place, in air and elsewhere at once, or with shares that do not add up to 1.
 void check_places(SensorDescription const& d) {
   if (d.at.empty()) throw InputError(fmt::format("sensor '{}' needs a place: at = \"head\"", d.name));
@@ -108,12 +91,8 @@ class MachineBuilder {
 
  private:
   [[nodiscard]] double spindle_limit() const;
-  void claim_channel(Value const& table, std::string const& name, std::string const& kind);
   void read_head();
   void read_parts();
-  void check_ends(Value const& table) const;
-  void refuse_common_places(Value const& table, std::string const& key) const;
-  void check_fluid(Value const& film) const;
   void check_terms() const;
   void read_sensors();
   void read_displacements();
@@ -123,7 +102,6 @@ class MachineBuilder {
   void read_displacement_instruments();
   void check_volumetric() const;
   void build_network();
-  void refuse_names_of_inputs() const;
   void hang_bodies();
 
   Value const& document_;
@@ -134,7 +112,7 @@ class MachineBuilder {
   Assembly assembly_;
   StructuralLoop loop_;
   StatedAxes axes_;
-  std::map<std::string, std::string> channels_;  ///< of readings, by name: the kind of table that has it
+  ChannelNames channels_;  ///< of readings
 };
 
 double MachineBuilder::spindle_limit() const {
@@ -151,14 +129,6 @@ double MachineBuilder::spindle_limit() const {
   return spindle.maximum_speed;
 }
 
-/// Sensors and displacements are read under one name each.
-void MachineBuilder::claim_channel(Value const& table, std::string const& name, std::string const& kind) {
-  check_channel_name(table, name);
-  auto const [known, is_new] = channels_.emplace(name, kind);
-  if (!is_new)
-    throw FileError(table.find("name")->where, fmt::format("the name '{}' is taken by a [[{}]]", name, known->second));
-}
-
 void MachineBuilder::read_head() {
   check_machine_name(document_, head_.name);
   machine_.name = head_.name;
@@ -167,56 +137,6 @@ void MachineBuilder::read_head() {
   machine_.limits.max_spindle_speed = assembly_.maximum_spindle_speed();
   machine_.limits.axes = axes_.limits();
   for (auto const& axis : axes_.with_friction_while_moving()) assembly_.take_friction_while_moving(axis);
-}
-
-/// What carries heat between two places needs two.
-void MachineBuilder::check_ends(Value const& table) const {
-  for (auto const& [a, b, of_two_bodies] : ends) {
-    auto const one = texts_of(table, a), other = texts_of(table, b);
-    if (one.empty() || other.empty()) continue;
-    Place const here = assembly_.place(one[0]), there = assembly_.place(other[0]);
-    auto const shared = [&](auto const& contact) {
-      return std::any_of(there.site.contacts.begin(), there.site.contacts.end(),
-                         [&](auto const& c) { return c.node == contact.node; });
-    };
-    if (here.body == there.body && std::any_of(here.site.contacts.begin(), here.site.contacts.end(), shared))
-      throw InputError(fmt::format("'{}' and '{}' share a cell: heat would go from it to itself", one[0], other[0]));
-    if (here.body == there.body && of_two_bodies)
-      throw FileError(table.find(b)->where, fmt::format("'{}' and '{}' are on one body; '{}' and '{}' are due on two",
-                                                        one[0], other[0], a, b));
-  }
-}
-
-/// What adds up over the places of a list, or is their mean, takes none of them twice.
-void MachineBuilder::refuse_common_places(Value const& table, std::string const& key) const {
-  Value const* list = table.find(key);
-  if (!list || !list->is_list()) return;
-  auto const& items = std::get<Value::List>(list->content);
-  if (items.size() < 2) return;
-  std::vector<Place> places;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    auto const& place = places.emplace_back(assembly_.place(std::get<std::string>(items[i].content)));
-    for (std::size_t before = 0; before < i; ++before)
-      if (have_in_common(places[before], place))
-        throw FileError(items[i].where, fmt::format("'{}' and '{}' overlap: what they share would count twice",
-                                                    places[before].text, place.text));
-  }
-}
-
-/// A film leads to a fluid; between solids there are joints.
-void MachineBuilder::check_fluid(Value const& film) const {
-  Value const* to = film.find("to");
-  if (!to || std::get<std::string>(to->content) == "ambient") return;
-  auto const& place = std::get<std::string>(to->content);
-  std::string const body = assembly_.place(place, {"ambient"}).body->name;
-  auto const* solid = bodies_.material_of(body);
-  if (!solid) return;
-  std::vector<std::string> fluids = {"ambient"};
-  for (auto const& name : bodies_.order())
-    if (!bodies_.material_of(name)) fluids.push_back(name);
-  throw FileError(to->where,
-                  fmt::format("'{}' is a solid of {}; a fluid is due, which has a heat_capacity and no material; {}",
-                              place, solid->name, thermal::did_you_mean(place, fluids)));
 }
 
 /// Parts are added in the order of the file, whatever their kind: a motor finds the torques that stand before it.
@@ -235,9 +155,9 @@ void MachineBuilder::read_parts() {
     assembly_.begin_part(entry->name + "." + part->name());
     axes_.check(*table);
     located(*table, [&, &table = *table, entry = entry] {
-      check_ends(table);
-      refuse_common_places(table, "on");
-      if (entry->name == "film") check_fluid(table);
+      check_ends(table, assembly_);
+      refuse_common_places(table, "on", assembly_);
+      if (entry->name == "film") check_fluid(table, assembly_, bodies_);
       part->add_to(assembly_);
       axes_.check_nut(table, assembly_);
       check_terms();
@@ -274,10 +194,10 @@ void MachineBuilder::check_terms() const {
 void MachineBuilder::read_sensors() {
   for (auto& [description, table] : tables_.read<SensorDescription>("temperature_sensor"))
     located(*table, [&, &d = description, &table = *table] {
-      claim_channel(table, d.name, "temperature_sensor");
+      channels_.claim(table, d.name, "temperature_sensor");
       Sensor sensor{d, {}, {0.0, 0.0, 0.0}};
       check_places(d);
-      if (d.shares.empty()) refuse_common_places(table, "at");
+      if (d.shares.empty()) refuse_common_places(table, "at", assembly_);
       for (std::size_t i = 0; i < d.at.size(); ++i) {
         if (d.at[i] == "ambient") continue;
         Place const place = assembly_.place(d.at[i], {"ambient"});
@@ -296,7 +216,7 @@ void MachineBuilder::read_displacements() {
   for (std::string const kind : {"rotation", "displacement"})
     for (auto& tabled : tables_.read<DisplacementDescription>(kind)) {
       located(*tabled.table, [&, &d = tabled.description, &table = *tabled.table] {
-        claim_channel(table, d.name, kind);
+        channels_.claim(table, d.name, kind);
         loop_.add(d, kind == "rotation");
       });
       all.push_back(std::move(tabled));
@@ -334,36 +254,7 @@ void MachineBuilder::read_screws() {
       thermal::Body const& body = assembly_.body(d.body);
       if (body.shape != thermal::Body::Shape::axial) throw InputError(fmt::format("'{}' is not a bar", d.body));
       axes_.check_screw(table, d, assembly_);
-      thermal::Material const& metal = bodies_.metal_of(d.body);
-      using Support = thermal::BallScrew::Support;
-      thermal::BallScrew screw;
-      screw.support = d.support == "fixed-free"    ? Support::fixed_free
-                      : d.support == "fixed-fixed" ? Support::fixed_fixed
-                                                   : Support::fixed_supported;
-      screw.expansion = d.growth_factor * metal.expansion;
-      screw.section_area =
-          body.capacities[0] / (metal.density * metal.specific_heat * (body.edges[0][1] - body.edges[0][0]));
-      screw.youngs_modulus = d.youngs_modulus;
-      screw.stiffness_fixed = d.stiffness_fixed;
-      screw.stiffness_far = d.stiffness_far;
-      screw.preload_temperature = d.preload_temperature;
-      screw.unilateral = d.unilateral;
-      screw.released_stiffness = d.released_stiffness;
-      screw.edges = body.edges[0];
-      Screw built{d, screw, {}, {}, {}, assembly_.first_node(d.body)};
-      auto const add = [&](NodeWeights& weights, std::string const& text, double length) {
-        if (text.empty()) return;
-        Place const place = assembly_.place(text);
-        add_growth(weights, place, length * loop_.expansion_at(place, {}));
-      };
-      add(built.seat_growth, d.seats, screw.length());
-      add(built.reference_strain, d.reference, 1.0);
-      for (auto const& term : assembly_.temperature_terms()) {
-        if (term.displacement != d.name) continue;
-        add_growth(built.zero_shift, term.place, term.coefficient);
-        add_growth(built.reference_strain, term.place, -term.strain);
-      }
-      machine_.screws.push_back(std::move(built));
+      machine_.screws.push_back(screw_of(d, assembly_, bodies_, loop_));
     });
   machine_.linear_channels = machine_.displacements;
   for (auto const& screw : machine_.screws)
@@ -447,21 +338,6 @@ void MachineBuilder::build_network() {
     machine_.geometry.push_back(thermal::geometry_of(bodies_.all().at(name), assembly_.first_node(name)));
 }
 
-/// A table of numbers tells inputs and readings apart by their names.
-void MachineBuilder::refuse_names_of_inputs() const {
-  auto const& network = *machine_.network_;
-  std::set<std::string> inputs(network.channel_names().begin(),
-                               network.channel_names().begin() + network.external_channels());
-  for (auto const& channel : scenarios::own_channels(machine_.limits)) inputs.insert(channel.name);
-  for (auto const& [name, kind] : channels_) {
-    if (!inputs.contains(name)) continue;
-    for (auto const& table : tables_.of(kind))
-      if (name_in(table) == name)
-        throw FileError(table.find("name")->where,
-                        fmt::format("'{}' is the name of an input channel; a [[{}]] needs another", name, kind));
-  }
-}
-
 void MachineBuilder::hang_bodies() {
   std::vector<HungBody> hung;
   for (auto const& name : bodies_.order())
@@ -503,7 +379,7 @@ Machine MachineBuilder::operator()() {
   build_network();
   machine_.limits.shares = machine_.network_->shares();
   axes_.check_inputs(*machine_.network_);
-  refuse_names_of_inputs();
+  channels_.refuse_inputs(machine_.network(), machine_.limits);
   hang_bodies();
   return std::move(machine_);
 }

@@ -3,6 +3,8 @@
 #include <string>
 
 #include "thermal/ball_screw.h"
+#include "twin/assembly.h"
+#include "twin/bodies.h"
 #include "twin/description.h"
 #include "twin/structural_loop.h"
 
@@ -24,5 +26,10 @@ struct Screw {
   /// These weights, where it is.
   [[nodiscard]] NodeWeights weights_at(double x) const;
 };
+
+/// On a body that is a bar, with what the parts so far add to its displacements; the loop says how much its seats and
+/// its reference grow. InputError for an unknown place.
+[[nodiscard]] Screw screw_of(BallScrewDescription const& description, Assembly const& assembly, Bodies const& bodies,
+                             StructuralLoop const& loop);
 
 }  // namespace thermotwin::twin

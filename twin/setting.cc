@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sstream>
+#include <utility>
 
 #include "scenarios/programmed_channels.h"
 #include "thermal/error.h"
@@ -45,17 +46,14 @@ void add_lacking_tables(Value& experiment, std::string const& path) {
   }
 }
 
-/// What an experiment has and a machine has not is meant for the experiment.
+/// What an experiment has and a machine has not is meant for the experiment; which machine runs, no setting changes.
 void refuse_experiment_key(Value const& machine, std::string const& path) {
   std::string const first = path.substr(0, path.find('.'));
-  if (machine.find(first)) return;
+  auto const& of_machine = machine_keys();
+  bool const may_stand_there = std::find(of_machine.begin(), of_machine.end(), first) != of_machine.end();
+  if (machine.find(first) || may_stand_there || first == "machine") return;
   auto const experiment = list_fields<scenarios::Experiment>();
-  auto const tables = describe_machine();
-  bool const of_experiment =
-      std::any_of(experiment.begin(), experiment.end(), [&](auto const& field) { return field.key == first; });
-  bool const of_machine = first == "title" || std::any_of(tables.begin(), tables.end(),
-                                                          [&](auto const& table) { return table.name == first; });
-  if (of_experiment && !of_machine)
+  if (std::any_of(experiment.begin(), experiment.end(), [&](auto const& field) { return field.key == first; }))
     throw thermal::InputError(
         fmt::format("parameter '{0}': a machine has no '{1}'; did you mean '{2}{0}'?", path, first, experiment_prefix));
 }

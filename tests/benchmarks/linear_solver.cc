@@ -5,7 +5,9 @@
 // Four hours with a jump of the heat every half hour, rtol 1e-6, films that depend on temperature.
 #include <benchmark/benchmark.h>
 #include <cmath>
+#include <string>
 
+#include "tests/thermal/warm_film.h"
 #include "thermal/bar.h"
 #include "thermal/block.h"
 #include "thermal/hollow_cylinder.h"
@@ -15,17 +17,6 @@
 
 namespace thermotwin::thermal {
 namespace {
-
-/// q = G (1 + 0.3 |ΔT|^{1/3}) ΔT.
-struct WarmFilm {
-  static constexpr std::string_view name = "warm film";
-  static constexpr int ports = 2, coefficients = 1, inputs = 0;
-  static constexpr bool conservative = true;
-  template <class S>
-  static void flows(S const* T, S const* c, double const*, S* q) {
-    exchange<S>(c[0] * (1.0 + 0.3 * smooth_power<S>(T[1] - T[0], 1.0 / 3.0)) * (T[1] - T[0]), q);
-  }
-};
 
 /// "run" jumps between 1 and 0.4 every half hour.
 class HalfHours final : public Course {

@@ -1,8 +1,6 @@
 #include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <map>
-#include <sstream>
 
 #include "tests/end_to_end/earlier_run.h"
 #include "tests/end_to_end/program.h"
@@ -15,19 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 using tests::Answer;
-
-Answer program(std::string const& arguments) {
-  return tests::run_command(std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1");
-}
-
-std::string read_text(fs::path const& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-void write_text(fs::path const& path, std::string const& text) { std::ofstream(path) << text; }
+using tests::run_program;
 
 std::string replaced(std::string text, std::string const& from, std::string const& to) {
   auto const at = text.find(from);
@@ -59,16 +45,16 @@ TEST_P(WrongMachine, IsToldWithPlaceAndNothingWritten) {
   auto const& mistake = GetParam();
   tests::TemporaryDirectory const directory;
   fs::path const machine = directory.path() / "machine.toml", dataset = directory.path() / "run.h5";
-  auto const text = replaced(read_text(source / "twin/machines/v450.toml"), mistake.from, mistake.to);
-  write_text(machine, text);
+  auto const text = replaced(tests::contents(source / "twin/machines/v450.toml"), mistake.from, mistake.to);
+  tests::put(machine, text);
   tests::put_earlier_run(dataset);
-  auto const before = read_text(dataset);
-  auto const answer = program("run golden_b_2000 -m " + machine.string() + " -o " + dataset.string());
+  auto const before = tests::contents(dataset);
+  auto const answer = run_program("run golden_b_2000 -m " + machine.string() + " -o " + dataset.string());
   EXPECT_EQ(answer.code, 2);
   EXPECT_NE(answer.text.find(mistake.message), std::string::npos) << answer.text;
   auto const place = place_in("machine.toml", text, mistake.marker.empty() ? mistake.to : mistake.marker);
   EXPECT_NE(answer.text.find(place), std::string::npos) << place << " is not in " << answer.text;
-  EXPECT_TRUE(read_text(dataset) == before);
+  EXPECT_TRUE(tests::contents(dataset) == before);
   EXPECT_EQ(std::distance(fs::directory_iterator(directory.path()), {}), 2) << "something was left behind";
 }
 
@@ -157,18 +143,18 @@ constexpr char const* good_experiment =
 
 TEST(BadInput, TheGoodExperimentRuns) {
   tests::TemporaryDirectory const directory;
-  write_text(directory.path() / "experiment.toml", good_experiment);
-  write_text(directory.path() / "air.csv", "time_s,air_C\n0,20\n300,21\n600,22\n");
-  auto const answer = program("run -q " + (directory.path() / "experiment.toml").string());
+  tests::put(directory.path() / "experiment.toml", good_experiment);
+  tests::put(directory.path() / "air.csv", "time_s,air_C\n0,20\n300,21\n600,22\n");
+  auto const answer = run_program("run -q " + (directory.path() / "experiment.toml").string());
   EXPECT_EQ(answer.code, 0) << answer.text;
 }
 
 /// The good experiment, changed, through `run` with these options.
 Answer run_of_experiment(std::string const& from, std::string const& to, std::string const& options) {
   tests::TemporaryDirectory const directory;
-  write_text(directory.path() / "experiment.toml", replaced(good_experiment, from, to));
-  write_text(directory.path() / "air.csv", "time_s,air_C\n0,20\n300,21\n600,22\n");
-  return program("run " + (directory.path() / "experiment.toml").string() + " " + options);
+  tests::put(directory.path() / "experiment.toml", replaced(good_experiment, from, to));
+  tests::put(directory.path() / "air.csv", "time_s,air_C\n0,20\n300,21\n600,22\n");
+  return run_program("run " + (directory.path() / "experiment.toml").string() + " " + options);
 }
 
 TEST(BadInput, ASettingThatWouldChangeNothing) {
@@ -198,10 +184,10 @@ TEST_P(WrongExperiment, IsToldWithPlace) {
   auto const& mistake = GetParam();
   tests::TemporaryDirectory const directory;
   auto const text = replaced(good_experiment, mistake.from, mistake.to);
-  write_text(directory.path() / "experiment.toml", text);
-  write_text(directory.path() / "air.csv", "time_s,air_C\n0,20\n300,21\n600,22\n");
-  auto const answer = program("run " + (directory.path() / "experiment.toml").string() + " -o " +
-                              (directory.path() / "run.h5").string());
+  tests::put(directory.path() / "experiment.toml", text);
+  tests::put(directory.path() / "air.csv", "time_s,air_C\n0,20\n300,21\n600,22\n");
+  auto const answer = run_program("run " + (directory.path() / "experiment.toml").string() + " -o " +
+                                  (directory.path() / "run.h5").string());
   EXPECT_EQ(answer.code, 2);
   EXPECT_NE(answer.text.find(mistake.message), std::string::npos) << answer.text;
   auto const place = place_in("experiment.toml", text, mistake.marker.empty() ? mistake.to : mistake.marker);
@@ -269,10 +255,10 @@ class Recording : public testing::TestWithParam<WrongRecording> {};
 
 TEST_P(Recording, IsToldWithFileLineAndColumn) {
   tests::TemporaryDirectory const directory;
-  write_text(directory.path() / "experiment.toml", good_experiment);
-  write_text(directory.path() / "air.csv", GetParam().csv);
-  auto const answer = program("run " + (directory.path() / "experiment.toml").string() + " -o " +
-                              (directory.path() / "run.h5").string());
+  tests::put(directory.path() / "experiment.toml", good_experiment);
+  tests::put(directory.path() / "air.csv", GetParam().csv);
+  auto const answer = run_program("run " + (directory.path() / "experiment.toml").string() + " -o " +
+                                  (directory.path() / "run.h5").string());
   EXPECT_EQ(answer.code, 2);
   EXPECT_NE(answer.text.find(GetParam().message), std::string::npos) << answer.text;
   EXPECT_NE(answer.text.find("air.csv:" + GetParam().place), std::string::npos) << answer.text;
@@ -319,59 +305,9 @@ TEST(BadInput, NamesThatDoNotExist) {
         Row{"describe ball_screw", "'ball_screw'; it is a table of a machine: thermotwin describe machine"},
         Row{"describe duration", "'duration'; it is a key of experiment: thermotwin describe experiment"},
         Row{"rnu", "unknown command 'rnu'; did you mean 'run'?"}}) {
-    auto const answer = program(arguments);
+    auto const answer = run_program(arguments);
     EXPECT_EQ(answer.code, 2) << arguments;
     EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
-  }
-}
-
-TEST(BadInput, CommandsThatLackSomething) {
-  struct Row {
-    std::string arguments, message;
-  };
-  for (auto const& [arguments, message] :
-       {Row{"", "a command is due; thermotwin --help lists them"},
-        Row{"run", "run: experiment is required; thermotwin run --help tells more\n"},
-        Row{"describe", "describe: what is required; thermotwin describe --help tells more\n"},
-        Row{"view", "view: data is required; thermotwin view --help tells more\n"},
-        Row{"challenge", "challenge: one of --output and --key is due, and no other; thermotwin challenge --help"},
-        Row{"challenge --key -o x", "challenge: one of --output and --key is due, and no other; thermotwin"},
-        Row{"place --experiments golden_b_4000 v450 -k 3",
-            "place: machine is required, and --experiments took 'golden_b_4000', 'v450', as all words up to the next"},
-        Row{"diagnose v450 --hold-out b.h5 a.h5", "diagnose needs measured runs, and --hold-out took all words"},
-        Row{"volumetric mill200 --at 600s", "volumetric: --at requires --run"},
-        Row{"diagnose v450 --plan etve -o amended.toml", "diagnose: --output excludes --plan"},
-        Row{"diagnose v450 --plan etve --start 3", "diagnose: --start excludes --plan"},
-        Row{"challenge --key --run etve", "challenge: --run excludes --key"}}) {
-    auto const answer = program(arguments);
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
-  }
-}
-
-/// What follows their value is not theirs.
-TEST(BadInput, OptionsThatTakeOneWord) {
-  for (std::string const arguments :
-       {"run --set experiment.seed=2 none", "volumetric --set volumetric.drawn.seed=2 none",
-        "diagnose --without heat,radiation none a.h5", "figure -p heat --only A none.h5 -o x.svg",
-        "fit --sensors T1,T2 none.h5 -o x.toml"}) {
-    auto const answer = program(arguments);
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_NE(answer.text.find("none"), std::string::npos) << arguments << "\n" << answer.text;
-    EXPECT_EQ(answer.text.find("required"), std::string::npos) << arguments << "\n" << answer.text;
-  }
-}
-
-TEST(BadInput, OptionsBeforeTheirCommand) {
-  for (auto const& [arguments, shown] : {std::pair{"--json run golden_b_2000", "run --json ..."},
-                                         {"-m v450 run golden_b_2000", "run -m ..."},
-                                         {"--tolerance=1e-5 run golden_b_2000", "run --tolerance ..."},
-                                         {"--hold-out a.h5 run golden_b_2000", "diagnose --hold-out ..."},
-                                         {"--checkpoint '2 h'", "run --checkpoint ..."}}) {
-    auto const answer = program(arguments);
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_NE(answer.text.find(std::string("' is an option of a command: thermotwin ") + shown), std::string::npos)
-        << answer.text;
   }
 }
 
@@ -400,199 +336,19 @@ TEST(BadInput, FilesOfAnotherKind) {
 
 TEST(BadInput, AnswersThatWereCut) {
   tests::TemporaryDirectory const directory;
-  write_text(directory / "cut.json", "{\"verdict\": {\n  \"found\": [");
+  tests::put(directory / "cut.json", "{\"verdict\": {\n  \"found\": [");
   for (std::string const command : {"report", "figure"}) {
     auto const answer =
-        program(command + " " + (directory / "cut.json").string() + (command == "report" ? " -o x.html" : ""));
+        run_program(command + " " + (directory / "cut.json").string() + (command == "report" ? " -o x.html" : ""));
     EXPECT_EQ(answer.code, 2) << command;
     EXPECT_NE(answer.text.find("cut.json: damaged at line 2, column 13: not JSON"), std::string::npos) << answer.text;
-  }
-}
-
-TEST(BadInput, HelpSaysOfWhichOptionsOneIsDue) {
-  auto const help = program("challenge --help").text;
-  EXPECT_NE(help.find("\nOne of these is due:\n  -o,--output TEXT "), std::string::npos) << help;
-  EXPECT_EQ(help.find('['), help.find("[OPTIONS]")) << help;
-  EXPECT_EQ(help.rfind('['), help.find("[OPTIONS]")) << help;
-}
-
-TEST(BadInput, HelpAndVersionUnderTheirOtherNames) {
-  EXPECT_EQ(program("help").text, program("--help").text);
-  EXPECT_EQ(program("help run").text, program("run --help").text);
-  EXPECT_EQ(program("-v").text, program("--version").text);
-}
-
-TEST(BadInput, NumbersThatCannotBe) {
-  for (std::string const tolerance : {"-1", "0", "5", "nan", "abc"}) {
-    auto const answer = program("run golden_b_2000 --tolerance " + tolerance);
-    EXPECT_EQ(answer.code, 2);
-    EXPECT_NE(answer.text.find("allowed is 1e-12 to 0.01"), std::string::npos) << answer.text;
-  }
-  for (std::string const command : {"volumetric mill200", "challenge --key", "place v450 -k 3", "fit a.h5 -o m.toml"}) {
-    auto const answer = program(command + " --seed -1");
-    EXPECT_EQ(answer.code, 2) << command;
-    EXPECT_NE(answer.text.find("-1 is negative"), std::string::npos) << answer.text;
-  }
-}
-
-TEST(BadInput, NumbersTooLargeForWhatTheyCount) {
-  struct Row {
-    std::string arguments, message;
-  };
-  for (auto const& [arguments, message] :
-       {Row{"challenge --key --seed 99999999999999999999", "99999999999999999999 is more than 18446744073709551615"},
-        Row{"run golden_b_2000 --set experiment.seed=99999999999999999999", "a whole number without unit is due"},
-        Row{"run golden_b_2000 --set experiment.seed=4294967297", "'seed' is 4294967297; allowed is"},
-        Row{"run golden_b_2000 --set 'experiment.sampling=1 us'", "at most 1e+08 are possible"},
-        Row{"run golden_b_2000 --fields fields --field-interval '0 s'", "--field-interval 0 s: a time above 0 is due"},
-        Row{"place v450 -k 3 --noise 0.1", "--noise: 0.1 has no unit; write for example \"0.2 K\""},
-        Row{"volumetric mill200 --resolution '1 K'",
-            "--resolution: '1 K' is a temperature difference; a length is due"},
-        Row{"place v450 -k 3 --unseen 0", "0 unseen members; at least 1 is due"},
-        Row{"place v450 -k three", "'three' is no whole number; one is due"},
-        Row{"figure a.h5 -p heat -o x.svg --height 5", "figure: --height: 5 is out of range; allowed is 20 to 1000 mm"},
-        Row{"figure a.h5 -p heat -o x.svg --width wide", "'wide' is no number; allowed is 30 to 1000 mm"},
-        Row{"view a.h5 --port 99999", "view: --port: 99999 is out of range; allowed is 0 to 65535"}}) {
-    auto const answer = program(arguments);
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
-  }
-}
-
-/// An unset variable of a script must not make a run whose output goes nowhere.
-TEST(BadInput, EmptyWords) {
-  for (std::string const arguments :
-       {"run golden_b_2000 -o ''", "run golden_b_2000 -m ''", "run ''", "export a.h5 -o ''", "fit a.h5 -o ''",
-        "challenge -o ''", "place v450 -k 3 --propose ''"}) {
-    auto const answer = program(arguments);
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_NE(answer.text.find("an empty text; a value is due"), std::string::npos) << arguments << "\n" << answer.text;
-  }
-}
-
-TEST(BadInput, NamesTooLongForAFile) {
-  std::string const name(300, 'x');
-  for (std::string const& arguments : {"fit " + name + ".csv -o model.toml", "run golden_b_2000 -o " + name + ".h5"}) {
-    auto const answer = program(arguments);
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_NE(answer.text.find("File name too long"), std::string::npos) << answer.text;
-  }
-}
-
-TEST(BadInput, FilesThatAreReadAreNeverWritten) {
-  tests::TemporaryDirectory const directory;
-  std::map<std::string, std::string> const files = {
-      {"machine.toml", read_text(source / "twin/machines/v450.toml")},
-      {"experiment", read_text(source / "scenarios/catalogue/golden_b_2000.toml")},
-      {"sites.toml", "budget = 3\n"},
-      {"measurement.toml", "[[table]]\nfile = \"logged\"\n"},
-      {"logged", "what a logger wrote"},
-      {"monday.h5", "a day of measurements"},
-      {"model", "an error model"}};
-  for (auto const& [name, text] : files) write_text(directory.path() / name, text);
-  fs::create_symlink("monday.h5", directory.path() / "link.h5");
-  fs::create_symlink("machine.toml", directory.path() / "link.toml");
-  fs::create_symlink("machine.toml", directory.path() / "picture.png");
-  for (std::string const arguments :
-       {"run experiment -m machine.toml -o experiment", "run experiment -m machine.toml --picture picture.png",
-        "volumetric machine.toml --picture picture.png", "export link.h5 -o monday.h5", "export monday -o monday",
-        "fit monday.h5 --error E_Z -o ./monday.h5", "fit link.h5 monday -o monday", "play monday.h5 -o $PWD/monday.h5",
-        "play monday -o monday", "replay link.h5 -o monday.h5", "place machine.toml -k 3 -o link.toml",
-        "place machine.toml -k 3 --candidates sites.toml -o ./sites.toml", "predict model measurement.toml -o logged",
-        "calibrate machine.toml measurement.toml -o logged", "compensate --model model --record ./model"}) {
-    write_text(directory.path() / "monday", "a day of measurements");
-    auto const answer = tests::run_command("cd " + directory.path().string() + " && " +
-                                           std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1");
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_TRUE(answer.text.find("never overwritten") != std::string::npos ||
-                answer.text.find("is written as .") != std::string::npos)
-        << arguments << "\n"
-        << answer.text;
-    EXPECT_TRUE(read_text(directory.path() / "monday") == "a day of measurements") << arguments;
-    for (auto const& [name, text] : files) EXPECT_TRUE(read_text(directory.path() / name) == text) << arguments;
-  }
-}
-
-TEST(BadInput, OtherTablesAreNotReplaced) {
-  tests::TemporaryDirectory const directory;
-  std::string const measured = "time_s,T1_degC\n0,20\n", run = (directory / "run.h5").string();
-  auto const victim = directory / "victim.csv";
-  write_text(victim, measured);
-  write_text(directory / "model.toml", "an error model");
-  ASSERT_EQ(program("run -q golden_b_2000 -m v450 -o " + run).code, 0);
-  for (auto const& [command, kind] : std::map<std::string, std::string>{
-           {"predict " + (directory / "model.toml").string() + " monday.h5", "predictions"},
-           {"play " + run, "`play`"},
-           {"export " + run, "these channels"}}) {
-    auto const answer = program(command + " -o " + victim.string());
-    EXPECT_EQ(answer.code, 2) << command;
-    EXPECT_NE(answer.text.find("victim.csv: is no table of " + kind), std::string::npos) << answer.text;
-    EXPECT_EQ(read_text(victim), measured) << command;
-  }
-  fs::remove(victim);
-  for (std::string const groups : {"", " --truth", ""})
-    EXPECT_EQ(program("export " + run + groups + " -o " + victim.string()).code, 0) << "over its own";
-}
-
-TEST(BadInput, FoldersThatHoldSomethingAreNotWrittenInto) {
-  tests::TemporaryDirectory const directory;
-  write_text(directory / "diagonals.csv", "of another day");
-  std::string const folder = directory.path().string();
-  for (std::string const& arguments : {"run golden_b_2000 -q --fields " + folder, "volumetric mill200 -o " + folder,
-                                       "difference " + folder + "/a.h5 " + folder + "/b.h5 -o " + folder}) {
-    auto const answer = program(arguments);
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_NE(answer.text.find("is not empty; what is there is not overwritten"), std::string::npos) << answer.text;
-    EXPECT_EQ(directory.files(), std::vector<std::string>{"diagonals.csv"}) << arguments;
-    EXPECT_EQ(read_text(directory / "diagonals.csv"), "of another day") << arguments;
-  }
-}
-
-/// What is printed through either of the two streams of the library.
-TEST(BadInput, StandardOutputThatIsFull) {
-  for (std::string const arguments : {"describe channels", "effects", "--version", "run --help"}) {
-    auto const answer = tests::run_command(std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1 >/dev/full");
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_NE(answer.text.find("cannot write to standard output"), std::string::npos) << arguments << answer.text;
-  }
-}
-
-TEST(BadInput, StandardErrorThatIsFullChangesNothing) {
-  EXPECT_EQ(tests::run_command(std::string(THERMOTWIN_PROGRAM) + " run none 2>/dev/full").code, 2);
-}
-
-TEST(BadInput, SuffixesOfOtherFormats) {
-  for (auto const& [arguments, message] :
-       std::map<std::string, std::string>{{"run golden_b_2000 -o out.txt", "out.txt: a data set is written as .h5"},
-                                          {"run golden_b_2000 --picture a.jpg", "a.jpg: a picture is written as .png"},
-                                          {"export a.h5 -o a.xlsx", "a.xlsx: a table is written as .csv"},
-                                          {"calibrate v450 a.h5 -o b.h5", "b.h5: a machine is written as .toml"},
-                                          {"calibrate v450 a.h5 -o v450", "v450: a machine is written as .toml"},
-                                          {"diagnose v450 a.h5 -o mine", "mine: a machine is written as .toml"},
-                                          {"report a.h5 -o a.pdf", "a.pdf: a page is written as .html"}}) {
-    auto const answer = program(arguments);
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_NE(answer.text.find(message), std::string::npos) << answer.text;
-  }
-}
-
-TEST(BadInput, APictureWithoutADisplayIsRefusedBeforeTheWork) {
-  tests::TemporaryDirectory const directory;
-  for (std::string const arguments :
-       {"run golden_b_2000 -o run.h5 --picture run.png", "place v450 -k 3 -o sensors.toml --picture map.png",
-        "volumetric g200 -o tables --picture field.png"}) {
-    auto const answer = tests::run_command("cd " + directory.path().string() + " && env -u DISPLAY " +
-                                           std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1");
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_NE(answer.text.find("DISPLAY is not set; run under xvfb-run"), std::string::npos) << answer.text;
-    EXPECT_TRUE(fs::is_empty(directory.path())) << arguments;
   }
 }
 
 /// A file or a folder of the same name does not stand in for a machine that is shipped.
 TEST(BadInput, ANameIsTheShippedMachine) {
   tests::TemporaryDirectory const directory;
-  write_text(directory.path() / "v450", "no machine");
+  tests::put(directory.path() / "v450", "no machine");
   fs::create_directory(directory.path() / "golden_b_2000");
   auto const run = [&](std::string const& machine) {
     return tests::run_command("cd " + directory.path().string() + " && " + std::string(THERMOTWIN_PROGRAM) +
@@ -605,56 +361,36 @@ TEST(BadInput, ANameIsTheShippedMachine) {
 TEST(BadInput, CheckGoesOnWithTheNextFile) {
   tests::TemporaryDirectory const directory;
   fs::path const empty = directory.path() / "empty.toml";
-  write_text(empty, "");
-  auto const answer = program("check " + empty.string() + " " + (source / "twin/machines/v450.toml").string());
+  tests::put(empty, "");
+  auto const answer = run_program("check " + empty.string() + " " + (source / "twin/machines/v450.toml").string());
   EXPECT_EQ(answer.code, 2);
   EXPECT_NE(answer.text.find("empty.toml: the file is empty"), std::string::npos) << answer.text;
   EXPECT_NE(answer.text.find("no mistake found"), std::string::npos) << answer.text;
-}
-
-TEST(BadInput, OutputsThatCannotBeWritten) {
-  for (std::string const target : {"/nonexistent/run.h5", "/proc/run.h5"}) {
-    auto const answer = program("run -q golden_b_2000 -m v450 -o " + target);
-    EXPECT_EQ(answer.code, 2);
-    EXPECT_NE(answer.text.find("cannot write '" + target), std::string::npos) << answer.text;
-  }
-}
-
-/// Before any work: the data are not even looked for.
-TEST(BadInput, OutputsInNoFolder) {
-  for (std::string const command : {"diagnose v450 none.h5", "calibrate v450 none.h5", "fit none.h5", "place v450 -k 3",
-                                    "run golden_b_2000 -m v450"}) {
-    std::string const target = std::string("/nonexistent/x.") + (command.starts_with("run") ? "h5" : "toml");
-    auto const answer = program(command + " -o " + target);
-    EXPECT_EQ(answer.code, 2) << command;
-    EXPECT_NE(answer.text.find("cannot write '" + target + "': there is no folder '/nonexistent'"), std::string::npos)
-        << answer.text;
-  }
 }
 
 TEST(BadInput, FullDiskLeavesTheOldFile) {
   tests::TemporaryDirectory const directory;
   fs::path const dataset = directory.path() / "run.h5";
   tests::put_earlier_run(dataset);
-  auto const before = read_text(dataset);
+  auto const before = tests::contents(dataset);
   std::string const command = "sh -c 'ulimit -f 64; trap \"\" XFSZ; " + std::string(THERMOTWIN_PROGRAM) +
                               " run -q golden_b_2000 -m v450 -o " + dataset.string() + "' 2>&1";
   auto const [code, text] = tests::run_command(command);
   EXPECT_EQ(code, 2) << text;
   EXPECT_NE(text.find("cannot write"), std::string::npos) << text;
-  EXPECT_TRUE(read_text(dataset) == before);
+  EXPECT_TRUE(tests::contents(dataset) == before);
 }
 
 TEST(BadInput, DataSetsThatAreNone) {
   tests::TemporaryDirectory const directory;
   fs::path const good = directory.path() / "good.h5", cut = directory.path() / "cut.h5",
                  csv = directory.path() / "out.csv";
-  ASSERT_EQ(program("run -q golden_b_2000 -m v450 -o " + good.string()).code, 0);
-  auto const bytes = read_text(good);
-  write_text(cut, bytes.substr(0, bytes.size() / 2));
-  write_text(directory.path() / "text.h5", "not a data set");
+  ASSERT_EQ(run_program("run -q golden_b_2000 -m v450 -o " + good.string()).code, 0);
+  auto const bytes = tests::contents(good);
+  tests::put(cut, bytes.substr(0, bytes.size() / 2));
+  tests::put(directory.path() / "text.h5", "not a data set");
   for (std::string const name : {"cut.h5", "text.h5", "absent.h5"}) {
-    auto const answer = program("export " + (directory.path() / name).string() + " -o " + csv.string());
+    auto const answer = run_program("export " + (directory.path() / name).string() + " -o " + csv.string());
     EXPECT_EQ(answer.code, 2) << name;
     EXPECT_NE(answer.text.find(name), std::string::npos) << answer.text;
     EXPECT_FALSE(fs::exists(csv));

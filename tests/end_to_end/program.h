@@ -24,6 +24,11 @@ inline Answer run_command(std::string const& command) {
   return answer;
 }
 
+/// Both streams of the program, given these words.
+inline Answer run_program(std::string const& arguments) {
+  return run_command(std::string(THERMOTWIN_PROGRAM) + " " + arguments + " 2>&1");
+}
+
 /// Both streams of a command that is expected to end so.
 inline std::string answer(std::string const& command, int expected_code = 0) {
   auto const [code, text] = run_command(command + " 2>&1");

@@ -1,6 +1,7 @@
 #include "tests/thermal/axisymmetric_deck.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <sstream>
 

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "tests/scenarios/refusal.h"
 #include "thermal/bar.h"
 #include "thermal/block.h"
-#include "thermal/error.h"
 #include "thermal/hollow_cylinder.h"
 #include "thermal/lump.h"
 
@@ -16,6 +16,7 @@ namespace {
 
 using std::numbers::pi;
 using testing::HasSubstr;
+using thermotwin::tests::refusal;
 
 Material steel() { return {"steel", 50.0, 0.0, 7850.0, 470.0, 0.0, 11.5e-6, 210e9, 0.3, 0.25}; }
 
@@ -112,35 +113,26 @@ TEST(Body, LumpTakesCapacityOrMassOrDrawnVolume) {
   EXPECT_NEAR(make_body("head", lump).capacities[0], 123.0, 1e-9);
 }
 
-std::string message_of(auto action) {
-  try {
-    action();
-  } catch (InputError const& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 TEST(Body, RejectionsNameTheBodyAndTheValue) {
-  EXPECT_THAT(message_of([] {
+  EXPECT_THAT(refusal([] {
                 (void)make_body("shaft", Bar{steel(), {0, 0, 0}, {0, 0, 1}, -0.1, 0.1, 0.0, {}, 3});
               }),
               testing::AllOf(HasSubstr("'shaft'"), HasSubstr("length"), HasSubstr("-0.1")));
-  EXPECT_THAT(message_of([] {
+  EXPECT_THAT(refusal([] {
                 auto c = sleeve(1, 1);
                 c.inner_diameter = 0.2;
                 (void)make_body("sleeve", c);
               }),
               testing::AllOf(HasSubstr("'sleeve'"), HasSubstr("0.2"), HasSubstr("0.16")));
-  EXPECT_THAT(message_of([] {
+  EXPECT_THAT(refusal([] {
                 (void)make_body("bed", Block{steel(), {0, 0, 0}, {1, 1, 1}, {1, 1, 1}, 1.5});
               }),
               testing::AllOf(HasSubstr("'bed'"), HasSubstr("1.5")));
-  EXPECT_THAT(message_of([] {
+  EXPECT_THAT(refusal([] {
                 (void)make_body("bed", Block{steel(), {0, 0, 0}, {1, 1, 1}, {1, 0, 1}});
               }),
               testing::AllOf(HasSubstr("cells along y"), HasSubstr("0")));
-  EXPECT_THAT(message_of([] { (void)make_body("sleeve", sleeve(1, 1)).face("outter"); }),
+  EXPECT_THAT(refusal([] { (void)make_body("sleeve", sleeve(1, 1)).face("outter"); }),
               testing::AllOf(HasSubstr("'sleeve'"), HasSubstr("'outter'"), HasSubstr("'outer'")));
 }
 

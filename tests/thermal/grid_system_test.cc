@@ -4,8 +4,10 @@
 #include <cstring>
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <span>
 
 #include "tests/thermal/function_course.h"
+#include "tests/thermal/warm_film.h"
 #include "thermal/block.h"
 #include "thermal/hollow_cylinder.h"
 #include "thermal/integrate.h"
@@ -15,17 +17,6 @@
 
 namespace thermotwin::thermal {
 namespace {
-
-/// q = G (1 + 0.3 |ΔT|^{1/3}) ΔT.
-struct WarmFilm {
-  static constexpr std::string_view name = "warm film";
-  static constexpr int ports = 2, coefficients = 1, inputs = 0;
-  static constexpr bool conservative = true;
-  template <class S>
-  static void flows(S const* T, S const* c, double const*, S* q) {
-    exchange<S>(c[0] * (1.0 + 0.3 * smooth_power<S>(T[1] - T[0], 1.0 / 3.0)) * (T[1] - T[0]), q);
-  }
-};
 
 /// Column on bed, a ring in the column, oil that carries heat between lumps: averages on both sides of the joints, one
 /// of them strong, conductivities and heat capacities that depend on temperature, flat cells.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <random>
+#include <vector>
 
 #include "thermal/block.h"
 #include "thermal/evaluation.h"

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <span>
+#include <string>
 
 #include "tests/thermal/random_network.h"
 #include "tests/thermal/verification.h"

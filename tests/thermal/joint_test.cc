@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "tests/scenarios/refusal.h"
 #include "thermal/bar.h"
 #include "thermal/block.h"
 #include "thermal/error.h"
@@ -16,6 +17,7 @@ namespace {
 
 using std::numbers::pi;
 using testing::HasSubstr;
+using thermotwin::tests::refusal;
 
 Material steel() { return {"steel", 50.0, 0.0, 7850.0, 470.0, 0.0, 11.5e-6, 210e9, 0.3, 0.25}; }
 
@@ -58,14 +60,7 @@ TEST(Joint, FacesInDifferentPlanesOrBesideEachOtherDoNotTouch) {
   Body const low = make_body("bed", Block{steel(), {0, 0, 0}, {0.4, 0.4, 0.1}, {2, 2, 2}});
   Body const above = make_body("column", Block{steel(), {0, 0, 0.11}, {0.4, 0.4, 0.1}, {2, 2, 2}});
   Body const beside = make_body("table", Block{steel(), {0.5, 0, 0.1}, {0.4, 0.4, 0.1}, {2, 2, 2}});
-  auto const message = [](Site const& a, Site const& b) -> std::string {
-    try {
-      (void)pair(a, b);
-    } catch (InputError const& error) {
-      return error.what();
-    }
-    return "nothing was thrown";
-  };
+  auto const message = [](Site const& a, Site const& b) { return refusal([&] { (void)pair(a, b); }); };
   EXPECT_THAT(message(face(low, "z_max"), face(above, "z_min")),
               testing::AllOf(HasSubstr("'bed'"), HasSubstr("'column'"), HasSubstr("0.01 m apart")));
   EXPECT_THAT(message(face(low, "z_max"), face(beside, "z_min")),

@@ -1,9 +1,11 @@
 #include "thermal/network.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "tests/scenarios/refusal.h"
 #include "tests/thermal/verification.h"
 #include "thermal/error.h"
 #include "thermal/laws.h"
@@ -13,15 +15,11 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using thermotwin::tests::refusal;
 
 std::string rejection(auto action) {
   NetworkBuilder builder;
-  try {
-    action(builder);
-  } catch (InputError const& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
+  return refusal([&] { action(builder); });
 }
 
 /// A body that reaches the room, for cases that fail elsewhere.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 

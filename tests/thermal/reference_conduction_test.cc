@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <numbers>
+#include <span>
 
 #include "tests/thermal/axisymmetric_deck.h"
 #include "tests/thermal/verification.h"

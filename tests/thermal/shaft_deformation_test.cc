@@ -1,6 +1,7 @@
 #include "thermal/shaft_deformation.h"
 
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "thermal/dual.h"
 #include "thermal/units.h"

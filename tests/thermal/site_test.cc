@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "tests/scenarios/refusal.h"
 #include "thermal/bar.h"
 #include "thermal/block.h"
 #include "thermal/error.h"
@@ -16,6 +17,7 @@ namespace {
 
 using std::numbers::pi;
 using testing::HasSubstr;
+using thermotwin::tests::refusal;
 
 Material steel() { return {"steel", 50.0, 0.0, 7850.0, 470.0, 0.0, 11.5e-6, 210e9, 0.3, 0.25}; }
 
@@ -125,19 +127,11 @@ TEST(Site, AreaCanBeGiven) {
 }
 
 TEST(Site, RejectionsNameBodyAndPlace) {
-  auto const message = [](auto action) -> std::string {
-    try {
-      action();
-    } catch (InputError const& error) {
-      return error.what();
-    }
-    return "nothing was thrown";
-  };
-  EXPECT_THAT(message([] { (void)face(bar(), "surface", 0.9, 1.0); }),
+  EXPECT_THAT(refusal([] { (void)face(bar(), "surface", 0.9, 1.0); }),
               testing::AllOf(HasSubstr("'bar'"), HasSubstr("'surface' from 0.9 to 1 m")));
-  EXPECT_THAT(message([] { (void)face(bed(), "x_min", 0.0, 0.1); }), HasSubstr("'bed' is no bar or cylinder"));
-  EXPECT_THAT(message([] { (void)region(bar(), {}); }), HasSubstr("'bar' is no block"));
-  EXPECT_THAT(message([] { (void)face(sleeve(), "end", 0.0, 0.1); }), HasSubstr("'end'"));
+  EXPECT_THAT(refusal([] { (void)face(bed(), "x_min", 0.0, 0.1); }), HasSubstr("'bed' is no bar or cylinder"));
+  EXPECT_THAT(refusal([] { (void)region(bar(), {}); }), HasSubstr("'bar' is no block"));
+  EXPECT_THAT(refusal([] { (void)face(sleeve(), "end", 0.0, 0.1); }), HasSubstr("'end'"));
 }
 
 TEST(Site, PortOfManyNodesIsTheirAverage) {

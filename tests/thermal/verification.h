@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include "tests/thermal/function_course.h"

@@ -1,6 +1,8 @@
 #include <Eigen/LU>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <span>
 
 #include "tests/thermal/verification.h"
 #include "thermal/laws.h"

@@ -1,5 +1,7 @@
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <span>
 
 #include "tests/thermal/verification.h"
 #include "thermal/bar.h"

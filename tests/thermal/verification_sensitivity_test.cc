@@ -2,14 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/scenarios/refusal.h"
 #include "tests/thermal/random_network.h"
 #include "tests/thermal/verification.h"
 #include "thermal/bar.h"
-#include "thermal/error.h"
 #include "thermal/lump.h"
 
 namespace thermotwin::thermal {
 namespace {
+
+using thermotwin::tests::refusal;
 
 // --- V13: V3 against its closed form
 // ----------------------------------------------------------------------------------
@@ -241,13 +243,8 @@ TEST(Difference, RefusesWhatItCannotCarry) {
     return builder.build();
   };
   EXPECT_NO_THROW((void)difference(with(0.2, -1.0, 1), with(0.2, -1.0, 1), 1e-3));
-  auto const message = [&](Network const& other) -> std::string {
-    try {
-      (void)difference(with(0.2, -1.0, 1), other, 1e-3);
-    } catch (InputError const& error) {
-      return error.what();
-    }
-    return "nothing was thrown";
+  auto const message = [&](Network const& other) {
+    return refusal([&] { (void)difference(with(0.2, -1.0, 1), other, 1e-3); });
   };
   EXPECT_THAT(message(with(0.3, -1.0, 1)), testing::HasSubstr("where 'nut' is"));
   EXPECT_THAT(message(with(0.2, -1.1, 1)), testing::HasSubstr("when 'chiller' switches"));

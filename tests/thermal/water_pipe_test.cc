@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 #include <sstream>
+#include <string>
 
 #include "tests/thermal/function_course.h"
 #include "thermal/channel.h"

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <string>
+#include <utility>
 
 #include "scenarios/course.h"
 #include "tests/thermal/function_course.h"

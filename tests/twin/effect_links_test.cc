@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <string>
 
 #include "tests/scenarios/refusal.h"
 #include "tests/twin/effect_bench.h"

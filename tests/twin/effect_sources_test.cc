@@ -1,14 +1,18 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <numeric>
+#include <string>
 
 #include "tests/scenarios/refusal.h"
 #include "tests/twin/effect_bench.h"
+#include "thermal/ball_bearing.h"
 #include "thermal/evaluation.h"
 #include "thermal/lubricant.h"
 #include "thermal/motor_loss.h"
 #include "thermal/preload.h"
+#include "thermal/rolling_contact.h"
 #include "thermal/skf_friction.h"
 #include "thermal/windage.h"
 
@@ -247,6 +251,37 @@ TEST(RollingContact, GrowsWithSpeedToTheOnePointFiveAndFallsAsTheOilWarms) {
     EXPECT_NEAR(std::log2(high / low) / 2.0, 1.54, 0.07) << s.name;
     EXPECT_LT(heat_with(s, 313.15, 313.15), 0.7 * heat_with(s, 293.15, 293.15)) << s.name;
     EXPECT_EQ(heat_with(s, 293.15, 293.15, at(0.0)), 0.0) << s.name;
+  }
+}
+
+/// As the formula says of all its contacts together, at the mean temperature of its two sides, for the share of the
+/// time in motion (physics.md 1.5, (1.10)): but for rounding.
+TEST(RollingContact, IsTheFrictionOfItsContacts) {
+  thermal::ContactOil const oil{thermal::mineral_oil_viscosity(68), 870.0, true};
+  thermal::BallBearing const bearing{20, 12.3e-3, 90e-3, std::numbers::pi / 4.0};
+  thermal::BallNut const nut{40e-3, 10e-3, 6e-3, 3.5};
+  auto const of_nut = [&](thermal::ContactLaw const& law) {
+    return thermal::nut_contact_friction<double>(law, nut, oil, 1500.0);
+  };
+  auto const of_guide = [&](thermal::ContactLaw const& law) {
+    return thermal::ball_guide_contact_friction<double>(law, 200, 3e-3, oil, 5000.0);
+  };
+  struct Row {
+    std::string kind;
+    thermal::RollingFriction<double> friction;
+    std::string speed;
+    double share;
+  };
+  for (auto const& [kind, friction, speed, share] :
+       {Row{"bearing", thermal::bearing_contact_friction<double>(bearing, oil, 300.0), "spindle.speed", 1.0},
+        Row{"single_nut", of_nut(thermal::single_nut_law), "z.speed", 1.0},
+        Row{"double_nut", of_nut(thermal::double_nut_law), "z.speed", 1.0},
+        Row{"guide_two_point", of_guide(thermal::guide_two_point_law), "z.feed", bench_input("z.duty")},
+        Row{"guide_four_point", of_guide(thermal::guide_four_point_law), "z.feed", bench_input("z.duty")},
+        Row{"guide_roller", thermal::roller_guide_contact_friction<double>(200, 3e-3, 10e-3, oil, 5000.0), "z.feed",
+            bench_input("z.duty")}}) {
+    double const expected = share * thermal::rolling_friction_heat<double>(friction, bench_input(speed), 308.15);
+    EXPECT_NEAR(heat_with(snippet("rolling_contact", kind), 303.15, 313.15), expected, 1e-9 * expected) << kind;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 #include <sstream>
+#include <string>
 
 #include "tests/twin/effect_bench.h"
 #include "thermal/error.h"

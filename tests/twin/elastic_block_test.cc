@@ -3,9 +3,10 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <string>
 
+#include "tests/scenarios/refusal.h"
 #include "thermal/block.h"
-#include "thermal/error.h"
 #include "thermal/material.h"
 #include "twin/elastic_mesh.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::HasSubstr;
+using thermotwin::tests::refusal;
 
 thermal::Body column(Vector3d const& corner = {0.1, 0.2, 0.3}) {
   return thermal::make_body("column", {thermal::material("GJL-300"), corner, {0.4, 0.5, 1.0}, {3, 4, 5}, 0.5});
@@ -84,21 +86,12 @@ TEST(ElasticBlock, KeyForgetsThePlaceAndTheMetalButNoShape) {
   EXPECT_EQ(own, key(steel, 0.26, "z_min", "z_max", 2));
 }
 
-std::string message_of(auto action) {
-  try {
-    action();
-  } catch (thermal::InputError const& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 TEST(ElasticBlock, RejectionsSayWhat) {
-  EXPECT_THAT(message_of([] { (void)elastic_block(column(), 0.5, "z_min", "z_max"); }), HasSubstr("Poisson"));
-  EXPECT_THAT(message_of([] { (void)elastic_block(column(), 0.3, "z_min", "z_min"); }), HasSubstr("same place"));
-  EXPECT_THAT(message_of([] { (void)elastic_block(column(), 0.3, "z_min", "z_mex"); }), HasSubstr("z_max"));
+  EXPECT_THAT(refusal([] { (void)elastic_block(column(), 0.5, "z_min", "z_max"); }), HasSubstr("Poisson"));
+  EXPECT_THAT(refusal([] { (void)elastic_block(column(), 0.3, "z_min", "z_min"); }), HasSubstr("same place"));
+  EXPECT_THAT(refusal([] { (void)elastic_block(column(), 0.3, "z_min", "z_mex"); }), HasSubstr("z_max"));
   EXPECT_THAT(
-      message_of([] {
+      refusal([] {
         auto const cube = thermal::make_body("cube", {thermal::material("C45"), {0, 0, 0}, {1, 1, 1}, {1, 1, 1}});
         (void)elastic_block(cube, 0.3, "z_min", "z_max");
       }),

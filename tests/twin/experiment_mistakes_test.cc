@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <utility>
 
 #include "tests/output/temporary_directory.h"
 #include "tests/twin/checked_files.h"

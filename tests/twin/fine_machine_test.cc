@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <numeric>
+#include <string>
 
 #include "scenarios/course.h"
 #include "thermal/growth_field.h"

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <string>
 
 #include "scenarios/course.h"
 #include "scenarios/experiment.h"

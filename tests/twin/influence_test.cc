@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "tests/output/temporary_directory.h"
+#include "tests/scenarios/refusal.h"
 #include "thermal/block.h"
-#include "thermal/error.h"
 #include "twin/elastic_block.h"
 #include "twin/influence_file.h"
 #include "twin/needed_solution.h"
@@ -16,6 +16,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using thermotwin::tests::refusal;
 
 thermal::Material iron() { return thermal::material("GJL-300"); }
 
@@ -41,15 +42,6 @@ std::vector<std::pair<int, double>> weights_of(std::filesystem::path const& mach
   std::vector<std::pair<int, double>> weights;
   add_influence(weights, machine, influence, direction, column(), iron(), 7, rotation);
   return weights;
-}
-
-std::string message_of(auto action) {
-  try {
-    action();
-  } catch (thermal::InputError const& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 TEST(Influence, WeightsAreExpansionTimesForceAndLeversTimesSolutions) {
@@ -79,12 +71,12 @@ TEST(Influence, MissingOrDamagedSolutionsNameTheCommandThatMakesThem) {
   tests::TemporaryDirectory const directory;
   auto const machine = directory / "mill.toml";
   auto const read = [&] { (void)weights_of(machine, on_top({0.2, 0.25, 1.0}, 1.0), "z"); };
-  EXPECT_THAT(message_of(read), AllOf(HasSubstr("no influence weights for 'column'"), HasSubstr("force_z"),
-                                      HasSubstr("thermotwin weights " + machine.string())));
+  EXPECT_THAT(refusal(read), AllOf(HasSubstr("no influence weights for 'column'"), HasSubstr("force_z"),
+                                   HasSubstr("thermotwin weights " + machine.string())));
   tests::put(directory / "mill.weights", key(2) + ",1.0,tw");
-  EXPECT_THAT(message_of(read), AllOf(HasSubstr("damaged after 1 numbers"), HasSubstr("mill.weights")));
+  EXPECT_THAT(refusal(read), AllOf(HasSubstr("damaged after 1 numbers"), HasSubstr("mill.weights")));
   tests::put(directory / "mill.weights", key(2) + ",1.0,2.0,3.0");
-  EXPECT_THAT(message_of(read), AllOf(HasSubstr("3 numbers"), HasSubstr("2 cells")));
+  EXPECT_THAT(refusal(read), AllOf(HasSubstr("3 numbers"), HasSubstr("2 cells")));
 }
 
 TEST(Influence, ClosingLengthIsTheWayBetweenTheFaces) {
@@ -129,7 +121,7 @@ TEST(NeededSolution, OfAllChannelsOfABlockEachUnitLoadOnce) {
 TEST(NeededSolution, UnknownBlockIsAnErrorWithItsLine) {
   std::string text = machine;
   text.replace(text.find("body = \"column\""), 15, "body = \"colum\"");
-  EXPECT_THAT(message_of([&] { (void)needed_solutions(parse_toml(text, "mill.toml")); }),
+  EXPECT_THAT(refusal([&] { (void)needed_solutions(parse_toml(text, "mill.toml")); }),
               AllOf(HasSubstr("mill.toml:12"), HasSubstr("'colum'"), HasSubstr("'column'")));
 }
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <string>
 
 #include "thermal/evaluation.h"
 #include "thermal/growth_field.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <string>
 #include <vector>

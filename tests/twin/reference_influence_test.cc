@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sstream>
+#include <string>
 
 #include "tests/output/temporary_directory.h"
 #include "thermal/block.h"

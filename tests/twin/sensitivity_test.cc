@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <string>
 
 #include "scenarios/course.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"

@@ -54,6 +54,13 @@ TEST(Setting, OfAnExperimentIsNotLookedForInTheMachine) {
   EXPECT_THAT(refusal([] { (void)changed("duration=2 h"); }), HasSubstr("did you mean 'experiment.duration'?"));
 }
 
+TEST(Setting, OfWhatAMachineMayHaveIsNoneOfTheExperiment) {
+  EXPECT_EQ(refusal([] { (void)changed("title=mine"); }), "accepted");
+  EXPECT_EQ(refusal([] { (void)changed("machine=v450"); }), "accepted");
+  EXPECT_THAT(refusal([] { (void)changed("laser.resolution=1 um"); }),
+              HasSubstr("parameter 'laser.resolution': there is no 'laser'"));
+}
+
 TEST(Setting, OfAProgrammeThatIsReplacedIsRefused) {
   Value const document = parse_toml(
       "machine = \"v450\"\nduration = \"1 h\"\n"

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <string>
 
 #include "models/mode_sensors.h"
 #include "scenarios/course.h"

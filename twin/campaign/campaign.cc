@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <utility>
 
 #include "thermal/units.h"
 #include "twin/campaign/latin_hypercube.h"

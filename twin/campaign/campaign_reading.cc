@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "scenarios/course.h"
 #include "thermal/error.h"

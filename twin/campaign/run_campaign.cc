@@ -8,6 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <omp.h>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "output/atomic_file.h"
 #include "output/campaign_file.h"

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <string>
 
 #include "twin/campaign/campaign.h"
 #include "twin/campaign/share.h"

@@ -98,7 +98,7 @@ Comparison compare_files(std::filesystem::path const& before, std::filesystem::p
   auto const names = distinct_names(data);
   for (std::size_t r = 0; r < data.size(); ++r) {
     runs.push_back(common_run(data[r], was, is));
-    runs.back().name = std::filesystem::path(names[r]).replace_extension().string();
+    runs.back().name = name_of_run(names[r]);
   }
   Comparison comparison = compare(was, is, runs);
   comparison.before = before.string();

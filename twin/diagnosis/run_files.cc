@@ -8,8 +8,6 @@
 
 namespace thermotwin::twin {
 
-namespace fs = std::filesystem;
-
 std::vector<MeasuredRun> read_runs(RunFiles const& files, Machine const& machine, std::vector<std::string>& remarks,
                                    RunFiles const& beside) {
   RunFiles every = files;
@@ -18,7 +16,7 @@ std::vector<MeasuredRun> read_runs(RunFiles const& files, Machine const& machine
   std::vector<MeasuredRun> runs;
   for (auto const& file : files) {
     runs.push_back(read_measured_run(file, machine));
-    runs.back().name = fs::path(names[runs.size() - 1]).replace_extension().string();
+    runs.back().name = name_of_run(names[runs.size() - 1]);
   }
   let_begin_alike(runs, machine);
   std::vector<std::pair<std::string, std::vector<std::string>>> said;  // once, of whatever files

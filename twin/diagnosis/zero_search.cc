@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "models/quantile.h"
 #include "twin/diagnosis/score.h"

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
 
 #include "twin/diagnosis/estimation.h"
 

@@ -1,6 +1,7 @@
 #include "thermal/annular_gap.h"
 
 #include <map>
+#include <memory>
 
 #include "thermal/error.h"
 #include "thermal/joint.h"

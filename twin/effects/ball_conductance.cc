@@ -1,5 +1,6 @@
 #include "thermal/ball_conductance.h"
 
+#include <cmath>
 #include <numbers>
 
 #include "thermal/laws.h"

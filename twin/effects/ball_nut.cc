@@ -1,3 +1,5 @@
+#include <string>
+
 #include "thermal/ball_conductance.h"
 #include "thermal/bearing_friction.h"
 #include "thermal/error.h"

@@ -1,5 +1,7 @@
 #include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "thermal/ball_conductance.h"
 #include "thermal/bearing_friction.h"

@@ -1,3 +1,5 @@
+#include <string>
+
 #include "thermal/bearing_friction.h"
 #include "thermal/lubricant.h"
 #include "thermal/skf_friction.h"

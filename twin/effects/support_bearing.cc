@@ -1,3 +1,6 @@
+#include <string>
+#include <vector>
+
 #include "thermal/bearing_friction.h"
 #include "thermal/lubricant.h"
 #include "twin/assembly.h"

@@ -31,4 +31,6 @@ std::vector<fs::path> distinct_names(std::vector<fs::path> const& files) {
   return names;
 }
 
+std::string name_of_run(fs::path const& file) { return fs::path(file).replace_extension().string(); }
+
 }  // namespace thermotwin::twin

@@ -7,6 +7,7 @@
 
 #include "output/dataset.h"
 #include "output/report_page.h"
+#include "twin/file/distinct_names.h"
 
 namespace thermotwin::twin {
 
@@ -24,7 +25,7 @@ struct ShownRun {
   double max_gap = std::numeric_limits<double>::infinity();
   std::filesystem::path name{};  ///< of its file, as it is told from the others of its page
 
-  [[nodiscard]] std::string stem() const { return std::filesystem::path(name).replace_extension().string(); }
+  [[nodiscard]] std::string stem() const { return name_of_run(name); }
 };
 
 /// A data set (`.h5`, or `.h5.partial` of a run that has not ended, under the name that it will have), a table

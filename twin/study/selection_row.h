@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "twin/study/choice.h"
 #include "twin/study/combinations.h"

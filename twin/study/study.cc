@@ -1,6 +1,7 @@
 #include "twin/study/study.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <optional>
 

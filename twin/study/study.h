@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <atomic>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

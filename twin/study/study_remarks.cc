@@ -1,6 +1,7 @@
 #include "twin/study/study_remarks.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <utility>

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "scenarios/course.h"

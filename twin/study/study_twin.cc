@@ -1,6 +1,7 @@
 #include "twin/study/study_twin.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <fmt/format.h>
 #include <limits>
 #include <map>

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "models/back_propagation.h"
 #include "models/gaussian_kernel.h"

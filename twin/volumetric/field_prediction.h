@@ -4,7 +4,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "twin/volumetric/error_field.h"
 #include "twin/volumetric/nine_functions.h"

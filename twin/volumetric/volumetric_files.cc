@@ -1,6 +1,7 @@
 #include "twin/volumetric/volumetric_files.h"
 
 #include <fmt/format.h>
+#include <string>
 
 #include "output/arrow_field.h"
 #include "output/atomic_file.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <string>
 
 #include "tests/benchmarks/block/course.h"
 #include "tests/benchmarks/block/peak_memory.h"

@@ -1,5 +1,6 @@
 #include "twin/diagnosis/diagnosis.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numbers>

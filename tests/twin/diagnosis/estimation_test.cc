@@ -1,6 +1,7 @@
 #include "twin/diagnosis/estimation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 

@@ -1,5 +1,6 @@
 #include "twin/diagnosis/faulty_sensor.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>

@@ -1,5 +1,6 @@
 #include "twin/diagnosis/jumping_sensor.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>

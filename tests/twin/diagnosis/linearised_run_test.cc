@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <string>
 
 #include "tests/thermal/function_course.h"
 #include "tests/twin/diagnosis/diagnosis_bench.h"

@@ -1,5 +1,6 @@
 #include "twin/diagnosis/observed_noise.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 

@@ -1,5 +1,6 @@
 #include "twin/diagnosis/start.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <set>
+#include <utility>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "thermal/evaluation.h"

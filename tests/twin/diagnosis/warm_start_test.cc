@@ -1,8 +1,10 @@
 #include "twin/diagnosis/warm_start.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <string>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "thermal/integrate.h"

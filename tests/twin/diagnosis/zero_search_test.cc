@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "tests/twin/diagnosis/diagnosis_bench.h"
 #include "twin/diagnosis/expected_noise.h"

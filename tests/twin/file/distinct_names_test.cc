@@ -18,5 +18,11 @@ TEST(DistinctNames, HaveAsManyFoldersAsTellThemApart) {
   EXPECT_THAT(distinct_names({"a/run.h5", "a/run.h5"}), ElementsAre("run.h5", "run.h5"));
 }
 
+TEST(DistinctNames, OfRunsAreThoseOfTheirFilesWithoutSuffix) {
+  EXPECT_EQ(name_of_run("a/run.h5"), "a/run");
+  EXPECT_EQ(name_of_run("a.b/day.2.csv"), "a.b/day.2");
+  EXPECT_EQ(name_of_run("a.b/run"), "a.b/run");
+}
+
 }  // namespace
 }  // namespace thermotwin::twin

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
+#include <string>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>

@@ -1,5 +1,7 @@
 #include "twin/report/live_page.h"
 
+#include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

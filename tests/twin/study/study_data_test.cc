@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <random>
+#include <string>
 
 #include "output/dataset_file.h"
 #include "tests/twin/study/small_study.h"

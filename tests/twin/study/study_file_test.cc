@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <string>
 
 #include "tests/twin/study/small_study.h"
 #include "twin/study/study_runs.h"

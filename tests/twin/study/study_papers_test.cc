@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
+#include <string>
 
 #include "models/error_model.h"
 #include "models/feed_axis.h"

@@ -1,6 +1,7 @@
 #include "twin/study/study_twin.h"
 
 #include <cmath>
+#include <cstddef>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

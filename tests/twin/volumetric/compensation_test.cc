@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
+#include <vector>
 
 #include "tests/twin/volumetric/example_machine.h"
 #include "thermal/error.h"
