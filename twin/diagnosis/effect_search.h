@@ -19,8 +19,8 @@ namespace thermotwin::twin {
 struct DiagnosisOptions {
   std::vector<std::string> without;  ///< effects that are not tried
   /// 2 ln of the evidence that an effect must have, times the fourth power of the Birge ratio of the fit that has it,
-  /// at most four; heat of free course needs as much beside effects, and more alone. See docs/diagnosis_record.md for
-  /// how often chance alone reaches it.
+  /// at most four; heat of free course needs as much beside effects (and a tenth of what the strongest on heat has),
+  /// and more alone. See docs/diagnosis_record.md for how often chance alone reaches it.
   double threshold = 11.0;
   /// What a further effect must have of the strongest one's evidence: what is left of an effect whose shape is not
   /// quite right looks like others.

@@ -94,6 +94,8 @@ TEST(Study, RefusesClaimsOfFiguresThatItCannotHave) {
   EXPECT_THAT(claimed("than = \"all + ridge\"\nfigure = \"cross.r_squared\"\nshare = 0.5\n"),
               HasSubstr("small.toml:19:9: a 'share' is at most so much of the other's figure, but of 'cross.r_squared' "
                         "more is better; give 'improvement' or 'tolerance'"));
+  EXPECT_THAT(claimed("than = \"all + linear\"\n"),
+              HasSubstr("small.toml:17:8: 'all + linear' is held against itself"));
   auto second = world;
   second.replace(second.find("\"v450\""), 6, "\"twin\"");
   EXPECT_THAT(SmallStudy(head + world + second +
