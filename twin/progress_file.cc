@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/file.h>
+#include <thread>
 
 #include "output/atomic_file.h"
 #include "output/error.h"
@@ -27,11 +28,23 @@ fs::path made(fs::path const& folder) {
   return folder;
 }
 
+/// By another process; if not, it is ours from now on.
+bool is_held(output::Descriptor const& folder, int operation) {
+  return ::flock(folder.number(), operation | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
 }  // namespace
 
+bool ProgressFile::is_running(fs::path const& folder) {
+  output::Descriptor const held(folder, O_RDONLY | O_DIRECTORY);
+  return held.is_open() && is_held(held, LOCK_SH);
+}
+
 ProgressFile::ProgressFile(fs::path const& folder, std::string title)
-    : path_(folder / "progress.json"), folder_(made(folder), O_RDONLY | O_DIRECTORY), title_(std::move(title)) {
-  if (::flock(folder_.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    : path_(folder / progress_file), folder_(made(folder), O_RDONLY | O_DIRECTORY), title_(std::move(title)) {
+  for (int attempt = 0; is_held(folder_, LOCK_EX) && attempt < 5; ++attempt)  // an onlooker holds it for no longer
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  if (is_held(folder_, LOCK_EX))
     throw output::OutputError(fmt::format("another process is filling '{}'; name another folder", folder.string()));
   if (!holds_progress_alone(folder)) output::require_empty(folder);
   output::remove_leftovers(path_);

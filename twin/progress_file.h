@@ -24,6 +24,9 @@ class ProgressFile {
   ProgressFile(ProgressFile const&) = delete;
   ProgressFile& operator=(ProgressFile const&) = delete;
 
+  /// Whether a job is filling that folder. One that was killed is not, whatever its file says.
+  [[nodiscard]] static bool is_running(std::filesystem::path const& folder);
+
   /// A new step when `what` differs from the last one, or the share that is done of the last. Written at most every
   /// half second, but for new steps.
   void show(std::string const& what, std::optional<double> share = {});
@@ -47,6 +50,8 @@ class ProgressFile {
   bool stopped_ = false;
   Clock::time_point start_ = Clock::now(), next_ = start_;
 };
+
+inline constexpr char const* progress_file = "progress.json";
 
 /// What `work` gives; onlookers, if there are any, see when the user stopped it.
 template <class Work>

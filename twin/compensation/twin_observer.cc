@@ -210,7 +210,6 @@ void TwinObserver::start_warm(std::span<double const> values) {
   for (int i = 0; i < network.nodes(); ++i)
     if (!network.signals()[std::size_t(i)])
       state_[i] = network.state_of_temperature(i, begun.rest[std::size_t(i)] + warmer[i]);
-  covariance_ = warmth->fields * warmth->spread * warmth->fields.transpose();
 }
 
 void TwinObserver::start(double time, std::span<double const> values) {

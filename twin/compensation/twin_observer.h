@@ -32,11 +32,10 @@ struct ObserverOptions {
 /// of them at one of its positions.
 ///
 /// The machine is at the temperature of the air around it when the first readings come, unless four of them or more say
-/// that it is not: one that was switched on again while warm begins with what its sensors tell of every node, and how
-/// well (warm_start.h). Readings count as changes since then, so that constant offsets of the sensors do not matter. A
-/// sensor that is first heard later is taken to have
-/// changed by what the twin says its place has. One that is not believed is left out, and the twin goes on; an input
-/// that is missing leaves it without an estimate.
+/// that it is not: one that was switched on again while warm begins with what its sensors tell of every node
+/// (warm_start.h). Readings count as changes since then, so that constant offsets of the sensors do not matter. A
+/// sensor that is first heard later is taken to have changed by what the twin says its place has. One that is not
+/// believed is left out, and the twin goes on; an input that is missing leaves it without an estimate.
 class TwinObserver {
  public:
   /// `sensors` correct it, in this order; none given: all that the machine has on bodies.

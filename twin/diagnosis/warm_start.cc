@@ -240,14 +240,11 @@ std::optional<WarmStart> warm_start(Machine const& machine, RunBegin const& begi
     if (fields.col(k).cwiseAbs().maxCoeff() > least_field) kept.push_back(k);
   if (kept.empty()) return {};
   MatrixXd const shown = first.weights * past;
-  Eigen::LLT<MatrixXd> const factor(cov + shown * shown.transpose());
+  VectorXd const unlikely = Eigen::LLT<MatrixXd>(cov + shown * shown.transpose()).solve(first.rise);
   WarmStart result;
   for (int i = 0; i < network.nodes(); ++i) result.nodes.push_back(network.node_name(i));
   result.fields = fields(Eigen::all, kept);
-  MatrixXd const seen_fields = first.weights * result.fields;
-  result.likely = seen_fields.transpose() * factor.solve(first.rise);
-  result.spread = -seen_fields.transpose() * factor.solve(seen_fields);
-  result.spread.diagonal().array() += 1.0;
+  result.likely = result.fields.transpose() * first.weights.transpose() * unlikely;
   result.farthest = farthest(first);
   return result;
 }

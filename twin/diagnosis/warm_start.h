@@ -32,7 +32,6 @@ struct WarmStart {
   std::vector<std::string> nodes;
   Eigen::MatrixXd fields;  ///< node × field, √κ F and t, the columns that are more than next to nothing [K]
   Eigen::VectorXd likely;  ///< E[b | d]
-  Eigen::MatrixXd spread;  ///< cov[b | d]
   std::string farthest;    ///< of d, for people: "T1 +6.4 K, T2 +6.3 K, T5 +6.0 K"
 
   /// The fields in a machine that has these nodes and perhaps more, as a mass that was left out: what else it has is as

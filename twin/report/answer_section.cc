@@ -9,6 +9,7 @@
 
 #include "thermal/error.h"
 #include "twin/file/text_file.h"
+#include "twin/progress_file.h"
 #include "twin/report/campaign_progress.h"
 #include "twin/report/campaign_section.h"
 #include "twin/report/diagnosis_section.h"
@@ -85,6 +86,16 @@ Json placement_json(Json placement, fs::path const& machine, ReportPage& page) {
   return placement;
 }
 
+/// Of a job that was killed nobody else says so.
+Json progress_json(Json progress, fs::path const& file) {
+  if (progress.value("done", false) || ProgressFile::is_running(fs::absolute(file).parent_path())) return progress;
+  auto& steps = progress["steps"];
+  double const last = steps.empty() ? 0.0 : steps.back()["at_s"].get<double>();
+  steps.push_back({{"what", "ended without a word: it was killed"}, {"at_s", last}});
+  progress["done"] = true;
+  return progress;
+}
+
 std::string title_of(std::string_view kind, Json const& answer, fs::path const& file) {
   if (kind == "study" || kind == "progress") return answer["title"].get<std::string>();
   if (kind == "placement") return fmt::format("Sensors on {}", answer["machine"].get<std::string>());
@@ -137,6 +148,8 @@ std::string add_answer(fs::path const& file, fs::path const& machine, ReportPage
       page.add_section(kind, study_json(answer));
     else if (kind == "placement")
       page.add_section(kind, placement_json(answer, machine, page));
+    else if (kind == "progress")
+      page.add_section(kind, progress_json(answer, file));
     else if (!kind.empty())
       page.add_section(kind, answer);
     else

@@ -8,6 +8,7 @@
 #include "output/dataset_file.h"
 #include "output/report_page.h"
 #include "thermal/error.h"
+#include "twin/progress_file.h"
 #include "twin/report/campaign_progress.h"
 #include "twin/report/report_files.h"
 #include "twin/version.h"
@@ -42,7 +43,7 @@ LivePage::Paths files_of(fs::path const& folder) {
   }
   std::sort(data.begin(), data.end());
   std::sort(answers.begin(), answers.end(), [](auto const& a, auto const& b) {
-    return std::pair(a.filename() != "progress.json", a) < std::pair(b.filename() != "progress.json", b);
+    return std::pair(a.filename() != progress_file, a) < std::pair(b.filename() != progress_file, b);
   });
   answers.insert(answers.end(), data.begin(), data.end());
   return answers;
@@ -126,8 +127,11 @@ void LivePage::renew() {
   auto const now = fs::file_time_type::clock::now();
   Stamp stamp;
   std::error_code ignored;
-  for (auto const& file : found.stamped())
+  for (auto const& file : found.stamped()) {
     stamp.push_back({file.string(), {fs::last_write_time(file, ignored), fs::file_size(file, ignored)}});
+    if (file.filename() == progress_file && !ProgressFile::is_running(fs::absolute(file).parent_path()))
+      stamp.back().first += ", left alone";
+  }
   if (revision_ > 0 && settled_ && stamp == stamp_) return;
   settled_ =
       std::all_of(stamp.begin(), stamp.end(), [&](auto const& file) { return file.second.first < now - longest_tick; });

@@ -128,7 +128,6 @@ void StudyRunner::calibrate_twins() {
   }
   std::vector<std::vector<Place const*> const*> tasks;
   for (auto const& [key, places] : sharing) tasks.push_back(&places);
-  work_.twins = tasks.size();
   in_parallel(tasks.size(), progress("twins"), options_.stop, [&](std::size_t i) {
     auto const& first = *tasks[i]->front();
     auto const twin =
@@ -141,6 +140,8 @@ void StudyRunner::calibrate_twins() {
         trial.less_twin = less_twin(trial.question, world.description, world.data, repetition.number, twin);
     }
   });
+  work_.twins = std::size_t(std::count_if(
+      tasks.begin(), tasks.end(), [](auto const* places) { return places->front()->trial.twin_refused.empty(); }));
 }
 
 FittedModel StudyRunner::fitted(Place const& place, NamedModel const& model, Columns const& columns) const {

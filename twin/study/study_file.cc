@@ -94,8 +94,6 @@ void check_combination(Value const& table, std::string const& key, std::string c
 void check_comparison(Value const& table, StudyClaim const& claim) {
   if (claim.than.empty() == !claim.at_most)
     throw FileError(table.where, "a claim is either less 'than' another combination or 'at_most' a number");
-  if (claim.than == claim.combination)
-    throw FileError(where_of(table, "than"), fmt::format("'{}' is held against itself", claim.than));
   if (claim.improvement && claim.than.empty())
     throw FileError(where_of(table, "improvement"), "an 'improvement' is over another combination; give 'than'");
   if (claim.tolerance && (claim.than.empty() || claim.improvement))

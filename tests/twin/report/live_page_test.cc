@@ -175,6 +175,23 @@ TEST_F(Live, SeesAChangeThatLeavesTimeAndSizeAsTheyWere) {
   EXPECT_FALSE(page.news(second["revision"].get<std::uint64_t>()));
 }
 
+TEST_F(Live, SeesThatAJobWasKilled) {
+  auto const steps = [](nlohmann::json const& document) { return document["sections"][0]["steps"]; };
+  std::optional<ProgressFile> job(std::in_place, folder.path(), "Diagnosis");
+  job->show("calibrating");
+  LivePage page({folder.path()});
+  EXPECT_EQ(steps(news(page, 0)).back()["what"], "calibrating");
+  auto const left = tests::contents(folder / progress_file);
+  job.reset();
+  tests::put(folder / progress_file, left);  // as a job leaves it that is killed
+  auto const after = news(page, 1);
+  EXPECT_EQ(steps(after).back()["what"], "ended without a word: it was killed");
+  EXPECT_TRUE(after["sections"][0]["done"]);
+  ProgressFile again(folder.path(), "Diagnosis");
+  again.show("calibrating anew");
+  EXPECT_EQ(steps(news(page, 2)).back()["what"], "calibrating anew");
+}
+
 TEST_F(Live, SaysWhatItCannotReadAndGoesOn) {
   tests::put(folder / "run.h5", "no data set");
   LivePage page({folder / "run.h5"});

@@ -89,6 +89,8 @@ TEST(StudyRuns, MayBeOfNoMachine) {
     EXPECT_EQ(figures.at("cross.rmse"), row(whole, name).figures.at("cross.rmse")) << name;
   }
   EXPECT_EQ(bare.units.front(), "um");
+  EXPECT_EQ(whole.work.twins, 1U);
+  EXPECT_EQ(bare.work.twins, 0U);
   for (std::string const name : {"all + twin", "thermal_modes 2 + linear"}) {
     EXPECT_EQ(row(whole, name).refused, "") << name;
     EXPECT_THAT(row(bare, name).refused, HasSubstr("the world names no machine")) << name;
