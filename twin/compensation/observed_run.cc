@@ -4,10 +4,13 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 #include "thermal/error.h"
+#include "thermal/integrate.h"
 #include "thermal/nearest_name.h"
 #include "thermal/units.h"
+#include "twin/diagnosis/warm_start.h"
 #include "twin/study/study_runs.h"
 
 namespace thermotwin::twin {
@@ -75,6 +78,18 @@ std::vector<double> ToldRun::at_row(Index row) const {
   return told;
 }
 
+/// How warm each node is after a run's past [K].
+std::vector<double> lived_through(Machine const& machine, MeasuredRun const& run, double until) {
+  auto temperatures = start_of(machine, run);
+  if (until > 0.0)
+    thermal::integrate(machine.network(), *run.course, temperatures, std::vector<double>{0.0, until}, {},
+                       [&](thermal::Sample const& sample) {
+                         temperatures.assign(sample.temperatures.begin(),
+                                             sample.temperatures.begin() + machine.network().nodes());
+                       });
+  return temperatures;
+}
+
 }  // namespace
 
 std::vector<ObserverOptions> observer_choices(double interval) {
@@ -104,9 +119,11 @@ Eigen::VectorXd observed_error(TwinObserver observer, output::Dataset const& sho
   return error;
 }
 
-Eigen::VectorXd observed_error(TwinObserver const& observer, MeasuredRun const& run, std::optional<double> sampling) {
+Eigen::VectorXd observed_error(TwinObserver observer, MeasuredRun const& run, std::optional<double> sampling) {
   auto const shown = dataset_of(run, std::nullopt);
-  auto const error = observed_error(observer, shown, *run.course, run.time[first_reading(run)]);
+  double const start = run.time[first_reading(run)];
+  if (start > 0.0 || run.initial_temperature) observer.begin_at(lived_through(observer.machine(), run, start));
+  auto const error = observed_error(std::move(observer), shown, *run.course, start);
   if (!sampling) return error;
   output::Dataset said;
   said.time_s = shown.time_s;

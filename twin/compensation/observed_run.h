@@ -27,8 +27,9 @@ namespace thermotwin::twin {
 
 /// The same of a measured run, in the rows of dataset_of(run, sampling): the observer follows the run's own rows from
 /// the first reading on, and what it says is averaged over `sampling` [s] as what the run shows is. A mean is no
-/// reading of the instant at which its stretch begins: it is of half of `sampling` later, and so is the error's.
-[[nodiscard]] Eigen::VectorXd observed_error(TwinObserver const& observer, MeasuredRun const& run,
+/// reading of the instant at which its stretch begins: it is of half of `sampling` later, and so is the error's. Where
+/// the run has a past, or states its initial temperature, the observer begins where the twin is after it.
+[[nodiscard]] Eigen::VectorXd observed_error(TwinObserver observer, MeasuredRun const& run,
                                              std::optional<double> sampling);
 
 /// What is to be said of a measured run that an observer follows: that one of few sensors begins with the room, where

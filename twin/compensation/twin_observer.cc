@@ -155,17 +155,23 @@ double TwinObserver::displaced() const {
   return um_per_m * sum;
 }
 
+void TwinObserver::start_at(std::vector<double> const& temperatures) {
+  auto const& network = machine_.network();
+  state_.resize(network.nodes());
+  for (int i = 0; i < network.nodes(); ++i) {
+    auto const node = std::size_t(i);
+    state_[i] = network.state_of_temperature(i, network.signals()[node] ? 0.0 : temperatures[node]);
+  }
+}
+
 /// All that has a place is as warm as the air at its height.
 void TwinObserver::start_in_air(std::span<double const> values) {
-  auto const& network = machine_.network();
   double const floor = floor_air(values), gradient = given("ambient.gradient", values, 0.0);
-  VectorXd temperatures = VectorXd::Constant(network.nodes(), floor);
+  std::vector<double> temperatures(std::size_t(machine_.network().nodes()), floor);
   for (auto const& body : machine_.geometry)
     for (std::size_t i = 0; i < body.cells.size(); ++i)
-      temperatures[body.first_node + Index(i)] = floor + gradient * centre(body.cells[i]).dot(machine_.up);
-  state_.resize(network.nodes());
-  for (int i = 0; i < network.nodes(); ++i)
-    state_[i] = network.state_of_temperature(i, network.signals()[std::size_t(i)] ? 0.0 : temperatures[i]);
+      temperatures[std::size_t(body.first_node) + i] = floor + gradient * centre(body.cells[i]).dot(machine_.up);
+  start_at(temperatures);
 }
 
 /// What is known of a machine that is as warm as the air around it, and what its sensors show beyond that.
@@ -205,19 +211,21 @@ void TwinObserver::start_warm(std::span<double const> values) {
   auto const begun = begin(values.last(sensors_.size()));
   auto const warmth = warm_start(machine_, begun);
   if (!warmth) return;
-  auto const& network = machine_.network();
-  VectorXd const warmer = warmth->fields * warmth->likely;
-  for (int i = 0; i < network.nodes(); ++i)
-    if (!network.signals()[std::size_t(i)])
-      state_[i] = network.state_of_temperature(i, begun.rest[std::size_t(i)] + warmer[i]);
+  auto temperatures = begun.rest;
+  VectorXd::Map(temperatures.data(), Index(temperatures.size())) += warmth->fields * warmth->likely;
+  start_at(temperatures);
 }
 
 void TwinObserver::start(double time, std::span<double const> values) {
   set_channels(values);
   for (auto& channel : channels_) channel.first = channel.value;
-  start_in_air(values);
+  if (known_start_) {
+    start_at(*known_start_);
+  } else {
+    start_in_air(values);
+    start_warm(values);
+  }
   covariance_ = MatrixXd::Zero(state_.size(), state_.size());
-  start_warm(values);
   zero_readings_ = VectorXd::Map(values.data(), Index(values.size())).tail(Index(sensors_.size()));
   for (std::size_t const s : sensors_) zero_seen_.push_back(seen(machine_.sensors[s].weights));
   zero_displaced_ = displaced();

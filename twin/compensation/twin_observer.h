@@ -47,6 +47,9 @@ class TwinObserver {
                std::optional<std::vector<std::string>> const& sensors = {});
 
   [[nodiscard]] ObserverOptions const& options() const { return options_; }
+  [[nodiscard]] Machine const& machine() const { return machine_; }
+  /// How warm each node is when the first readings come [K], where that is known.
+  void begin_at(std::vector<double> temperatures) { known_start_ = std::move(temperatures); }
   /// The machine's inputs, required, then the sensors, each by itself dispensable.
   [[nodiscard]] std::vector<ModelInput> const& inputs() const { return inputs_; }
   /// Thermal error [µm] at `time` [s], which never goes back. NaN among the sensors: not believed.
@@ -66,6 +69,7 @@ class TwinObserver {
   void list_inputs();
   void list_sensors(std::optional<std::vector<std::string>> const& names);
   void start(double time, std::span<double const> values);
+  void start_at(std::vector<double> const& temperatures);
   void start_in_air(std::span<double const> values);
   void start_warm(std::span<double const> values);
   [[nodiscard]] RunBegin begin(std::span<double const> readings) const;
@@ -87,6 +91,7 @@ class TwinObserver {
   std::vector<std::size_t> sensors_;  ///< of the machine: the last of the inputs
   std::shared_ptr<thermal::Evaluation> evaluation_;
 
+  std::optional<std::vector<double>> known_start_;
   bool started_ = false;
   double time_ = 0.0;
   Eigen::VectorXd state_, zero_readings_;  ///< of a reading [degC], NaN until the sensor is heard

@@ -8,6 +8,7 @@
 #include "tests/scenarios/refusal.h"
 #include "tests/twin/compensation/closed_loop.h"
 #include "twin/diagnosis/measured_run.h"
+#include "twin/study/study_runs.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -67,6 +68,25 @@ TEST_F(ObservedRun, TellsTheSensorsRowByRow) {
       values.push_back(find_channel(input.sensor ? shown.readings : shown.inputs, input.name)->values[row]);
     ASSERT_NEAR(observer.error(shown.time_s[row], values), error[row], 1e-9) << row;
   }
+}
+
+/// What was recorded of the inputs before the first reading, and how warm the machine was when that began, is known.
+TEST_F(ObservedRun, BeginsWhereTheTwinIsAfterARunsPast) {
+  auto past = experiment_;
+  past.initial_temperature = 291.15;
+  past.sampling = 60.0;
+  auto const shown = run(g200(), past, {}).dataset;
+  auto measured = measured_run(shown, g200(), "measured");
+  measured.initial_temperature = past.initial_temperature;
+  Eigen::Index const first = 120;
+  for (auto& channel : measured.channels) channel.values.head(first).setConstant(NAN);
+  auto const truth = find_channel(shown.truth_displacements, "E_X")->values;
+  Eigen::VectorXd const since = truth.tail(truth.size() - first).array() - truth[first];
+  TwinObserver const observer(g200(), "E_X", {}, std::vector<std::string>{"T10", "T2"});
+  auto const missed = [&](Eigen::VectorXd const& said) { return (said - since).cwiseAbs().maxCoeff(); };
+  EXPECT_LT(missed(observed_error(observer, measured, std::nullopt)), 0.2);
+  auto const without_past = dataset_of(measured, std::nullopt);
+  EXPECT_GT(missed(observed_error(observer, without_past, *measured.course, measured.time[first])), 0.5);
 }
 
 /// The readings of its own rows are told, at their times: a mean over half an hour is of a quarter later than its own.
