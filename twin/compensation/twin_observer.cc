@@ -10,6 +10,7 @@
 #include "thermal/nearest_name.h"
 #include "thermal/physical_constant.h"
 #include "thermal/units.h"
+#include "twin/diagnosis/standing_input.h"
 #include "twin/edge_unit.h"
 
 namespace thermotwin::twin {
@@ -187,8 +188,7 @@ RunBegin TwinObserver::begin(std::span<double const> readings) const {
         std::find_if(inputs_.begin(), inputs_.end(), [&](auto const& one) { return one.name == channel.name; });
     bool const is_temperature = input != inputs_.end() && input->unit == "degC";
     begin.given[i] = channel.value;
-    if (is_temperature || channel.name.starts_with("ambient.") || channel.name == "machine.on")
-      begin.standing[i] = channel.value;
+    if (is_given_while_standing(channel.name, is_temperature)) begin.standing[i] = channel.value;
   }
   auto& [names, weights, rise] = begin.first;
   weights.setZero(Index(sensors_.size()), network.nodes());

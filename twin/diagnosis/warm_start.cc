@@ -13,6 +13,7 @@
 #include "thermal/integrate.h"
 #include "twin/diagnosis/channel_reading.h"
 #include "twin/diagnosis/measured_run.h"
+#include "twin/diagnosis/standing_input.h"
 #include "twin/diagnosis/unknown.h"
 #include "twin/run.h"
 
@@ -82,7 +83,7 @@ std::vector<double> input_at_begin(thermal::Network const& network, MeasuredRun 
     int const place = run.course->index_of(network.channel_names()[std::size_t(i)]);
     if (place < 0) continue;
     auto const& channel = channels[std::size_t(place)];
-    if (!standing || channel.unit == "K" || channel.name.starts_with("ambient.") || channel.name == "machine.on")
+    if (!standing || is_given_while_standing(channel.name, channel.unit == "K"))
       input[std::size_t(i)] = values[std::size_t(place)];
   }
   return input;
