@@ -1,11 +1,17 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 
 #include "thermal/operating_point.h"
 #include "thermal/physical_constant.h"
 
 namespace thermotwin::twin {
+
+class Machine;
+
+/// Of every node over the machine's zero [m]; 0 of what has no place.
+[[nodiscard]] Eigen::VectorXd heights_of_nodes(Machine const& machine);
 
 /// Where displacements meet the air: near the tool, over the machine's zero [m].
 inline constexpr double height_near_tool = 1.0;

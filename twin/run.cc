@@ -308,12 +308,9 @@ std::vector<double> initial_temperatures(Machine const& machine, scenarios::Expe
   std::vector<double> values(course.channels().size());
   course.evaluate(0.0, values);
   RoomAir const air(course);
-  std::vector<double> temperatures(std::size_t(machine.network().nodes()),
-                                   experiment.initial_temperature.value_or(air.at(0.0, values)));
-  if (!experiment.initial_temperature)
-    for (auto const& body : machine.geometry)
-      for (std::size_t i = 0; i < body.cells.size(); ++i)
-        temperatures[std::size_t(body.first_node) + i] = air.at(centre(body.cells[i]).dot(machine.up), values);
+  std::vector<double> temperatures;
+  for (double const height : heights_of_nodes(machine))
+    temperatures.push_back(experiment.initial_temperature.value_or(air.at(height, values)));
   for (std::size_t i = 0; i < temperatures.size(); ++i)
     if (machine.network().signals()[i]) temperatures[i] = 0.0;  // a controller has no past
   return temperatures;

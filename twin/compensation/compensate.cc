@@ -43,6 +43,17 @@ std::string report_line(Decision const& decision) {
                      faults.empty() ? "" : "; ", fmt::join(faults, ", "));
 }
 
+std::string sentence_of(TwinObserver::WarmBegin const& begin) {
+  auto const left_out =
+      begin.contradicted.empty()
+          ? std::string()
+          : fmt::format("; all other sensors contradict {}, which counts from what they say", begin.contradicted);
+  return fmt::format(
+      "the machine is warm: {} over the air; the displacement that its heat has made by now, and will take back, is "
+      "known to ± {:.1f} um (1 sigma){}",
+      begin.farthest, begin.deviation, left_out);
+}
+
 /// Everything between the broker and the loop.
 class Session {
  public:
@@ -96,6 +107,7 @@ void Session::warn(Decision const& decision) {
   if (decision.anew)
     say(fmt::format("t = {:.0f} s: after so long a silence the twin begins anew; errors count from now",
                     decision.time));
+  if (decision.warm_begin) say(fmt::format("t = {:.0f} s: {}", decision.time, sentence_of(*decision.warm_begin)));
   for (auto const& [input, sentence] : decision.extrapolated)
     if (said_extrapolations_.insert(input).second)
       say(fmt::format("t = {:.0f} s: extrapolation: {}", decision.time, sentence));

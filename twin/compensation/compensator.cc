@@ -90,6 +90,12 @@ std::map<std::string, std::string> Compensator::extrapolated() const {
   return {};
 }
 
+std::optional<TwinObserver::WarmBegin> Compensator::warm_begin() const {
+  if (auto const* observer = std::get_if<TwinObserver>(&model_)) return observer->warm_begin();
+  if (auto const* mean = std::get_if<MeanModel>(&model_)) return mean->warm_begin();
+  return {};
+}
+
 /// The target of before that time is the one to hold.
 void Compensator::fail_since(double since) {
   failed_ = true;
@@ -118,6 +124,7 @@ double Compensator::supported_target(double time, Decision& decision) {
     model_ = *fresh_;
     decision.anew = true;
   }
+  bool const begins = !since && (!asked_ || decision.anew);
   double const error = since ? std::numeric_limits<double>::quiet_NaN() : estimate(time);
   if (!std::isfinite(error)) {
     if (!failed_) fail_since(since.value_or(time));
@@ -130,11 +137,12 @@ double Compensator::supported_target(double time, Decision& decision) {
     good_targets_.pop_front();
   decision.support = Support::good;
   decision.extrapolated = extrapolated();
+  if (begins) decision.warm_begin = warm_begin();
   return -error;
 }
 
 Decision Compensator::step(double time, std::span<Reading const> readings, double elapsed) {
-  Decision decision{time, shift_.offset(), error_, Support::waiting, {}, {}, {}, false};
+  Decision decision{time, shift_.offset(), error_, Support::waiting, {}, {}, {}, false, {}};
   for (auto const& reading : readings) take(reading, time, decision);
   find_faults(time, decision);
   if (!started_ && unread().empty()) started_ = true;

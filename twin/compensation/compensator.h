@@ -44,8 +44,9 @@ struct Decision {
   Support support = Support::waiting;
   std::map<std::string, SensorFault> faults;  ///< inputs that are not believed, whether the model needs them or not
   std::vector<std::string> refused;           ///< sentences: readings that were not taken, and why
-  std::map<std::string, std::string> extrapolated;  ///< inputs beyond what a model was fitted on, and by how much
-  bool anew = false;                                ///< a twin was too long without inputs: errors count from now
+  std::map<std::string, std::string> extrapolated;    ///< inputs beyond what a model was fitted on, and by how much
+  bool anew = false;                                  ///< a twin was too long without inputs: errors count from now
+  std::optional<TwinObserver::WarmBegin> warm_begin;  ///< of an observer that begins now, on a warm machine
 };
 
 /// Decides the origin shift of one axis: offset = −Ê(t), within the limits of AxisShift. It knows no clock and no
@@ -84,6 +85,7 @@ class Compensator {
   [[nodiscard]] bool outlived(double time) const;
   [[nodiscard]] double estimate(double time);
   [[nodiscard]] std::map<std::string, std::string> extrapolated() const;
+  [[nodiscard]] std::optional<TwinObserver::WarmBegin> warm_begin() const;
   void fail_since(double since);
 
   LiveModel model_;

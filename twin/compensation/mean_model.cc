@@ -83,6 +83,12 @@ std::map<std::string, std::string> MeanModel::extrapolated() const {
   return all;
 }
 
+std::optional<TwinObserver::WarmBegin> MeanModel::warm_begin() const {
+  for (auto const& part : parts_)
+    if (part.observer) return part.observer->warm_begin();
+  return {};
+}
+
 bool MeanModel::runs_a_twin() const {
   return twin_ || std::any_of(parts_.begin(), parts_.end(), [](auto const& part) { return part.observer.has_value(); });
 }

@@ -35,6 +35,8 @@ class MeanModel {
   [[nodiscard]] double error(double time, std::span<double const> values);
   [[nodiscard]] std::map<std::string, std::string> extrapolated() const;
   [[nodiscard]] bool runs_a_twin() const;
+  /// Of an observer among its parts.
+  [[nodiscard]] std::optional<TwinObserver::WarmBegin> warm_begin() const;
 
  private:
   MeanModel(SavedErrorModel const& saved, std::optional<Machine> const& machine);

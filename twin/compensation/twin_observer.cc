@@ -12,6 +12,7 @@
 #include "thermal/units.h"
 #include "twin/diagnosis/standing_input.h"
 #include "twin/edge_unit.h"
+#include "twin/room_air.h"
 
 namespace thermotwin::twin {
 namespace {
@@ -168,11 +169,8 @@ void TwinObserver::start_at(std::vector<double> const& temperatures) {
 /// All that has a place is as warm as the air at its height.
 void TwinObserver::start_in_air(std::span<double const> values) {
   double const floor = floor_air(values), gradient = given("ambient.gradient", values, 0.0);
-  std::vector<double> temperatures(std::size_t(machine_.network().nodes()), floor);
-  for (auto const& body : machine_.geometry)
-    for (std::size_t i = 0; i < body.cells.size(); ++i)
-      temperatures[std::size_t(body.first_node) + i] = floor + gradient * centre(body.cells[i]).dot(machine_.up);
-  start_at(temperatures);
+  VectorXd const air = floor + gradient * heights_of_nodes(machine_).array();
+  start_at({air.begin(), air.end()});
 }
 
 /// What is known of a machine that is as warm as the air around it, and what its sensors show beyond that.
@@ -211,9 +209,14 @@ void TwinObserver::start_warm(std::span<double const> values) {
   auto const begun = begin(values.last(sensors_.size()));
   auto const warmth = warm_start(machine_, begun);
   if (!warmth) return;
+  std::call_once(heated_->once, [&] { heated_->states.emplace(machine_); });
+  auto const likely = heated_->states->likely(begun, *warmth);
   auto temperatures = begun.rest;
-  VectorXd::Map(temperatures.data(), Index(temperatures.size())) += warmth->fields * warmth->likely;
+  VectorXd::Map(temperatures.data(), Index(temperatures.size())) += likely.rise;
   start_at(temperatures);
+  VectorXd shown = VectorXd::Zero(likely.rise.size());
+  for (auto const& [node, weight] : displacement_.weights) shown[node] += weight;
+  warm_begin_ = {warmth->farthest, likely.contradicted, um_per_m * std::sqrt(shown.dot(likely.covariance * shown))};
 }
 
 void TwinObserver::start(double time, std::span<double const> values) {

@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "thermal/evaluation.h"
+#include "twin/compensation/heated_states.h"
 #include "twin/compensation/model_input.h"
 #include "twin/diagnosis/warm_start.h"
 #include "twin/machine.h"
@@ -32,9 +34,9 @@ struct ObserverOptions {
 /// of them at one of its positions.
 ///
 /// The machine is at the temperature of the air around it when the first readings come, unless four of them or more say
-/// that it is not: one that was switched on again while warm begins with what its sensors tell of every node
-/// (warm_start.h). Readings count as changes since then, so that constant offsets of the sensors do not matter. A
-/// sensor that is first heard later is taken to have changed by what the twin says its place has. One that is not
+/// that it is not (warm_start.h): switched on while the machine is warm, it begins with what its sensors tell of every
+/// node (heated_states.h). Readings count as changes since then, so that constant offsets of the sensors do not matter.
+/// A sensor that is first heard later is taken to have changed by what the twin says its place has. One that is not
 /// believed is left out, and the twin goes on; an input that is missing leaves it without an estimate.
 class TwinObserver {
  public:
@@ -52,6 +54,13 @@ class TwinObserver {
   void begin_at(std::vector<double> temperatures) { known_start_ = std::move(temperatures); }
   /// The machine's inputs, required, then the sensors, each by itself dispensable.
   [[nodiscard]] std::vector<ModelInput> const& inputs() const { return inputs_; }
+  /// Of one that began while the machine was warm.
+  struct WarmBegin {
+    std::string farthest;      ///< first readings: "T1 +6.4 K, T2 +6.3 K, T5 +6.0 K" over the air
+    std::string contradicted;  ///< the sensor that all others contradict; empty: none
+    double deviation = 0.0;    ///< of what the displacement then was from its error with the machine at rest [µm, 1σ]
+  };
+  [[nodiscard]] std::optional<WarmBegin> const& warm_begin() const { return warm_begin_; }
   /// Thermal error [µm] at `time` [s], which never goes back. NaN among the sensors: not believed.
   [[nodiscard]] double error(double time, std::span<double const> values);
 
@@ -91,7 +100,14 @@ class TwinObserver {
   std::vector<std::size_t> sensors_;  ///< of the machine: the last of the inputs
   std::shared_ptr<thermal::Evaluation> evaluation_;
 
+  /// Made when a warm machine asks for it.
+  struct Heated {
+    std::once_flag once;
+    std::optional<HeatedStates> states;
+  };
+  std::shared_ptr<Heated> heated_ = std::make_shared<Heated>();  ///< of all copies
   std::optional<std::vector<double>> known_start_;
+  std::optional<WarmBegin> warm_begin_;
   bool started_ = false;
   double time_ = 0.0;
   Eigen::VectorXd state_, zero_readings_;  ///< of a reading [degC], NaN until the sensor is heard

@@ -198,7 +198,10 @@ TEST(TwinObserver, BeginsAnewAfterANightAndNotAfterAMinute) {
     decision = compensator.step(time, readings_of(data, row, time, compensator.inputs()), 10.0);
   };
   Eigen::Index const half = data.time_s.size() / 2;
-  for (Eigen::Index row = 0; row < half; ++row) hear(row, data.time_s[row]);
+  for (Eigen::Index row = 0; row < half; ++row) {
+    hear(row, data.time_s[row]);
+    EXPECT_FALSE(decision.warm_begin);
+  }
   double const warm = decision.error;
   ASSERT_GT(std::abs(warm), 5.0);
   double const soon = data.time_s[half] + 100.0, tomorrow = soon + 12.0 * 3600.0;
@@ -207,10 +210,15 @@ TEST(TwinObserver, BeginsAnewAfterANightAndNotAfterAMinute) {
   EXPECT_NEAR(decision.error, warm, 0.2 * std::abs(warm));
   hear(half + 1, tomorrow);
   EXPECT_TRUE(decision.anew);
+  ASSERT_TRUE(decision.warm_begin);
+  EXPECT_EQ(decision.warm_begin->contradicted, "");
+  EXPECT_GT(decision.warm_begin->deviation, 0.1);
+  EXPECT_LT(decision.warm_begin->deviation, 3.0);
   EXPECT_EQ(decision.error, 0.0);
   EXPECT_EQ(decision.offset, 0.0);
   hear(half + 2, tomorrow + 10.0);
   EXPECT_FALSE(decision.anew);
+  EXPECT_FALSE(decision.warm_begin);
   EXPECT_EQ(decision.support, Support::good);
   EXPECT_LT(std::abs(decision.error), 1.0);
 }
