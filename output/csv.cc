@@ -100,6 +100,19 @@ Eigen::VectorXd as_vector(std::vector<double> const& values) {
   return Eigen::Map<Eigen::VectorXd const>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+/// A table that does not call its time as that of a run is somebody else's.
+scenarios::CsvTable read_run(std::filesystem::path const& path, std::vector<std::string> const& columns) {
+  try {
+    return scenarios::read_csv(path, columns, scenarios::MissingValue::keep_as_nan);
+  } catch (InputError const& error) {
+    std::string const complaint = error.what();
+    if (complaint.find("no column 'time_s'") == std::string::npos) throw;
+    throw InputError(complaint +
+                     "; of a table that `thermotwin export` did not write, a measurement file (.toml) says what the "
+                     "columns are: `thermotwin describe measurement`");
+  }
+}
+
 void check_time(scenarios::CsvTable const& table) {
   auto const& time = table.columns.front();
   for (std::size_t i = 0; i < time.size(); ++i) {
@@ -157,7 +170,7 @@ Dataset import_csv(std::filesystem::path const& path) {
   std::vector<std::string> columns = {"time_s"};
   for (auto const& column : scenarios::csv_header(path))
     if (column != "time_s") columns.push_back(column);
-  auto const table = scenarios::read_csv(path, columns, scenarios::MissingValue::keep_as_nan);
+  auto const table = read_run(path, columns);
   check_time(table);
 
   Dataset dataset;

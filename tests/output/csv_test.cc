@@ -141,7 +141,11 @@ TEST(Csv, SaysFileLineAndColumn) {
   EXPECT_THAT(importing("time_s,T1_degC\n0,20\n10,21\n10,22\n"),
               ThrowsMessage<InputError>(HasSubstr("run.csv:4: column 'time_s': 10 s follows 10 s")));
   EXPECT_THAT(importing("time_s,T1_degC\n,20\n"), ThrowsMessage<InputError>(HasSubstr("run.csv:2: column 'time_s'")));
-  EXPECT_THAT(importing("time_min,T1_degC\n0,20\n"), ThrowsMessage<InputError>(HasSubstr("no column 'time_s'")));
+  EXPECT_THAT(importing("time_min,T1_degC\n0,20\n"),
+              ThrowsMessage<InputError>(
+                  testing::AllOf(HasSubstr("run.csv:1:1: no column 'time_s'; "),
+                                 HasSubstr("; of a table that `thermotwin export` did not write, a measurement file "
+                                           "(.toml) says what the columns are"))));
   EXPECT_THAT(importing("time_s,T1_degX\n0,20\n"),
               ThrowsMessage<InputError>(HasSubstr("run.csv:1: column 'T1_degX': ")));
   EXPECT_THAT(importing("time_s,T1\n0,20\n"), ThrowsMessage<InputError>(HasSubstr("'T1': has no unit")));

@@ -130,6 +130,18 @@ thermal::InputError no_answer(fs::path const& file, std::exception const& error)
 
 bool is_answer(fs::path const& path) { return path.extension() == ".json" || is_campaign(path); }
 
+void refuse_folder(fs::path const& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return;
+  for (auto const* kind : {"study", "diagnosis", "placement"})
+    if (auto const answer = path / fmt::format("{}.json", kind); fs::exists(answer, ignored))
+      throw thermal::InputError(
+          fmt::format("'{}' is the folder of a {}; its answer is '{}'", path.string(), kind, answer.string()));
+  throw thermal::InputError(fmt::format(
+      "'{0}' is a folder; data sets and answers (.json) are due; `thermotwin view {0}` shows what comes into it",
+      path.string()));
+}
+
 std::string add_answer(fs::path const& file, fs::path const& machine, ReportPage& page) {
   try {
     if (is_campaign(file)) {

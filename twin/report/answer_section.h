@@ -11,6 +11,9 @@ namespace thermotwin::twin {
 /// Whether a report shows the path as an answer: `.json`, or the folder of a campaign; else it is a data set.
 [[nodiscard]] bool is_answer(std::filesystem::path const& path);
 
+/// InputError for a folder, which no report takes but that of a campaign: which answer in it one does take.
+void refuse_folder(std::filesystem::path const& path);
+
 /// A file's JSON; InputError "damaged at line 2, column 1: not JSON".
 [[nodiscard]] output::Json read_json(std::filesystem::path const& file);
 

@@ -104,11 +104,14 @@ BuiltReport build_report(ReportFiles const& files) {
   BuiltReport report{ReportPage("", fmt::format("ThermoTwin {} ({})", version(), commit())), {}};
   std::vector<ShownRun> runs;
   std::vector<std::string> answers;
-  for (auto const& file : files.data)
-    if (is_answer(file))
+  for (auto const& file : files.data) {
+    if (is_answer(file)) {
       answers.push_back(add_answer(file, files.machine, report.page));
-    else
-      runs.push_back(read_shown_run(file));
+      continue;
+    }
+    refuse_folder(file);
+    runs.push_back(read_shown_run(file));
+  }
   name_distinctly(runs);
   report.page.set_title(title_of(files, runs, answers));
   if (runs.empty()) return report;

@@ -18,8 +18,6 @@
 
 namespace thermotwin::twin {
 
-inline constexpr std::string_view modes_method = "thermal_modes";
-
 /// What a method chose for a question, in columns of the world's sensors; or why it could not.
 struct Choice {
   models::Selection selection;        ///< score 0 for sensors that stand still in the training set

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
+#include <span>
 
+#include "models/error_model.h"
+#include "models/selection.h"
 #include "thermal/error.h"
 
 namespace thermotwin::twin {
@@ -17,7 +20,31 @@ std::size_t number_of(Item const& item, std::vector<Item>& known) {
   return place;
 }
 
+template <class Method>
+std::vector<std::string> of_papers(std::span<Method const> methods) {
+  std::vector<std::string> names;
+  for (auto const& method : methods)
+    if (method.source.find("methods.md") != std::string_view::npos) names.emplace_back(method.name);
+  return names;
+}
+
+bool is_in(std::string const& name, std::vector<std::string> const& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 }  // namespace
+
+std::vector<std::string> selections_of_papers() { return of_papers(models::selection_methods()); }
+
+std::vector<std::string> models_of_papers() { return of_papers(models::model_methods()); }
+
+bool NamedCombination::needs_machine() const {
+  return named_selection(selection).needs_machine() || need_machine(named_models(model));
+}
+
+bool NamedCombination::of_papers() const {
+  return is_in(named_selection(selection).name, selections_of_papers()) && is_in(model, models_of_papers());
+}
 
 NamedCombination named_combination(std::string const& text) {
   std::string const between = " + ";

@@ -13,7 +13,15 @@ struct NamedCombination {
   std::string selection, model;
 
   [[nodiscard]] std::string name() const { return combination_name(selection, model); }
+  /// Whether a world without a machine refuses it.
+  [[nodiscard]] bool needs_machine() const;
+  /// Selection and model both stand in one of the five papers.
+  [[nodiscard]] bool of_papers() const;
 };
+
+/// The methods that stand in one of the five papers.
+[[nodiscard]] std::vector<std::string> selections_of_papers();
+[[nodiscard]] std::vector<std::string> models_of_papers();
 
 /// "selection + model". InputError for anything else, and std::invalid_argument for an unknown method, as
 /// named_selection() and named_models() have them.

@@ -43,7 +43,6 @@ class StudyRunner {
   };
 
   [[nodiscard]] std::function<void(double)> progress(std::string what) const;
-  [[nodiscard]] bool has_twin() const;
   void find_modes();
   void choose_all();
   void calibrate_twins();
@@ -114,13 +113,8 @@ void StudyRunner::choose_all() {
   work_.selections = tasks.size();
 }
 
-bool StudyRunner::has_twin() const {
-  auto const& models = combinations_.models;
-  return std::any_of(models.begin(), models.end(), [](auto const& model) { return model.twin; });
-}
-
 void StudyRunner::calibrate_twins() {
-  if (!has_twin()) return;
+  if (!need_machine(combinations_.models)) return;
   std::map<std::string, std::vector<Place const*>> sharing;
   for (auto const& place : places_) {
     auto const& [world, repetition, trial] = place;

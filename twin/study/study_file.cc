@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -111,6 +112,35 @@ StudyWorld const& world_of(StudyClaim const& claim, StudyDescription const& stud
   return world == study.worlds.end() ? study.worlds.front() : *world;
 }
 
+/// A world that a claim looks at and that names no machine; null: there is none.
+StudyWorld const* world_without_machine(StudyClaim const& claim, StudyDescription const& study) {
+  for (auto const& world : study.worlds)
+    if (world.machine.empty() && (claim.world == mean_of_worlds || &world == &world_of(claim, study))) return &world;
+  return nullptr;
+}
+
+/// What is refused in each row that a claim looks at, or stands in none, can be compared with nothing.
+void check_rows(Value const& table, StudyClaim const& claim, StudyDescription const& study) {
+  auto const* bare = world_without_machine(claim, study);
+  bool papers = false;
+  for (auto const& combination : named_combinations(study)) {
+    if (!bare || !combination.needs_machine()) {
+      papers = papers || combination.of_papers();
+      continue;
+    }
+    for (auto const& [key, name] : {std::pair{"combination", claim.combination}, {"than", claim.than}})
+      if (name == combination.name())
+        throw FileError(where_of(table, key),
+                        fmt::format("'{}' needs a machine, and the world '{}' names none", name, bare->name));
+  }
+  if (claim.than == best_of_papers && !papers)
+    throw FileError(where_of(table, "than"),
+                    fmt::format("'{}' is of none: the study has no combination of a selection of the papers{} ({}) and "
+                                "a model of theirs ({})",
+                                best_of_papers, bare ? " that needs no machine" : "",
+                                fmt::join(selections_of_papers(), ", "), fmt::join(models_of_papers(), ", ")));
+}
+
 /// What a claim may be of: the columns of figures_of(), but for those that the study cannot have.
 std::vector<std::string> figures_to_claim(StudyClaim const& claim, StudyDescription const& study) {
   std::vector<std::string> parts = {"self", "cross"};
@@ -167,6 +197,7 @@ void check_claim(Value const& table, StudyClaim const& claim, std::vector<std::s
   if (!claim.world.empty() && std::find(worlds.begin(), worlds.end(), claim.world) == worlds.end())
     throw FileError(where_of(table, "world"),
                     fmt::format("no world '{}'; {}", claim.world, thermal::did_you_mean(claim.world, worlds)));
+  check_rows(table, claim, study);
   check_figure(table, claim, study);
 }
 
@@ -207,8 +238,16 @@ Value::List const& tables(Value const& document, std::string const& key) {
 
 /// The names of all combinations.
 std::vector<std::string> checked_combinations(Value const& document, StudyDescription const& study) {
-  check_items(document, "selections", study.selections, [](auto const& text) { (void)named_selection(text); });
-  check_items(document, "models", study.models, [](auto const& name) { (void)named_models(name); });
+  bool const bare =
+      std::all_of(study.worlds.begin(), study.worlds.end(), [](auto const& world) { return world.machine.empty(); });
+  auto const refuse_bare = [&](std::string const& text, bool needs_machine) {
+    if (bare && needs_machine)
+      throw thermal::InputError(fmt::format("'{}' needs a machine, and no [[world]] names one; give 'machine'", text));
+  };
+  check_items(document, "selections", study.selections,
+              [&](auto const& text) { refuse_bare(text, named_selection(text).needs_machine()); });
+  check_items(document, "models", study.models,
+              [&](auto const& text) { refuse_bare(text, need_machine(named_models(text))); });
   auto const is_in = [](std::string const& name, std::vector<std::string> const& list) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
@@ -216,6 +255,7 @@ std::vector<std::string> checked_combinations(Value const& document, StudyDescri
     auto const named = named_combination(text);
     if (is_in(named.selection, study.selections) && is_in(named.model, study.models))
       throw thermal::InputError(fmt::format("'{}' is there already, of 'selections' and 'models'", text));
+    refuse_bare(text, named.needs_machine());
   };
   if (!study.also.empty()) check_items(document, "also", study.also, check);
   std::vector<std::string> names;
@@ -224,8 +264,8 @@ std::vector<std::string> checked_combinations(Value const& document, StudyDescri
 }
 
 void check_study(Value const& document, StudyDescription const& study) {
-  auto const combinations = checked_combinations(document, study);
   if (study.worlds.empty()) throw FileError(document.where, "the study has no [[world]]");
+  auto const combinations = checked_combinations(document, study);
   std::vector<std::string> names;
   for (std::size_t w = 0; w < study.worlds.size(); ++w) {
     auto const& world = study.worlds[w];
@@ -294,6 +334,10 @@ std::vector<NamedModel> named_models(std::string const& text) {
     if (end == std::string::npos) return models;
     begin = end + between.size();
   }
+}
+
+bool need_machine(std::vector<NamedModel> const& models) {
+  return std::any_of(models.begin(), models.end(), [](auto const& model) { return model.twin; });
 }
 
 thermal::InputError about(Value const& table, std::string const& complaint, std::string const& before) {

@@ -10,11 +10,16 @@
 
 namespace thermotwin::twin {
 
+/// The method of selection that asks a machine's file for its thermal modes.
+inline constexpr std::string_view modes_method = "thermal_modes";
+
 /// "grey_relational 2": a method of selection, and how many sensors it shall choose; "sensors T1, T4": these.
 struct NamedSelection {
   std::string name;                    ///< of models::selection_methods(), "all", or "sensors"
   std::optional<int> count;            ///< none: the method's own rule
   std::vector<std::string> sensors{};  ///< for "sensors"
+
+  [[nodiscard]] bool needs_machine() const { return name == modes_method; }
 };
 
 /// InputError for an unknown method, with the nearest; for a count that is no number from 1 on; for "all" with one; for
@@ -47,6 +52,9 @@ struct NamedModel {
 /// 451). std::invalid_argument for an unknown method, with the nearest; for a model given twice.
 [[nodiscard]] std::vector<NamedModel> named_models(std::string const& text);
 
+/// Whether one of them is a twin.
+[[nodiscard]] bool need_machine(std::vector<NamedModel> const& models);
+
 /// A study file as its author wrote it.
 struct Study {
   StudyDescription description;
@@ -61,7 +69,8 @@ struct Study {
 [[nodiscard]] thermal::InputError about(StudyWorld const& world, std::string const& complaint);
 
 /// FileError with line and column: unknown keys, methods, combinations and figures of claims; no world, selection or
-/// model; names given twice; a world without anything to test on.
+/// model; names given twice; a world without anything to test on; what needs a machine where no world, or not the
+/// claim's, names one; a claim against the papers' best in a study without their methods.
 [[nodiscard]] Study read_study(std::filesystem::path const& file);
 
 /// A study file, or the name of one in scenarios/studies; InputError with the nearest name.

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -91,6 +93,11 @@ auto in_world(StudyWorld const& world, Action action) {
   }
 }
 
+/// A complaint about a run stands where the study names it.
+FileError about(StudyWorld const& world, Source const& source, std::string const& complaint) {
+  return FileError(source.named, fmt::format("world '{}': {}", world.name, complaint));
+}
+
 /// A complaint about what the world changes stands in the study's file.
 Machine machine_of(StudyWorld const& world, Value const& nominal) {
   if (world.changes.empty() && world.added.empty()) return in_world(world, [&] { return Machine::build(nominal); });
@@ -122,6 +129,50 @@ std::string unit_of_error(StudyWorld const& world, std::vector<output::Channel> 
   return thermal::dimension_of(channel->unit) == thermal::dimension::angle ? "urad" : "um";
 }
 
+/// Of a measured run nobody knows what a laser would have seen.
+void refuse_slope_of_measured(StudyWorld const& world, std::vector<Source> const& sources) {
+  if (!world.slope()) return;
+  for (auto const& source : sources)
+    if (source.measured)
+      throw about(world, source,
+                  fmt::format("'{}' was measured, and a slope is of simulated experiments only; give a displacement as "
+                              "'error' in place of '{}'",
+                              source.file.filename().string(), world.error));
+}
+
+void check_axis(Order const& order, std::optional<scenarios::LaserMeasurement> const& laser) {
+  auto const& error = order.world->error;
+  if (!order.world->slope() || (laser && laser->axis == error.substr(slope_prefix.size()))) return;
+  std::set<std::string> axes;
+  for (auto const& screw : order.machine->screws) axes.insert(screw.description.axis);
+  throw thermal::InputError(
+      fmt::format("the experiment has no laser measurement of axis '{}', which '{}' is of; {}",
+                  error.substr(slope_prefix.size()), error,
+                  axes.empty() ? "the machine has no ball_screw that one could measure"
+                               : fmt::format("its [laser] can measure, by the machine: {}", fmt::join(axes, ", "))));
+}
+
+/// `last` [s] is the time of the run's last reading.
+void check_split(StudyWorld const& world, Source const& source, double last) {
+  if (!world.split || *world.split < last) return;
+  auto const text = [](double time) { return thermal::format_quantity(time, thermal::dimension::time); };
+  throw FileError(world.table.is_table() ? where_of(world.table, "split") : Location{},
+                  fmt::format("world '{}': 'split' is {}, but {} ends at {}; a time before is due", world.name,
+                              text(*world.split), source.file.filename().string(), text(last)));
+}
+
+/// Before hours of runs.
+void check_candidates(Order const& order) {
+  auto const& world = *order.world;
+  std::vector<std::string> known;
+  for (auto const& sensor : order.sensors) known.push_back(sensor.name);
+  for (auto const& name : world.sensors)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw thermal::InputError(fmt::format("{} has no sensor '{}'; {}",
+                                            order.machine ? "the machine" : world.train.front(), name,
+                                            thermal::did_you_mean(name, known)));
+}
+
 scenarios::Experiment experiment_of(Order const& order, Source const& source) {
   auto experiment = read_experiment(read_toml(source.file), source.file);
   if (order.world->sampling) experiment.sampling = *order.world->sampling;
@@ -132,15 +183,18 @@ scenarios::Experiment experiment_of(Order const& order, Source const& source) {
 void check_experiments(Order const& order) {
   for (auto const& source : order.sources) {
     if (source.measured) continue;
+    scenarios::Experiment experiment;
     try {
-      auto const experiment = experiment_of(order, source);
+      experiment = experiment_of(order, source);
       check_laser(*order.machine, experiment);
+      check_axis(order, experiment.laser);
       scenarios::ExperimentCourse const course(experiment, order.machine->limits);
       thermal::CourseInputs const inputs(order.machine->network(), course);
     } catch (thermal::InputError const& error) {
       auto const complaint = located_in(read_toml(source.file), error);
-      throw about(*order.world, fmt::format("'{}': {}", source.file.filename().string(), complaint.what()));
+      throw about(*order.world, source, fmt::format("'{}': {}", source.file.filename().string(), complaint.what()));
     }
+    check_split(*order.world, source, experiment.duration);
   }
 }
 
@@ -163,9 +217,9 @@ void take_first_run(Order& order) {
   auto const& world = *order.world;
   for (auto const& source : order.sources)
     if (!source.measured)
-      throw FileError(world.table.is_table() ? source.named : Location{},
-                      fmt::format("world '{}': '{}' is an experiment; give the 'machine' that is put through it",
-                                  world.name, source.file.stem().string()));
+      throw about(
+          world, source,
+          fmt::format("'{}' is an experiment; give the 'machine' that is put through it", source.file.stem().string()));
   in_world(world, [&] {
     auto const data = read_measured_data(order.sources.front().file);
     for (auto const& sensor : data.readings) order.sensors.push_back({sensor.name, sensor.name});
@@ -175,10 +229,12 @@ void take_first_run(Order& order) {
 
 Order order_of(StudyWorld const& world, fs::path const& directory) {
   Order order{&world, in_world(world, [&] { return sources_of(world, directory); })};
+  refuse_slope_of_measured(world, order.sources);
   if (world.machine.empty())
     take_first_run(order);
   else
     take_machine(order, directory);
+  in_world(world, [&] { check_candidates(order); });
   return order;
 }
 
@@ -217,12 +273,13 @@ MeasuredRun read_run(Order const& order, Source const& source) {
     throw;
   } catch (thermal::InputError const& error) {
     if (source.named.line == 0) throw;
-    throw FileError(source.named, fmt::format("world '{}': {}", order.world->name, error.what()));
+    throw about(*order.world, source, error.what());
   }
 }
 
 MeasuredRun measured(Order const& order, Source const& source) {
   auto run = read_run(order, source);
+  check_split(*order.world, source, run.time[run.time.size() - 1] - run.time[first_reading(run)]);
   auto const& sampling = order.world->sampling;
   double const own = usual_interval({run.time.data(), std::size_t(run.time.size())});
   if (sampling && *sampling < own * (1.0 - 1e-6))

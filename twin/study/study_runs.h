@@ -37,9 +37,10 @@ struct WorldRuns {
 /// Why a world without a machine has no twin and no thermal modes.
 inline constexpr std::string_view no_machine = "the world names no machine";
 
-/// FileError where a world names a machine, a run or an error that is not there, an experiment that the machine cannot
-/// be put through, one without a machine, or a measured run that cannot be read on it (the shipped ones, whose data may
-/// be elsewhere, are not read); simulates nothing.
+/// FileError where a world names a machine, a run, a sensor or an error that is not there, an experiment that the
+/// machine cannot be put through, one without a machine, a slope of what no laser measured, a `split` behind the end of
+/// its run, or a measured run that cannot be read on it (the shipped ones, whose data may be elsewhere, are not read);
+/// simulates nothing.
 void check_worlds(Study const& study);
 
 /// Simulates and reads, in parallel; see study_data().

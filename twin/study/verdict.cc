@@ -4,28 +4,19 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "models/error_model.h"
-#include "models/selection.h"
 #include "thermal/nearest_name.h"
+#include "twin/study/combinations.h"
 
 namespace thermotwin::twin {
 namespace {
 
 using Rows = std::vector<Combination const*>;
 
-/// Selection and model both stand in one of the five papers.
-bool of_papers(Combination const& row) {
-  auto const selection = named_selection(row.selection).name;
-  if (selection == "all" || selection == "sensors") return false;
-  auto const models = named_models(row.model);
-  return models.size() == 1 && !models.front().twin &&
-         models::selection_method(selection).source.find("methods.md") != std::string_view::npos &&
-         models::model_method(row.model).source.find("methods.md") != std::string_view::npos;
-}
-
 Rows papers_of(Rows const& rows) {
   Rows papers;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(papers), [](auto const* row) { return of_papers(*row); });
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(papers), [](auto const* row) {
+    return NamedCombination{row->selection, row->model}.of_papers();
+  });
   return papers;
 }
 

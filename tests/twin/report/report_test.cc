@@ -296,6 +296,24 @@ TEST_F(Report, TakesNoOtherJson) {
   EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
 }
 
+TEST_F(Report, SaysWhichAnswerOfAFolderItTakes) {
+  auto const out = folder / "out";
+  std::filesystem::create_directory(out);
+  auto const refused = [&] {
+    try {
+      (void)report({out});
+    } catch (thermal::InputError const& error) {
+      return std::string(error.what());
+    }
+    return std::string("no complaint");
+  };
+  EXPECT_EQ(refused(), "'" + out.string() + "' is a folder; data sets and answers (.json) are due; `thermotwin view " +
+                           out.string() + "` shows what comes into it");
+  text("out/study.json", "{}");
+  EXPECT_EQ(refused(),
+            "'" + out.string() + "' is the folder of a study; its answer is '" + (out / "study.json").string() + "'");
+}
+
 TEST_F(Report, NeverOverwritesWhatItReads) {
   auto const path = written("run.h5");
   EXPECT_THROW((void)write_report({{path}, "", path}), thermal::InputError);

@@ -144,6 +144,122 @@ TEST(Study, OfNoMachineSimulatesAndChangesNothing) {
               HasSubstr("small.toml:13:7: 'set' changes a machine; give 'machine', too"));
 }
 
+std::string const bare_world = R"(
+[[world]]
+name = "bare"
+error = "E_Z"
+train = ["monday.csv"]
+test = ["tuesday.csv"]
+)";
+
+TEST(Study, OfNoMachineAtAllHasNoPhysics) {
+  auto const with = [](std::string const& more, std::string const& from, std::string const& to) {
+    auto text = more + head + bare_world;
+    return SmallStudy(text.replace(text.find(from), from.size(), to)).complaint();
+  };
+  EXPECT_THAT(with("", "\"ridge\"", "\"twin ridge\""),
+              HasSubstr("small.toml:5:21: 'twin ridge' needs a machine, and no [[world]] names one; give 'machine'"));
+  EXPECT_THAT(with("", "forward 2", "thermal_modes 2"),
+              HasSubstr("small.toml:4:22: 'thermal_modes 2' needs a machine, and no [[world]] names one"));
+  EXPECT_THAT(with("also = [\"all + ridge & twin\"]\n", "Small", "Small"),
+              HasSubstr("small.toml:1:9: 'all + ridge & twin' needs a machine, and no [[world]] names one"));
+}
+
+/// Beside a world that has a machine, one without refuses what needs one in each row that such a claim looks at.
+TEST(Study, RefusesClaimsOfWhatItsWorldRefuses) {
+  auto const claimed = [](std::string const& keys) {
+    return SmallStudy("also = [\"all + twin\", \"thermal_modes + linear\"]\n" + head + world + bare_world +
+                      "[[claim]]\nsays = \"x\"\n" + keys)
+        .complaint();
+  };
+  EXPECT_THAT(claimed("combination = \"all + twin\"\nthan = \"all + linear\"\nworld = \"bare\"\n"),
+              HasSubstr("small.toml:23:15: 'all + twin' needs a machine, and the world 'bare' names none"));
+  EXPECT_THAT(claimed("combination = \"all + linear\"\nthan = \"all + twin\"\nworld = \"mean of worlds\"\n"),
+              HasSubstr("small.toml:24:8: 'all + twin' needs a machine, and the world 'bare' names none"));
+  EXPECT_THAT(claimed("combination = \"all + linear\"\nthan = \"best of papers\"\nworld = \"bare\"\n"),
+              HasSubstr("small.toml:24:8: 'best of papers' is of none: the study has no combination of a selection of "
+                        "the papers that needs no machine (mutual_information, "));
+  EXPECT_THAT(claimed("combination = \"all + twin\"\nthan = \"best of papers\"\nworld = \"v450\"\n"),
+              HasSubstr("'monday.csv' is not there"));  // the claim is none's mistake
+}
+
+TEST(Study, RefusesClaimsAgainstPapersThatItDoesNotStudy) {
+  EXPECT_THAT(
+      SmallStudy(head + world + "[[claim]]\nsays = \"x\"\ncombination = \"all + ridge\"\nthan = \"best of papers\"\n")
+          .complaint(),
+      testing::AllOf(HasSubstr("small.toml:17:8: 'best of papers' is of none: the study has no combination of "
+                               "a selection of the papers (mutual_information, "),
+                     HasSubstr("grey_relational) and a model of theirs (linear, support_vector, ")));
+}
+
+/// What `check` complains of without a run, as `study` does.
+std::string complaint_before_runs(SmallStudy const& study) {
+  try {
+    check_worlds(read_study(study.file()));
+  } catch (FileError const& error) {
+    return error.what();
+  } catch (thermal::InputError const& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+/// A table of that many hours, as `export` writes it, of two sensors and an error.
+void put_record(SmallStudy const& study, std::string const& name, int hours) {
+  std::string rows = "time_s,T1_degC,T8_degC,E_Z_um\n";
+  for (int row = 0; row <= 6 * hours; ++row)
+    rows += fmt::format("{},{},{},{}\n", 600 * row, 20 + 0.02 * row, 20 + 0.01 * row, 0.1 * row);
+  tests::put(study.experiment_path(name), rows);
+}
+
+TEST(Study, KnowsItsSensorsBeforeItRuns) {
+  auto text = head + world;
+  text.replace(text.find("\"T9\""), 4, "\"T19\"");
+  EXPECT_THAT(complaint_before_runs(SmallStudy(text)),
+              HasSubstr("small.toml:11:24: world 'v450': the machine has no sensor 'T19'; did you mean"));
+  SmallStudy const measured(head + bare_world + "sensors = [\"T1\", \"T9\"]\n");
+  for (auto const* name : {"monday.csv", "tuesday.csv"}) put_record(measured, name, 3);
+  EXPECT_THAT(complaint_before_runs(measured),
+              HasSubstr("small.toml:12:18: world 'bare': monday.csv has no sensor 'T9'; did you mean"));
+}
+
+TEST(Study, KnowsBeforeItRunsThatNoLaserMeasuredASlope) {
+  auto const slope = [](std::string text, std::string const& axis) {
+    return text.replace(text.find("\"E_Z\""), 5, "\"slope " + axis + "\"");
+  };
+  EXPECT_THAT(complaint_before_runs(SmallStudy(slope(head + world, "z"))),
+              HasSubstr("small.toml:12:10: world 'v450': 'fast.toml': the experiment has no laser measurement of axis "
+                        "'z', which 'slope z' is of; the machine has no ball_screw that one could measure"));
+  std::string feed =
+      "\n[[world]]\nname = \"axis\"\nmachine = \"vmc850\"\nerror = \"E_Z\"\n"
+      "train = [\"feed_8000\"]\ntest = [\"feed_12000\"]\n";
+  EXPECT_THAT(complaint_before_runs(SmallStudy(slope(head + feed, "x"))),
+              HasSubstr("small.toml:11:10: world 'axis': 'feed_8000.toml': the experiment has no laser measurement of "
+                        "axis 'x', which 'slope x' is of; its [laser] can measure, by the machine: z"));
+  EXPECT_EQ(complaint_before_runs(SmallStudy(slope(head + feed, "z"))), "no complaint");
+  SmallStudy const measured(slope(head + bare_world, "z"));
+  for (auto const* name : {"monday.csv", "tuesday.csv"}) put_record(measured, name, 3);
+  EXPECT_THAT(complaint_before_runs(measured),
+              HasSubstr("small.toml:10:10: world 'bare': 'monday.csv' was measured, and a slope is of simulated "
+                        "experiments only; give a displacement as 'error' in place of 'slope z'"));
+}
+
+TEST(Study, KnowsBeforeItRunsThatASplitIsBehindTheEnd) {
+  auto const split = [](std::string text, std::string const& test) {
+    return text.replace(text.find("test = " + test), 7 + test.size(), "split = \"30 h\"");
+  };
+  EXPECT_THAT(
+      complaint_before_runs(SmallStudy(split(head + world, "[\"slow.toml\"]"))),
+      HasSubstr("small.toml:13:9: world 'v450': 'split' is 30 h, but fast.toml ends at 90 min; a time before is "
+                "due"));
+  SmallStudy const measured(split(head + bare_world, "[\"tuesday.csv\"]"));
+  put_record(measured, "monday.csv", 12);
+  EXPECT_THAT(complaint_before_runs(measured),
+              HasSubstr("small.toml:11:9: world 'bare': 'split' is 30 h, but monday.csv ends at 12 h"));
+  put_record(measured, "monday.csv", 48);
+  EXPECT_EQ(complaint_before_runs(measured), "no complaint");
+}
+
 TEST(Study, SaysOnceWhereAChangeIsWrong) {
   auto const complaint = SmallStudy(head + world + "set = [\"bearing.front.torque=2\"]\n").complaint();
   EXPECT_THAT(complaint, HasSubstr("small.toml:7:1: world 'v450': parameter bearing.front.torque: unknown key"));
