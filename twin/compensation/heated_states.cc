@@ -7,12 +7,11 @@
 #include <limits>
 #include <string_view>
 
-#include "models/log_determinant.h"
 #include "scenarios/course.h"
 #include "thermal/error.h"
 #include "thermal/physical_constant.h"
 #include "twin/challenge/challenge_runs.h"
-#include "twin/diagnosis/unknown.h"
+#include "twin/diagnosis/likelihood_of_rest.h"
 #include "twin/parallel.h"
 #include "twin/room_air.h"
 #include "twin/run.h"
@@ -34,8 +33,7 @@ constexpr double widening = 1.5;
 constexpr double least_weight = 1e-4;  // of the largest
 // What the sensors are tried to show of heat from elsewhere, rms, from and to, in steps of [K]
 constexpr double least_elsewhere = 0.5, most_elsewhere = 40.0, elsewhere_step = 1.4142;
-constexpr double how_wrong = 10.0;     // a sensor may be [K]
-constexpr double evident_gain = 11.0;  // of 2 ln likelihood
+constexpr double how_wrong = 10.0;  // a sensor may be [K]
 
 /// Not counters, clocks and temperatures.
 bool heats(std::string_view channel) {
@@ -92,9 +90,8 @@ struct Differences {
 
   /// `wrong`: the sensor that tells nothing; −1: none.
   [[nodiscard]] MatrixXd covariance(double elsewhere, Index wrong) const {
-    MatrixXd cov = own * own.transpose() + elsewhere * elsewhere * other * other.transpose();
-    cov.diagonal().array() += offset_deviation * offset_deviation;
-    cov.array() += start_deviation * start_deviation;
+    MatrixXd cov = covariance_of_rest(missed.size()) + own * own.transpose();
+    cov += elsewhere * elsewhere * other * other.transpose();
     if (wrong >= 0) cov(wrong, wrong) += how_wrong * how_wrong;
     return cov;
   }
@@ -111,10 +108,8 @@ Explanation likeliest(Differences const& differences, Index wrong) {
   double const per_root = differences.other.norm() / std::sqrt(double(differences.missed.size()));
   Explanation best;
   for (double rms = least_elsewhere; rms < most_elsewhere; rms *= elsewhere_step) {
-    Eigen::LLT<MatrixXd> const factor(differences.covariance(rms / per_root, wrong));
-    double const likelihood =
-        -differences.missed.dot(factor.solve(differences.missed)) - models::log_determinant(factor);
-    if (likelihood > best.likelihood) best = {rms / per_root, wrong, likelihood};
+    double const root = rms / per_root, found = likelihood(differences.covariance(root, wrong), differences.missed);
+    if (found > best.likelihood) best = {root, wrong, found};
   }
   return best;
 }
@@ -167,7 +162,8 @@ VectorXd HeatedStates::weights(RunBegin const& begin) const {
 }
 
 HeatedStates::Own HeatedStates::own(RunBegin const& begin) const {
-  if (double(rise_.cols()) < fewest_alike) return {VectorXd::Zero(begin.first.weights.cols()), {}};
+  Index const nodes = begin.first.weights.cols();
+  if (double(rise_.cols()) < fewest_alike) return {VectorXd::Zero(nodes), MatrixXd(nodes, 0)};
   VectorXd const weights = this->weights(begin);
   std::vector<Index> alike;
   for (Index s = 0; s < weights.size(); ++s)
@@ -180,14 +176,15 @@ HeatedStates::Likely HeatedStates::likely(RunBegin const& begin, WarmStart const
   auto const& [sensors, seen, rise] = begin.first;
   auto const own = this->own(begin);
   Differences const differences{seen * own.root, seen * otherwise.fields, rise - seen * own.mean};
-  auto const [elsewhere, wrong, likelihood] = likeliest(differences);
+  auto const best = likeliest(differences);
   MatrixXd root(own.mean.size(), own.root.cols() + otherwise.fields.cols());
-  root << own.root, elsewhere * otherwise.fields;
+  root.leftCols(own.root.cols()) = own.root;
+  root.rightCols(otherwise.fields.cols()) = best.elsewhere * otherwise.fields;
   MatrixXd const told = root * (seen * root).transpose();
-  Eigen::LLT<MatrixXd> const factor(differences.covariance(elsewhere, wrong));
+  Eigen::LLT<MatrixXd> const factor(differences.covariance(best.elsewhere, best.wrong));
   return {own.mean + told * factor.solve(differences.missed),
           root * root.transpose() - told * factor.solve(told.transpose()),
-          wrong < 0 ? std::string() : sensors[std::size_t(wrong)]};
+          best.wrong < 0 ? std::string() : sensors[std::size_t(best.wrong)]};
 }
 
 }  // namespace thermotwin::twin

@@ -7,14 +7,13 @@
 #include <fmt/ranges.h>
 #include <unordered_map>
 
-#include "models/log_determinant.h"
 #include "thermal/error.h"
 #include "thermal/evaluation.h"
 #include "thermal/integrate.h"
 #include "twin/diagnosis/channel_reading.h"
+#include "twin/diagnosis/likelihood_of_rest.h"
 #include "twin/diagnosis/measured_run.h"
 #include "twin/diagnosis/standing_input.h"
-#include "twin/diagnosis/unknown.h"
 #include "twin/run.h"
 
 namespace thermotwin::twin {
@@ -24,10 +23,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double evident_gain = 11.0;  // of 2 ln likelihood
-constexpr Index fewest_sensors = 4;    // one of them left out
-constexpr Index most_nodes = 500;      // K is decomposed whole
-constexpr double least_field = 0.05;   // [K]
+constexpr Index fewest_sensors = 4;   // one of them left out
+constexpr Index most_nodes = 500;     // K is decomposed whole
+constexpr double least_field = 0.05;  // [K]
 constexpr std::size_t most_named = 3;
 constexpr double loosest = 1e-6;  // λ of K, of its largest: nothing is tied less to the rest
 // What first readings are tried to differ by in the mean, from and to, in steps of [K]
@@ -125,19 +123,6 @@ MatrixXd root_of_inverse(MatrixXd const& K, std::vector<char> const& signals) {
   MatrixXd F = MatrixXd::Zero(K.rows(), Index(bodies.size()));
   F(bodies, Eigen::all) = modes.eigenvectors() * scale.asDiagonal();
   return F;
-}
-
-/// cov(d) of a machine at rest.
-MatrixXd covariance_of_rest(Index sensors) {
-  MatrixXd cov = offset_deviation * offset_deviation * MatrixXd::Identity(sensors, sensors);
-  cov.array() += start_deviation * start_deviation;
-  return cov;
-}
-
-/// 2 ln of N(d; 0, cov(d)), without what does not depend on it.
-double likelihood(MatrixXd const& cov, VectorXd const& rise) {
-  Eigen::LLT<MatrixXd> const factor(cov);
-  return -rise.dot(factor.solve(rise)) - models::log_determinant(factor);
 }
 
 /// What nothing gains more than, for each field widens cov(d): dᵀ cov(d)⁻¹ d.

@@ -7,6 +7,8 @@
 #include "scenarios/course.h"
 #include "thermal/physical_constant.h"
 #include "twin/experiment_file.h"
+#include "twin/file/document.h"
+#include "twin/file/text_file.h"
 #include "twin/room_air.h"
 #include "twin/run.h"
 
@@ -150,6 +152,20 @@ TEST_F(HeatedStatesTest, GiveWayToHeatFromElsewhere) {
     ASSERT_NE(node, names.end()) << body;
     EXPECT_NEAR(likely.rise[node - names.begin()], 8.0, 4.0) << body;
   }
+}
+
+/// It has a switch of its own, so that no history can be run: what anything may have warmed counts alone.
+TEST_F(HeatedStatesTest, AreNoneOfAMachineThatNoExperimentDrives) {
+  auto const text = text_of_file(machine_file("v450")) +
+                    "[[heat]]\nname = \"pump\"\nat = \"bed\"\npower = \"60 W\"\nwhile_on = \"pump.on\"\n";
+  HeatedStates const none(Machine::build(parse_toml(text, "pumped.toml")));
+  auto const begin = instants("golden_b_6000")[6].begin;
+  auto const anything = warm_start(machine_, begin);
+  ASSERT_TRUE(anything);
+  Eigen::VectorXd const expected = anything->fields * anything->likely;
+  EXPECT_GT(expected.cwiseAbs().maxCoeff(), 10.0);
+  EXPECT_LT((none.likely(begin, *anything).rise - expected).cwiseAbs().maxCoeff(),
+            0.1 * expected.cwiseAbs().maxCoeff());
 }
 
 }  // namespace
