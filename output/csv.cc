@@ -1,8 +1,10 @@
 #include "output/csv.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 
@@ -100,14 +102,14 @@ Eigen::VectorXd as_vector(std::vector<double> const& values) {
   return Eigen::Map<Eigen::VectorXd const>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-/// A table that does not call its time as that of a run is somebody else's.
-scenarios::CsvTable read_run(std::filesystem::path const& path, std::vector<std::string> const& columns) {
+/// A table without the time of a run is somebody else's.
+scenarios::CsvTable read_run(std::filesystem::path const& path, std::vector<std::string> const& columns,
+                             bool has_time) {
   try {
     return scenarios::read_csv(path, columns, scenarios::MissingValue::keep_as_nan);
   } catch (InputError const& error) {
-    std::string const complaint = error.what();
-    if (complaint.find("no column 'time_s'") == std::string::npos) throw;
-    throw InputError(complaint +
+    if (has_time) throw;
+    throw InputError(std::string(error.what()) +
                      "; of a table that `thermotwin export` did not write, a measurement file (.toml) says what the "
                      "columns are: `thermotwin describe measurement`");
   }
@@ -167,10 +169,11 @@ std::vector<std::string> left_out_of_csv(Dataset const& dataset) {
 }
 
 Dataset import_csv(std::filesystem::path const& path) {
+  auto const header = scenarios::csv_header(path);
   std::vector<std::string> columns = {"time_s"};
-  for (auto const& column : scenarios::csv_header(path))
-    if (column != "time_s") columns.push_back(column);
-  auto const table = read_run(path, columns);
+  std::copy_if(header.begin(), header.end(), std::back_inserter(columns),
+               [](auto const& column) { return column != "time_s"; });
+  auto const table = read_run(path, columns, std::find(header.begin(), header.end(), "time_s") != header.end());
   check_time(table);
 
   Dataset dataset;

@@ -37,9 +37,8 @@ constexpr double how_wrong = 10.0;  // a sensor may be [K]
 
 /// Not counters, clocks and temperatures.
 bool heats(std::string_view channel) {
-  std::array<std::string_view, 5> constexpr what{"speed", "feed", "duty", "running", "on"};
-  return std::any_of(what.begin(), what.end(),
-                     [&](auto const& end) { return channel.substr(channel.rfind('.') + 1).ends_with(end); });
+  std::array<std::string_view, 6> constexpr what{"speed", "moving_speed", "feed", "duty", "running", "on"};
+  return std::find(what.begin(), what.end(), channel.substr(channel.rfind('.') + 1)) != what.end();
 }
 
 std::vector<std::size_t> heating_channels(thermal::Network const& network) {
@@ -132,6 +131,8 @@ HeatedStates::HeatedStates(Machine const& machine) : heating_(heating_channels(m
   try {
     in_parallel(parts.size(), [&](std::size_t e) { parts[e] = states_of(machine, heating_, experiments[e]); });
   } catch (thermal::InputError const&) {
+    return;
+  } catch (thermal::IntegrationError const&) {
     return;
   }
   Index count = 0;

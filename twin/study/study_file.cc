@@ -238,8 +238,9 @@ Value::List const& tables(Value const& document, std::string const& key) {
 
 /// The names of all combinations.
 std::vector<std::string> checked_combinations(Value const& document, StudyDescription const& study) {
-  bool const bare =
-      std::all_of(study.worlds.begin(), study.worlds.end(), [](auto const& world) { return world.machine.empty(); });
+  auto const& worlds = study.worlds;
+  bool const bare = !worlds.empty() &&
+                    std::all_of(worlds.begin(), worlds.end(), [](auto const& world) { return world.machine.empty(); });
   auto const refuse_bare = [&](std::string const& text, bool needs_machine) {
     if (bare && needs_machine)
       throw thermal::InputError(fmt::format("'{}' needs a machine, and no [[world]] names one; give 'machine'", text));
@@ -264,8 +265,8 @@ std::vector<std::string> checked_combinations(Value const& document, StudyDescri
 }
 
 void check_study(Value const& document, StudyDescription const& study) {
-  if (study.worlds.empty()) throw FileError(document.where, "the study has no [[world]]");
   auto const combinations = checked_combinations(document, study);
+  if (study.worlds.empty()) throw FileError(document.where, "the study has no [[world]]");
   std::vector<std::string> names;
   for (std::size_t w = 0; w < study.worlds.size(); ++w) {
     auto const& world = study.worlds[w];
